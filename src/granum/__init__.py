@@ -1,0 +1,36 @@
+"""Granum: fluid–solid unit operations from lab data to process line.
+
+``granum.particles``, ``granum.filtration`` … load when first used; ``granum.read`` opens a case file.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any
+
+__version__ = "0.1.0"
+
+# Double precision everywhere; before JAX is imported an environment variable suffices and costs nothing.
+if "jax" in sys.modules:
+    sys.modules["jax"].config.update("jax_enable_x64", True)
+else:
+    os.environ["JAX_ENABLE_X64"] = "1"
+
+_SUBPACKAGES = ("core", "numerics", "estimation", "materials", "particles", "porous", "humid_gas", "streams", "comminution",
+                "settling", "cyclones", "fluidization", "filtration", "centrifuges", "crystallization", "drying",
+                "flowsheet", "studies", "reports", "cases", "app")  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    if name in _SUBPACKAGES:
+        return import_module(f"granum.{name}")
+    if name == "read":
+        return import_module("granum.cases").read
+    raise AttributeError(f"granum has no '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted((*_SUBPACKAGES, "read", "__version__"))

@@ -1,0 +1,129 @@
+"""Cards: the public face of a formula, a lab test, a law or a piece of equipment, as data."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from granum.core.glossary import quantity_in, term
+from granum.core.i18n import _
+from granum.core.parameters import Parameter
+
+Ranges = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Card:
+    """What every front door knows about a declared thing.
+
+    Parameters
+    ----------
+    key: ``domain.name``, as typed on the command line.
+    sort: ``formula``, ``law``, ``lab test`` or ``equipment``.
+    parameters, outputs: what goes in and what comes out.
+    source: key in ``references`` with equation, table or page.
+    equation: LaTeX.
+    family: what it can be passed as, for laws (``drag_coefficient``).
+    """
+
+    key: str
+    sort: str
+    parameters: tuple[Parameter, ...]
+    outputs: tuple[Parameter, ...]
+    source: str
+    equation: str
+    fitted: Ranges
+    family: str
+    given_title: str
+    doc: str
+    module: str
+
+    @property
+    def domain(self) -> str:
+        """First part of the key."""
+        return self.key.split(".", 1)[0]
+
+    @property
+    def name(self) -> str:
+        """Second part of the key."""
+        return self.key.split(".", 1)[1]
+
+    @property
+    def title(self) -> str:
+        """Title in the current language: as declared, else the glossary label with the author of the correlation."""
+        if self.given_title:
+            return _(self.given_title)
+        word = quantity_in(self.name)
+        if word is None:
+            return self.name.replace("_", " ").capitalize()
+        label = term(word).label
+        author = self.name[len(word) :].strip("_")
+        label = label[0].upper() + label[1:]
+        return f"{label} ({'–'.join(part.capitalize() for part in author.split('_'))})" if author else label
+
+    @property
+    def summary(self) -> str:
+        """First sentence of the docstring, in the current language."""
+        return _(self.english_summary)
+
+    @property
+    def english_summary(self) -> str:
+        """First paragraph of the docstring."""
+        return " ".join(self.doc.split("\n\n", 1)[0].split())
+
+    @property
+    def citation(self) -> str:
+        """The source spelled out."""
+        from granum.core.sources import cite
+
+        return cite(self.source)
+
+    def parameter(self, name: str) -> Parameter:
+        """One input or output by name."""
+        return next(p for p in (*self.parameters, *self.outputs) if p.name == name)
+
+    def as_json(self) -> dict[str, Any]:
+        """The card as plain data in the current language."""
+        return {
+            "card": self.key,
+            "sort": self.sort,
+            "domain": self.domain,
+            "title": self.title,
+            "summary": self.summary,
+            "parameters": [p.as_json() for p in self.parameters],
+            "outputs": [p.as_json() for p in self.outputs],
+            "equation": self.equation,
+            "source": self.source,
+            "citation": self.citation,
+            "fitted": {k: [float(a), float(b)] for k, (a, b) in self.fitted.items()},
+            "family": self.family,
+            "doc": self.doc,
+        }
+
+
+def domain_of(module: str) -> str:
+    """The domain of a module: ``granum.particles.formulas.drag`` → ``particles``."""
+    parts = module.split(".")
+    return parts[1] if parts[0] == "granum" and len(parts) > 1 else "user"
+
+
+def make_card(
+    thing: Callable[..., Any], name: str, sort: str, *, parameters: tuple[Parameter, ...], outputs: tuple[Parameter, ...],
+    source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "",
+) -> Card:  # fmt: skip
+    """The card of a declared function or class."""
+    return Card(
+        key=f"{domain_of(thing.__module__)}.{name}",
+        sort=sort,
+        parameters=parameters,
+        outputs=outputs,
+        source=source,
+        equation=equation,
+        fitted=fitted or {},
+        family=family,
+        given_title=title,
+        doc=inspect.cleandoc(thing.__doc__ or ""),
+        module=thing.__module__,
+    )

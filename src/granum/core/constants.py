@@ -1,0 +1,10 @@
+"""Physical constants (CODATA 2018 exact values; standard gravity and atmosphere by definition)."""
+
+STANDARD_GRAVITY = 9.80665  # m/s², CGPM 1901
+GAS_CONSTANT = 8.31446261815324  # J/(mol K)
+BOLTZMANN = 1.380649e-23  # J/K
+AVOGADRO = 6.02214076e23  # 1/mol
+STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m² K⁴)
+STANDARD_ATMOSPHERE = 101325.0  # Pa
+ZERO_CELSIUS = 273.15  # K
+DARCY = 9.869232667160130e-13  # m²: 1 cP · 1 cm/s per atm/cm = 1e-7/101325 m²

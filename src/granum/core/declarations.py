@@ -1,0 +1,87 @@
+"""``@law``, ``@equipment`` and ``@lab_test``: cards for frozen modules (Equinox classes), whose fields are the parameters."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, get_type_hints
+
+from granum.core.cards import Card, Ranges, make_card
+from granum.core.parameters import REQUIRED, Binder, Parameter, outputs_of, parameter_of
+from granum.core.registry import register
+
+
+class _LazyCard:
+    """Builds the card of a class when it is first asked for."""
+
+    def __init__(self, build: Callable[[], Card]):
+        self._build = build
+        self._card: Card | None = None
+
+    def __get__(self, instance: Any, owner: type | None = None) -> Card:
+        if self._card is None:
+            self._card = self._build()
+        return self._card
+
+
+def field_parameters(cls: type, fitted: Ranges, typical: Ranges) -> tuple[Parameter, ...]:
+    """The fields of a frozen module as parameters, in order."""
+    hints = get_type_hints(cls, include_extras=True)
+    found = []
+    for item in dataclasses.fields(cls):
+        if not item.init:
+            continue
+        default = item.default if item.default is not dataclasses.MISSING else REQUIRED
+        if item.default_factory is not dataclasses.MISSING:
+            default = item.default_factory()
+        found.append(parameter_of(item.name, hints[item.name], default, fitted=fitted.get(item.name), typical=typical.get(item.name)))
+    return tuple(found)
+
+
+def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted: Ranges, typical: Ranges, family: str,
+             title: str, results: Callable[..., Any] | None) -> type:  # fmt: skip
+    def build() -> Card:
+        outputs: tuple[Parameter, ...] = ()
+        if results is not None:
+            returned = get_type_hints(results, include_extras=True).get("return")
+            if isinstance(returned, type) and hasattr(returned, "_fields"):
+                outputs = outputs_of(returned, name, fitted)
+            elif sort == "law":
+                outputs = outputs_of(returned, family, fitted)
+        return make_card(cls, name, sort, parameters=field_parameters(cls, fitted, typical), outputs=outputs,
+                         source=source, equation=equation, fitted=fitted, family=family, title=title)  # fmt: skip
+
+    original = cls.__init__
+    binder: list[Binder] = []
+
+    def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
+        if not binder:
+            binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
+        original(self, **binder[0].bind(args, kwargs))
+
+    __init__.__doc__ = original.__doc__
+    type.__setattr__(cls, "card", _LazyCard(build))
+    type.__setattr__(cls, "__init__", __init__)
+    register(cls)
+    return cls
+
+
+def law(family: str, *, source: str, name: str, equation: str = "", fitted: Ranges | None = None,
+        typical: Ranges | None = None, title: str = "") -> Callable[[type], type]:  # fmt: skip
+    """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the law.
+
+    ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share the family.
+    """
+    return lambda cls: _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
+
+
+def equipment(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
+              typical: Ranges | None = None) -> Callable[[type], type]:  # fmt: skip
+    """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``results`` its outputs."""
+    return lambda cls: _declare(cls, name, "equipment", source, equation, fitted or {}, typical or {}, "", title, cls.results)
+
+
+def lab_test(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
+             typical: Ranges | None = None) -> Callable[[type], type]:  # fmt: skip
+    """Declare a lab test: ``Series`` fields are the columns of the data file, the others its conditions; ``fit`` its outcome."""
+    return lambda cls: _declare(cls, name, "lab test", source, equation, fitted or {}, typical or {}, "", title, None)

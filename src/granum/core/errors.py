@@ -1,0 +1,73 @@
+"""The error tree. Every message says what, the value, what is allowed, where, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from granum.core.i18n import _
+
+
+class GranumError(Exception):
+    """Base of every error that Granum raises on purpose."""
+
+    exit_code = 2
+
+    def __init__(self, message: str, **details: object):
+        super().__init__(message)
+        self.message = message
+        self.details = {key: value for key, value in details.items() if value is not None}
+
+    def as_json(self) -> dict[str, object]:
+        """The shape printed under ``error`` by every ``--json`` command and by the web API."""
+        return {"type": type(self).__name__, "message": self.message, **self.details}
+
+
+class InputError(GranumError):
+    """A value, name or combination of values that cannot be used."""
+
+
+class UnitError(InputError):
+    """A unit that is unknown or of the wrong dimension."""
+
+
+class ApplicabilityError(GranumError):
+    """A model asked to do what it was not made for."""
+
+
+class CaseError(InputError):
+    """A case file that cannot be read, or a line that is not fully specified."""
+
+
+class ConvergenceError(GranumError):
+    """An iteration that did not converge; ``last`` keeps the last iterate."""
+
+    exit_code = 3
+
+    def __init__(self, message: str, last: object = None, **details: object):
+        super().__init__(message, **details)
+        self.last = last
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known name closest to a misspelt one, if any is close.
+
+    >>> nearest("particle_diametre", ["particle_density", "particle_diameter"])
+    'particle_diameter'
+    """
+    found = get_close_matches(word, list(known), n=1, cutoff=0.55)
+    return found[0] if found else None
+
+
+def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") -> InputError:
+    """The one error for a name that does not exist: it lists or suggests those that do."""
+    known = sorted(known)
+    close = nearest(name, known)
+    place = f" {where}" if where else ""
+    message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
+    if close:
+        message += " " + _("Did you mean '{close}'?").format(close=close)
+    elif known:
+        shown = ", ".join(known[:12]) + (" …" if len(known) > 12 else "")
+        message += " " + _("Known names: {names}.").format(names=shown)
+    return InputError(message, name=name, did_you_mean=close)

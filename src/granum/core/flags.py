@@ -1,0 +1,178 @@
+"""Flags: what happened inside an array computation that a reader must know, as bits and as records.
+
+While a collector is open, every formula that runs, however deep, records where it left its fitted range. A record made
+inside an inner transformation (a loop body, an inner ``vmap``) is dropped: the caller records the final value again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Any
+
+import jax
+import jax.extend
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.i18n import _
+
+EXTRAPOLATED, OUTSIDE_DOMAIN, NOT_FINITE, NOT_CONVERGED, LIMIT_ACTIVE = 1, 2, 4, 8, 16
+WORDS = {
+    EXTRAPOLATED: "extrapolated",
+    OUTSIDE_DOMAIN: "outside domain",
+    NOT_FINITE: "not finite",
+    NOT_CONVERGED: "not converged",
+    LIMIT_ACTIVE: "limit active",
+}
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class Record:
+    """One check: where ``mask`` is true, ``value`` is outside ``[low, high]``. Travels through jit."""
+
+    mask: Any
+    value: Any
+    bit: int = field(metadata={"static": True})
+    name: str = field(metadata={"static": True})
+    card: str = field(metadata={"static": True})
+    low: float = field(metadata={"static": True})
+    high: float = field(metadata={"static": True})
+    source: str = field(metadata={"static": True})
+
+
+class _Collector:
+    def __init__(self) -> None:
+        self.records: list[Record] = []
+        self.level = jax.extend.core.get_opaque_trace_state()
+
+    def accepts(self) -> bool:
+        return jax.extend.core.get_opaque_trace_state() == self.level
+
+
+_active: ContextVar[_Collector | None] = ContextVar("granum_flags", default=None)
+_current: ContextVar[Any] = ContextVar("granum_formula", default=None)
+
+
+@contextmanager
+def collect() -> Iterator[list[Record]]:
+    """Open a collector; the list fills with records while formulas run at this trace level."""
+    collector = _Collector()
+    token = _active.set(collector)
+    try:
+        yield collector.records
+    finally:
+        _active.reset(token)
+
+
+@contextmanager
+def inside(formula: Any) -> Iterator[None]:
+    """Marks which formula is running, so that ``watch`` knows whose ranges apply."""
+    token = _current.set(formula)
+    try:
+        yield
+    finally:
+        _current.reset(token)
+
+
+def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "") -> None:
+    """Add a record if a collector listens at this trace level."""
+    collector = _active.get()
+    if collector is not None and collector.accepts():
+        collector.records.append(Record(jnp.asarray(mask), jnp.asarray(value), bit, name, card, low, high, source))
+
+
+def watch(**values: Any) -> None:
+    """Inside a formula body: check a derived number against the range the card declares for that name.
+
+    ``@formula(fitted={"reynolds": (1e-4, 2e5)})`` with ``watch(reynolds=Re)`` in the body flags the extrapolation.
+    """
+    formula = _current.get()
+    if formula is None or _active.get() is None:
+        return
+    for name, value in values.items():
+        low, high = formula.fitted[name]
+        record(EXTRAPOLATED, (value < low) | (value > high), value, name, formula.key, low, high, formula.source)
+
+
+def unconverged(converged: Any, name: str = "iteration") -> None:
+    """Inside a formula body: record the elements whose inner iteration did not converge."""
+    formula = _current.get()
+    if formula is not None:
+        record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
+
+
+def limit_active(mask: Any, value: Any, name: str) -> None:
+    """Inside a formula body: record where a physical limit cut the result."""
+    formula = _current.get()
+    if formula is not None:
+        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source)
+
+
+def bits(records: list[Record], shape: tuple[int, ...]) -> np.ndarray:
+    """All records as one int32 flag array of the result's shape."""
+    flags = np.zeros(shape, dtype=np.int32)
+    for found in records:
+        mask = np.asarray(found.mask)
+        try:
+            flags |= np.where(np.broadcast_to(mask, shape), np.int32(found.bit), np.int32(0))
+        except ValueError:  # a check over another axis than the result's: it concerns the result as a whole
+            flags |= np.int32(found.bit) if mask.any() else np.int32(0)
+    return flags
+
+
+def describe(records: list[Record]) -> list[dict[str, Any]]:
+    """The raised flags as plain data with one sentence each, equal ones merged."""
+    rows: dict[tuple[Any, ...], dict[str, Any]] = {}
+    for found in records:
+        mask = np.asarray(found.mask)
+        if not mask.any():
+            continue
+        values = np.broadcast_to(np.asarray(found.value, dtype=float), mask.shape)[mask]
+        finite = values[np.isfinite(values)]
+        key = (found.bit, found.name, found.card, found.low, found.high)
+        beyond = np.maximum(found.low - finite, finite - found.high) if finite.size else finite
+        worst = float(finite[int(np.argmax(beyond))]) if finite.size else float("nan")
+        row = rows.setdefault(
+            key,
+            {
+                "flag": WORDS[found.bit],
+                "name": found.name,
+                "card": found.card,
+                "count": 0,
+                "worst": None,
+                "low": None if found.low == -np.inf else found.low,
+                "high": None if found.high == np.inf else found.high,
+                "source": found.source,
+            },
+        )
+        row["count"] += int(mask.sum())
+        row["worst"] = worst if np.isfinite(worst) else None
+        row["message"] = sentence(row)
+    return list(rows.values())
+
+
+def sentence(row: dict[str, Any]) -> str:
+    """One readable line for a flag."""
+    from granum.core.glossary import quantity_in, term
+    from granum.core.units import format_number
+
+    word = quantity_in(row["name"])
+    name = term(word).label if word else row["name"]
+    value = "" if row["worst"] is None else f" = {format_number(row['worst'])}"
+    span = ""
+    if row["low"] is not None or row["high"] is not None:
+        low = "−∞" if row["low"] is None else format_number(row["low"])
+        high = "∞" if row["high"] is None else format_number(row["high"])
+        span = f" [{low} … {high}]"
+    templates = {
+        "extrapolated": _("{name}{value} is outside the range the source covers{span} in {card}: extrapolated."),
+        "outside domain": _("{name}{value} is outside what is possible{span} in {card}: no value."),
+        "not finite": _("{name} is not a finite number in {card}."),
+        "not converged": _("{name} did not converge in {card}."),
+        "limit active": _("{name}{value}: a limit of {card} is active."),
+    }
+    return templates[row["flag"]].format(name=name, value=value, span=span, card=row["card"])

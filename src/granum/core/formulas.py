@@ -1,0 +1,243 @@
+"""``@formula``: turns a pure ``jax.numpy`` function into a card that converts units, checks bounds and raises flags."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, get_type_hints
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import flags
+from granum.core.cards import Card, Ranges, make_card
+from granum.core.errors import InputError
+from granum.core.glossary import quantity_in
+from granum.core.i18n import _
+from granum.core.parameters import Binder, Parameter, convert, is_tracer, outputs_of, parameters_of
+from granum.core.registry import register
+from granum.core.results import Result
+
+_steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
+
+
+@contextmanager
+def record_steps() -> Iterator[list[Result]]:
+    """Keep every formula evaluated on concrete values inside the block: the raw material of a calculation note."""
+    steps: list[Result] = []
+    token = _steps.set(steps)
+    try:
+        yield steps
+    finally:
+        _steps.reset(token)
+
+
+def _floats(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return type(value)(*map(_floats, value)) if hasattr(value, "_fields") else tuple(map(_floats, value))
+    return value.item() if getattr(value, "ndim", 1) == 0 and jnp.issubdtype(value.dtype, jnp.floating) else value
+
+
+class Formula:
+    """A declared formula. Call it for the bare value, ``evaluate`` it for value, flags and card.
+
+    Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise;
+    elements of arrays outside them give NaN.
+    """
+
+    def __init__(self, function: Callable[..., Any], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
+                 title: str, output: str, family: str, key: str = ""):  # fmt: skip
+        self.function = function
+        self.fitted = fitted
+        self.source = source
+        self._declared = {"equation": equation, "title": title, "family": family}
+        self._typical, self._output = typical, output
+        self._compiled: dict[Any, Callable[..., Any]] = {}
+        functools.update_wrapper(self, function)
+        register(self)
+
+    @functools.cached_property
+    def card(self) -> Card:
+        """The declaration as data, built on first use."""
+        name = self.function.__name__
+        output = self._output or quantity_in(name) or name
+        hints = get_type_hints(self.function, include_extras=True)
+        family = self._declared["family"] or output
+        return make_card(
+            self.function, name, "formula",
+            parameters=parameters_of(self.function, self.fitted, self._typical),
+            outputs=outputs_of(hints.get("return"), output, self.fitted),
+            source=self.source, equation=self._declared["equation"], fitted=self.fitted,
+            family=family, title=self._declared["title"],
+        )  # fmt: skip
+
+    @functools.cached_property
+    def key(self) -> str:
+        """``domain.name``."""
+        return self.card.key
+
+    @functools.cached_property
+    def _binder(self) -> Binder:
+        return Binder.of(self.card.key, self.card.parameters)
+
+    @functools.cached_property
+    def _static(self) -> tuple[bool, ...]:
+        return tuple(p.kind is None or p.sort is int for p in self.card.parameters)
+
+    @functools.cached_property
+    def _signature(self) -> inspect.Signature:
+        return inspect.signature(self.function)
+
+    def __repr__(self) -> str:
+        return f"<formula {self.key}{self._signature}>"
+
+    def _collect_values(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> tuple[list[Any], bool, bool]:
+        """Converted values in order, whether any is traced, whether any is an array."""
+        values = self._binder.arrange(args, kwargs)
+        traced = batched = False
+        for i, (p, value) in enumerate(zip(self.card.parameters, values, strict=True)):
+            if type(value) is float and p.kind is not None and not p.law and not p.series:
+                if not p.kind.contains(value) or value in (np.inf, -np.inf):
+                    values[i] = convert(value, p, _(" for {owner}").format(owner=self.key))
+                continue
+            if is_tracer(value):
+                traced = True
+                continue
+            values[i] = value = convert(value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key))
+            if p.kind is None and not isinstance(value, (Formula, str, bool, int, type(None))):
+                traced = traced or any(map(is_tracer, jax.tree_util.tree_leaves(value)))
+            batched = batched or (p.kind is not None and not p.series and np.ndim(value) > 0)
+        return values, traced, batched
+
+    def _split(self, values: list[Any]) -> tuple[tuple[Any, ...], list[Any]]:
+        """Static part (hashable key) and dynamic part of the arguments."""
+        key, dynamic = [], []
+        for value, static in zip(values, self._static, strict=True):
+            fixed = value is None or (static and isinstance(value, (Formula, str, bool, int)))
+            key.append(value if fixed else _DYNAMIC)
+            if not fixed:
+                dynamic.append(value)
+        return tuple(key), dynamic
+
+    def _merged(self, key: tuple[Any, ...], dynamic: tuple[Any, ...]) -> list[Any]:
+        rest = iter(dynamic)
+        return [next(rest) if item is _DYNAMIC else item for item in key]
+
+    def _compile(self, key: tuple[Any, ...], sort: str) -> Callable[..., Any]:
+        found = self._compiled.get((key, sort))
+        if found is None:
+            body = {"bare": self._bare, "masked": self._masked, "checked": self._checked}[sort]
+            found = self._compiled[(key, sort)] = jax.jit(lambda *dynamic: body(self._merged(key, dynamic)))
+        return found
+
+    def _bare(self, values: list[Any]) -> Any:
+        with flags.inside(self):
+            return self.function(*values)
+
+    def _masked(self, values: list[Any]) -> Any:
+        """The value with NaN wherever an element lies outside the hard bounds; both branches stay finite."""
+        guarded, possible = self._guard(values)
+        out = self._bare(guarded)
+        return jax.tree.map(lambda x: jnp.where(possible, x, jnp.nan), out) if possible is not None else out
+
+    def _guard(self, values: list[Any]) -> tuple[list[Any], Any]:
+        if any(p.series for p in self.card.parameters):
+            return values, None
+        guarded, possible = list(values), jnp.asarray(True)
+        for i, p in enumerate(self.card.parameters):
+            if p.kind is None or values[i] is None or (p.kind.lower == -np.inf and p.kind.upper == np.inf):
+                continue
+            inside = p.kind.contains(values[i])
+            flags.record(flags.OUTSIDE_DOMAIN, ~jnp.asarray(inside), values[i], p.name, self.key, p.kind.lower, p.kind.upper)
+            guarded[i] = jnp.where(inside, values[i], sum(p.ordinary()) / 2)
+            possible = possible & inside
+        return guarded, possible
+
+    def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
+        with flags.collect() as records:
+            guarded, possible = self._guard(values)
+            out = self._body(guarded)
+            if possible is not None:
+                out = jax.tree.map(lambda x: jnp.where(possible, x, jnp.nan), out)
+            finite = jnp.asarray(True) if possible is None else possible
+            for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
+                flags.record(flags.NOT_FINITE, ~jnp.isfinite(jnp.asarray(value, dtype=float)) & finite, jnp.zeros(()), p.name, self.key)
+        return out, list(records)
+
+    def _body(self, values: list[Any]) -> Any:
+        """Run the function, recording inputs and outputs outside the declared ranges."""
+        for p, value in zip(self.card.parameters, values, strict=True):
+            if p.fitted is not None and value is not None:
+                self._record_range(p, value)
+        out = self._bare(values)
+        for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
+            if p.fitted is not None:
+                self._record_range(p, value)
+        return out
+
+    def _record_range(self, p: Parameter, value: Any) -> None:
+        assert p.fitted is not None
+        low, high = p.fitted
+        value = jnp.asarray(value)
+        flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, p.name, self.key, low, high, self.source)
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        values, traced, batched = self._collect_values(args, kwargs)
+        if traced:
+            return self._body(values)
+        if _steps.get() is not None:
+            return self._evaluate(values).value
+        key, dynamic = self._split(values)
+        out = self._compile(key, "masked" if batched else "bare")(*dynamic)
+        return out if batched else _floats(out)
+
+    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
+        """The value with its flags and card."""
+        values, traced, _batched = self._collect_values(args, kwargs)
+        if traced:
+            raise InputError(_("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(key=self.key))
+        return self._evaluate(values)
+
+    def _evaluate(self, values: list[Any]) -> Result:
+        key, dynamic = self._split(values)
+        out, records = self._compile(key, "checked")(*dynamic)
+        inputs = {p.name: value for p, value in zip(self.card.parameters, values, strict=True)}
+        shape = (
+            np.broadcast_shapes(*(np.shape(x) for x in jax.tree.leaves(out)))
+            if not isinstance(out, tuple)
+            else np.shape(jax.tree.leaves(out)[0])
+        )
+        result = Result(self.card, inputs, _floats(out), flags.bits(records, shape), flags.describe(records))
+        steps = _steps.get()
+        if steps is not None:
+            steps.append(result)
+        return result
+
+
+_DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
+
+
+def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, typical: Ranges | None = None,
+            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[..., Any]], Formula]:  # fmt: skip
+    """Declare a formula.
+
+    Parameters
+    ----------
+    source: bibliography key with equation and page: ``"ergun1952, eq. 3, p. 90"``; several are joined by ``;``.
+    equation: LaTeX.
+    fitted: ranges over which the source holds, by input, output or watched name, SI units.
+    typical: ranges to draw ordinary values from, where the glossary's do not suit.
+    title: English title; by default the glossary label with the author from the name.
+    output: glossary name of the result; by default the glossary word the function name starts with.
+    family: name under which it can be passed as a law; by default the output name.
+    """
+
+    def declare(function: Callable[..., Any]) -> Formula:
+        return Formula(function, source=source, equation=equation, fitted=fitted or {}, typical=typical or {},
+                       title=title, output=output, family=family)  # fmt: skip
+
+    return declare

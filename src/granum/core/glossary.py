@@ -1,0 +1,70 @@
+"""The glossary: one word, symbol, unit and label (English, French) for every public quantity name."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from granum.core.errors import unknown_name
+from granum.core.i18n import current_language
+
+
+@dataclass(frozen=True)
+class Term:
+    """One entry of the glossary.
+
+    Parameters
+    ----------
+    name: the public argument name.
+    symbol: LaTeX symbol.
+    en, fr: labels.
+    typical: a range, SI units, in which values usually lie (tests and forms draw from it).
+    unit: the unit people usually write it in, when it differs from the first one of its kind.
+    """
+
+    name: str
+    symbol: str
+    en: str
+    fr: str
+    typical: tuple[float, float]
+    unit: str | None = None
+
+    @property
+    def label(self) -> str:
+        """The label in the current language."""
+        return self.fr if current_language() == "fr" else self.en
+
+
+@cache
+def glossary() -> dict[str, Term]:
+    """All terms by name, read from the TOML files of ``granum/core/terms``."""
+    terms: dict[str, Term] = {}
+    for path in sorted((files("granum") / "core" / "terms").iterdir(), key=lambda p: p.name):
+        if not path.name.endswith(".toml"):
+            continue
+        for name, row in tomllib.loads(path.read_text(encoding="utf-8")).items():
+            if name in terms:
+                raise ValueError(f"glossary: '{name}' is declared twice (again in {path.name})")
+            low, high = row["typical"]
+            terms[name] = Term(name, row["symbol"], row["en"], row["fr"], (float(low), float(high)), row.get("unit"))
+    return terms
+
+
+def term(name: str) -> Term:
+    """The entry of a name; a trailing author or index never belongs here."""
+    found = glossary().get(name)
+    if found is None:
+        raise unknown_name("glossary term", name, glossary())
+    return found
+
+
+def quantity_in(name: str) -> str | None:
+    """The longest glossary word that a name starts with: ``drag_coefficient_allen`` → ``drag_coefficient``."""
+    words = name.split("_")
+    for count in range(len(words), 0, -1):
+        candidate = "_".join(words[:count])
+        if candidate in glossary():
+            return candidate
+    return None

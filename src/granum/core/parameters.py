@@ -1,0 +1,348 @@
+"""Parameters: one argument of a card, and the conversion of whatever a user passes for it."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+import types
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from granum.core import units
+from granum.core.errors import InputError, unknown_name
+from granum.core.glossary import Term, glossary
+from granum.core.i18n import _
+from granum.core.kinds import Kind, Law, Series, extra_of, kind_of
+
+REQUIRED = inspect.Parameter.empty
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One argument or one output of a card.
+
+    Parameters
+    ----------
+    name: public name, a glossary word (or a glossary word with a suffix).
+    kind: what quantity it is; None for choices, laws and plain values.
+    default: its default, or ``REQUIRED``.
+    series: what a vector argument runs over; None for a single value.
+    law: family of the law expected; None for quantities.
+    choices: allowed words of a choice.
+    typical: range of ordinary values, SI.
+    fitted: range over which the source holds, SI.
+    """
+
+    name: str
+    kind: Kind | None = None
+    default: Any = REQUIRED
+    series: str | None = None
+    law: str | None = None
+    choices: tuple[Any, ...] = ()
+    sort: type | None = None
+    optional: bool = False
+    typical: tuple[float, float] | None = None
+    fitted: tuple[float, float] | None = None
+
+    @property
+    def required(self) -> bool:
+        """Whether a value must be given."""
+        return self.default is REQUIRED
+
+    @property
+    def term(self) -> Term | None:
+        """Its glossary entry."""
+        from granum.core.glossary import quantity_in
+
+        known = quantity_in(self.name)
+        return glossary()[known] if known else None
+
+    @property
+    def label(self) -> str:
+        """Its label in the current language."""
+        found = self.term
+        if found is None:
+            return self.name.replace("_", " ")
+        rest = self.name[len(found.name) :].strip("_").replace("_", " ")
+        return f"{found.label} ({_(rest)})" if rest else found.label
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Units to offer, the usual one first."""
+        if self.kind is None:
+            return ()
+        found = self.term
+        usual = (found.unit,) if found and found.unit else ()
+        return usual + tuple(u for u in self.kind.units if u not in usual)
+
+    def ordinary(self) -> tuple[float, float]:
+        """The range tests and forms draw from: declared, else the glossary's, cut to the fitted range and the bounds."""
+        low, high = self.typical or (self.term.typical if self.term else (0.1, 1.0))
+        if self.fitted and not self.typical:
+            low, high = max(low, self.fitted[0]), min(high, self.fitted[1])
+            if low >= high:
+                low, high = self.fitted
+        return low, high
+
+    def as_json(self) -> dict[str, Any]:
+        """The declaration as plain data, for forms and documentation."""
+        found = self.term
+        row: dict[str, Any] = {"name": self.name, "label": self.label, "symbol": found.symbol if found else ""}
+        if self.kind:
+            row |= {
+                "kind": self.kind.name,
+                "unit": self.kind.unit,
+                "units": [{"unit": u, "label": units.pretty_unit(u)} for u in self.units],
+                "lower": None if self.kind.lower == -np.inf else self.kind.lower,
+                "upper": None if self.kind.upper == np.inf else self.kind.upper,
+                "open_lower": self.kind.open_lower,
+                "open_upper": self.kind.open_upper,
+                "typical": list(self.ordinary()),
+                "fitted": [None if abs(x) == np.inf else x for x in self.fitted] if self.fitted else None,
+            }
+        if self.series:
+            row["series"] = self.series
+        if self.law:
+            row["law"] = self.law
+        if self.choices:
+            row["choices"] = list(self.choices)
+        if self.sort:
+            row["sort"] = self.sort.__name__
+        row["required"] = self.required
+        if not self.required:
+            row["default"] = default_as_json(self.default)
+        return row
+
+
+def default_as_json(value: Any) -> Any:
+    """A default as plain data: numbers and words as they are, laws by name."""
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    if hasattr(value, "card"):
+        return value.card.name
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return str(value)
+
+
+def parameter_of(name: str, annotation: Any, default: Any, **ranges: Any) -> Parameter:
+    """The parameter that an annotation declares."""
+    optional = False
+    if get_origin(annotation) in (Union, types.UnionType):
+        arms = [arm for arm in get_args(annotation) if arm is not type(None)]
+        optional = len(arms) < len(get_args(annotation))
+        annotation = arms[0] if len(arms) == 1 else annotation
+    choices = get_args(annotation) if get_origin(annotation) is Literal else ()
+    series, law = extra_of(annotation, Series), extra_of(annotation, Law)
+    sort = annotation if annotation in (bool, int, str) else None
+    if get_origin(annotation) is Annotated and get_args(annotation)[0] in (bool, int, str):
+        sort = get_args(annotation)[0]
+    return Parameter(
+        name=name,
+        kind=kind_of(annotation),
+        default=default,
+        series=series.along if series else None,
+        law=law.family if law else None,
+        choices=choices,
+        sort=sort,
+        optional=optional,
+        **ranges,
+    )
+
+
+def parameters_of(
+    function: Callable[..., Any], fitted: Mapping[str, tuple[float, float]], typical: Mapping[str, tuple[float, float]]
+) -> tuple[Parameter, ...]:
+    """The parameters of a function, from its annotations and defaults."""
+    hints = get_type_hints(function, include_extras=True)
+    return tuple(
+        parameter_of(name, hints.get(name, Any), found.default, fitted=fitted.get(name), typical=typical.get(name))
+        for name, found in inspect.signature(function).parameters.items()
+    )
+
+
+def outputs_of(annotation: Any, name: str, fitted: Mapping[str, tuple[float, float]]) -> tuple[Parameter, ...]:
+    """The outputs a return annotation declares: one quantity, or the fields of a named tuple."""
+    if isinstance(annotation, type) and issubclass(annotation, tuple) and hasattr(annotation, "_fields"):
+        hints = get_type_hints(annotation, include_extras=True)
+        return tuple(parameter_of(f, hints[f], REQUIRED, fitted=fitted.get(f)) for f in annotation._fields)
+    return (parameter_of(name, annotation, REQUIRED, fitted=fitted.get(name)),)
+
+
+def is_tracer(value: Any) -> bool:
+    """Whether a value is being traced by JAX (jit, grad, vmap)."""
+    jax = sys.modules.get("jax")
+    return jax is not None and isinstance(value, jax.core.Tracer)
+
+
+def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
+    """The error for a value outside the hard bounds of its kind."""
+    kind = parameter.kind
+    assert kind is not None
+    shown = units.show(float(value), kind) if np.isfinite(value) else str(float(value))
+    if kind.lower > -np.inf and kind.upper < np.inf:
+        allowed = _("between {low} and {high}").format(low=units.show(kind.lower, kind), high=units.show(kind.upper, kind))
+    elif kind.lower > -np.inf:
+        word = _("greater than {low}") if kind.open_lower else _("at least {low}")
+        allowed = word.format(low=units.show(kind.lower, kind))
+    elif kind.upper < np.inf:
+        allowed = _("at most {high}").format(high=units.show(kind.upper, kind))
+    else:
+        allowed = _("a finite number")
+    message = _("{label} ('{name}') = {value} is not possible{where}: it must be {allowed}.").format(
+        label=parameter.label, name=parameter.name, value=shown, where=where, allowed=allowed
+    )
+    if kind.upper == 1.0 and 1.0 < value <= 100.0:
+        message += " " + _("Did you mean {value} %?").format(value=units.format_number(float(value)))
+    return InputError(message, name=parameter.name, value=float(value), allowed=allowed)
+
+
+def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
+    """Whatever a user passes for a parameter as what the function body takes; raises one clear error otherwise.
+
+    Text and Pint quantities become SI numbers; words become choices or laws; numbers are checked against the hard
+    bounds when they are single values. Arrays keep their out-of-range elements, which evaluation flags. Tracers pass.
+    """
+    if is_tracer(value):
+        return value
+    if value is None:
+        if parameter.default is None or parameter.optional:
+            return None
+        raise InputError(_("'{name}' needs a value{where}.").format(name=parameter.name, where=where), name=parameter.name)
+    if parameter.law:
+        return _law(value, parameter, where)
+    if parameter.choices:
+        return _choice(value, parameter, where)
+    if parameter.kind is None:
+        return _plain(value, parameter, where)
+    kind = parameter.kind
+    if isinstance(value, str):
+        value = (units.read_series if parameter.series else units.read_quantity)(value, kind, parameter.name)
+    elif units.is_quantity(value):
+        value = units.quantity_to_si(value, kind, parameter.name)
+    elif isinstance(value, (list, tuple)):
+        value = np.asarray([convert(v, _single(parameter), where) for v in value], dtype=float)
+    if isinstance(value, bool) or (not hasattr(value, "__float__") and not hasattr(value, "__array__")):
+        raise InputError(
+            _("'{name}' = {value!r} is not a number{where}; write it as '{example}'.").format(
+                name=parameter.name, value=value, where=where, example=f"1.5 {parameter.units[0]}"
+            ),
+            name=parameter.name,
+        )
+    if np.ndim(value) == 0 and not hasattr(value, "at"):
+        value = float(value)
+        if not kind.contains(value) or np.isinf(value):
+            raise out_of_bounds(value, parameter, where)
+        if parameter.sort is int:
+            if value != int(value):
+                raise InputError(
+                    _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=value, where=where),
+                    name=parameter.name,
+                )
+            value = int(value)
+        if parameter.series:
+            value = np.asarray([value])
+    elif parameter.series:
+        array = np.asarray(value, dtype=float)
+        bad = ~np.asarray(kind.contains(array))
+        if bad.any():
+            first = int(np.argmax(bad.ravel()))
+            raise out_of_bounds(array.ravel()[first], parameter, where + _(" (item {index})").format(index=first + 1))
+    return value
+
+
+def _single(parameter: Parameter) -> Parameter:
+    from dataclasses import replace
+
+    return replace(parameter, series=None)
+
+
+def _choice(value: Any, parameter: Parameter, where: str) -> Any:
+    if value not in parameter.choices:
+        raise unknown_name(_("Choice for '{name}'").format(name=parameter.name), str(value), map(str, parameter.choices), where)
+    return value
+
+
+def _plain(value: Any, parameter: Parameter, where: str) -> Any:
+    if parameter.sort is bool and isinstance(value, str):
+        word = value.strip().lower()
+        if word not in ("true", "false", "yes", "no", "oui", "non", "1", "0"):
+            raise InputError(_("'{name}' takes yes or no{where}.").format(name=parameter.name, where=where), name=parameter.name)
+        return word in ("true", "yes", "oui", "1")
+    if parameter.sort is int:
+        try:
+            whole = int(str(value))
+        except ValueError:
+            raise InputError(
+                _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=value, where=where),
+                name=parameter.name,
+            ) from None
+        return whole
+    return value
+
+
+def _law(value: Any, parameter: Parameter, where: str) -> Any:
+    if not isinstance(value, (str, Mapping)):
+        return value
+    from granum.core.registry import law
+
+    assert parameter.law is not None
+    if isinstance(value, str):
+        return law(parameter.law, value, where)
+    options = dict(value)
+    name = options.pop("law", None)
+    if not isinstance(name, str):
+        raise InputError(
+            _("'{name}' is a table without 'law'{where}; name the law, as in {{law = \"…\", …}}.").format(name=parameter.name, where=where),
+            name=parameter.name,
+        )
+    return law(parameter.law, name, where, options)
+
+
+@dataclass(frozen=True)
+class Binder:
+    """Matches positional and named arguments to parameters, with near-miss suggestions for unknown names."""
+
+    owner: str
+    parameters: tuple[Parameter, ...]
+    index: dict[str, int] = field(default_factory=dict)
+
+    @staticmethod
+    def of(owner: str, parameters: tuple[Parameter, ...]) -> Binder:
+        """A binder for the card named ``owner``."""
+        return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
+
+    def arrange(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> list[Any]:
+        """Raw values in the order of the parameters, defaults filled in; nothing converted yet."""
+        if len(args) > len(self.parameters):
+            raise InputError(
+                _("{owner} takes {count} values; {given} were given.").format(owner=self.owner, count=len(self.parameters), given=len(args))
+            )
+        values = list(args) + [p.default for p in self.parameters[len(args) :]]
+        for name, value in kwargs.items():
+            position = self.index.get(name)
+            if position is None:
+                raise unknown_name(_("Input"), name, self.index, _("for {owner}").format(owner=self.owner))
+            if position < len(args):
+                raise InputError(_("'{name}' was given twice for {owner}.").format(name=name, owner=self.owner), name=name)
+            values[position] = value
+        missing = [p for p, value in zip(self.parameters, values, strict=True) if value is REQUIRED]
+        if missing:
+            raise InputError(
+                _("{owner} needs {names}.").format(
+                    owner=self.owner,
+                    names=", ".join(
+                        f"'{p.name}' ({p.label}{', ' + p.units[0] if p.units and p.units[0] != 'dimensionless' else ''})" for p in missing
+                    ),
+                ),
+                missing=[p.name for p in missing],
+            )
+        return values
+
+    def bind(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> dict[str, Any]:
+        """Converted values by name."""
+        where = _(" for {owner}").format(owner=self.owner)
+        return {p.name: convert(value, p, where) for p, value in zip(self.parameters, self.arrange(args, kwargs), strict=True)}

@@ -1,0 +1,75 @@
+"""The result of evaluating a card: values, flags and the card, with its plain-data form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from granum.core.cards import Card
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
+from granum.core.parameters import Parameter, default_as_json
+
+
+def plain(value: Any) -> Any:
+    """Arrays as nested lists, zero-dimensional ones as floats, NaN as None (JSON has no NaN)."""
+    array = np.asarray(value, dtype=float)
+    if array.ndim == 0:
+        return float(array) if np.isfinite(array) else None
+    return [plain(item) for item in array]
+
+
+def quantity_json(value: Any, parameter: Parameter) -> Any:
+    """One value in the ``{"value", "unit"}`` shape, SI base units; choices and laws by name."""
+    if parameter.kind is None or value is None:
+        return {"value": default_as_json(value), "unit": ""}
+    unit = "K" if parameter.kind.unit == "delta_degC" else parameter.kind.unit
+    return {"value": plain(value), "unit": unit}
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a card gave for one set of inputs.
+
+    Parameters
+    ----------
+    card: the card that was evaluated.
+    inputs: SI values by name, defaults included.
+    value: bare value, or a named tuple of values.
+    flags: int32 bits in the shape of the result (see ``granum.core.flags``).
+    notices: one record per raised flag: what, how many, worst value, range, sentence.
+    """
+
+    card: Card
+    inputs: dict[str, Any]
+    value: Any
+    flags: np.ndarray
+    notices: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def outputs(self) -> dict[str, Any]:
+        """Values by output name."""
+        if len(self.card.outputs) == 1 and not hasattr(self.value, "_fields"):
+            return {self.card.outputs[0].name: self.value}
+        return dict(zip((p.name for p in self.card.outputs), self.value, strict=True))
+
+    def check(self) -> Any:
+        """The bare value; raises when any element is impossible, not finite or not converged."""
+        if np.any(self.flags & ~np.int32(1 | 16)):
+            raise ApplicabilityError(
+                " ".join(n["message"] for n in self.notices if n["flag"] not in ("extrapolated", "limit active"))
+                or _("{card} gave no finite value.").format(card=self.card.key)
+            )
+        return self.value
+
+    def as_json(self) -> dict[str, Any]:
+        """The stable ``calc`` shape."""
+        return {
+            "card": self.card.key,
+            "inputs": {p.name: quantity_json(self.inputs[p.name], p) for p in self.card.parameters},
+            "outputs": {p.name: quantity_json(self.outputs[p.name], p) for p in self.card.outputs},
+            "flags": self.notices,
+            "source": self.card.source,
+        }

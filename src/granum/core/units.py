@@ -1,0 +1,209 @@
+"""Units at the edge: text and Pint quantities become SI floats on entry, SI floats become text on display. Uses Pint."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from granum.core.errors import InputError, UnitError
+from granum.core.i18n import _
+from granum.core.kinds import Kind
+
+_NUMBER = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
+_LONGEST_UNIT = 40
+
+
+@cache
+def registry() -> Any:
+    """The one Pint registry, with the customary units of the field added."""
+    import pint
+
+    ureg = pint.UnitRegistry(cache_folder=None)
+    for line in (
+        "barg = 1e5 * pascal; offset: 101325 = bar_gauge",
+        "svedberg = 1e-13 * second",
+        "mmH2O = 9.80665 * pascal",
+    ):
+        ureg.define(line)
+    return ureg
+
+
+_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "%": "percent", "µ": "u", "μ": "u", "Ω": "ohm",
+              "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1"}  # fmt: skip
+
+
+@cache
+def parse_unit(text: str) -> Any:
+    """A Pint unit from text such as ``kg/m3``, ``µm``, ``%`` or ``°C``."""
+    spelled = text.strip()
+    if len(spelled) > _LONGEST_UNIT:
+        raise UnitError(_("Unit '{unit}…' is too long to be a unit.").format(unit=spelled[:_LONGEST_UNIT]))
+    for written, meant in _SPELLINGS.items():
+        spelled = spelled.replace(written, meant)
+    # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
+    spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
+    try:
+        return registry().Unit(spelled) if spelled else registry().Unit("dimensionless")
+    except Exception as problem:  # Pint raises many kinds: tokenizer, undefined, assertion, attribute
+        raise UnitError(_("Unit '{unit}' is not known.").format(unit=text), unit=text) from problem
+
+
+@cache
+def _same_dimension(unit: str, kind_unit: str) -> bool:
+    return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
+
+
+@cache
+def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
+    """(factor, offset) such that SI = factor·value + offset."""
+    ureg = registry()
+    source, target = parse_unit(unit), ureg.Unit(kind_unit)
+    if not _same_dimension(unit, kind_unit):
+        raise UnitError("dimension")
+    zero = ureg.Quantity(0.0, source).to(target).magnitude
+    one = ureg.Quantity(1.0, source).to(target).magnitude
+    return one - zero, zero
+
+
+def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
+    """A number or array in ``unit`` as SI floats of the given kind.
+
+    >>> from granum.core.kinds import KINDS
+    >>> round(to_si(20.0, "degC", KINDS["Temperature"]), 2)
+    293.15
+    """
+    label = name or kind.name
+    if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
+        return value
+    try:
+        factor, offset = _affine(unit, kind.unit)
+    except UnitError as problem:
+        if problem.message != "dimension":
+            raise UnitError(
+                problem.message + " " + _("'{name}' takes {units}.").format(name=label, units=", ".join(kind.units)),
+                name=label,
+                allowed=list(kind.units),
+            ) from None
+        given = "1" if unit.strip() in ("", "dimensionless") else unit.strip()
+        raise UnitError(
+            _("'{name}' is a {kind}: unit '{unit}' does not fit. Use one of {units}.").format(
+                name=label, kind=_(kind.name), unit=given, units=", ".join(kind.units)
+            ),
+            name=label,
+            unit=given,
+            allowed=list(kind.units),
+        ) from None
+    return value * factor + offset
+
+
+def from_si(value: Any, unit: str, kind: Kind) -> Any:
+    """SI floats of a kind expressed in another unit of the same dimension."""
+    if not _same_dimension(unit, kind.unit):
+        to_si(1.0, unit, kind)
+    factor, offset = _affine(unit, kind.unit)
+    return (value - offset) / factor
+
+
+def read_quantity(text: str, kind: Kind, name: str = "") -> float:
+    """The SI value of text such as ``"85 um"``, ``"0,8 bar"`` or ``"12 %"``; a bare number is SI already.
+
+    >>> from granum.core.kinds import KINDS
+    >>> read_quantity("1.2 cP", KINDS["DynamicViscosity"])
+    0.0012
+    """
+    found = _NUMBER.match(text)
+    if not found:
+        raise InputError(
+            _("'{name}' = '{text}' is not a number with a unit. Write it as '{example}'.").format(
+                name=name or kind.name, text=text, example=f"1.5 {kind.units[0]}"
+            ),
+            name=name or kind.name,
+            value=text,
+        )
+    number = float(found.group(1).replace(",", "."))
+    return number if not found.group(2) else float(to_si(number, found.group(2), kind, name))
+
+
+def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
+    """SI values of a list in one string: ``"2 4 8 um"`` or ``"[1.5; 2.5] bar"``, unit last and shared."""
+    cleaned = text.replace("[", " ").replace("]", " ").replace(";", " ")
+    cleaned = re.sub(r",(?=\s)", " ", cleaned)
+    numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
+    if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
+        cleaned = cleaned.replace(",", " ")  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
+    words = cleaned.split()
+    unit = ""
+    while words and not _NUMBER.match(words[-1]):
+        unit = words.pop() + unit
+    if words and (tail := _NUMBER.match(words[-1])) and tail.group(2):
+        words[-1], unit = tail.group(1), tail.group(2) + unit
+    values = [read_quantity(word, kind, name) for word in words]
+    array = np.asarray(values, dtype=float)
+    return array if not unit else np.asarray(to_si(array, unit, kind, name))
+
+
+def is_quantity(value: Any) -> bool:
+    """Whether a value is a Pint quantity (of any registry)."""
+    return hasattr(value, "magnitude") and hasattr(value, "units")
+
+
+def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
+    """The SI magnitude of a Pint quantity from any registry."""
+    return to_si(value.magnitude, format(value.units, "~"), kind, name)
+
+
+_PRETTY = {"um": "µm", "degC": "°C", "degF": "°F", "percent": "%", "dimensionless": "", "delta_degC": "K", "kelvin": "K",
+           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t"}  # fmt: skip
+_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def pretty_unit(unit: str) -> str:
+    """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``."""
+    text = re.sub(r"[A-Za-z_]+", lambda m: _PRETTY.get(m.group(), m.group()), unit)
+    text = re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_SUPERSCRIPT), text)
+    return text.replace("*", "·")
+
+
+def best_unit(value: float, kind: Kind) -> str:
+    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred."""
+    units = kind.units
+    if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
+        return units[0]
+    for unit in units:
+        if 0.1 <= abs(from_si(value, unit, kind)) < 10_000:
+            return unit
+    return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+
+
+def format_number(value: float, digits: int = 4) -> str:
+    """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French."""
+    from granum.core.i18n import current_language
+
+    if not np.isfinite(value):
+        return "—"
+    if value == 0.0:
+        return "0"
+    exponent = int(np.floor(np.log10(abs(value))))
+    if -4 <= exponent < 5:
+        decimals = max(digits - 1 - exponent, 0)
+        text = f"{value:.{decimals}f}"
+        if "." in text:
+            text = text.rstrip("0").rstrip(".")
+    else:
+        mantissa = f"{value / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
+        text = f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPT)}"
+    return text.replace(".", ",") if current_language() == "fr" else text
+
+
+def show(value: float, kind: Kind, unit: str | None = None) -> str:
+    """A value with its unit, ready to print.
+
+    >>> from granum.core.kinds import KINDS
+    >>> show(85e-6, KINDS["Length"])
+    '85 µm'
+    """
+    chosen = unit or best_unit(value, kind)
+    return f"{format_number(float(from_si(value, chosen, kind)))} {pretty_unit(chosen)}".strip()

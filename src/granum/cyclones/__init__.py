@@ -1,0 +1,5 @@
+"""Gas cyclones and hydrocyclones."""
+
+from granum.core.registry import domain_names
+
+__getattr__, __dir__ = domain_names(__name__)

@@ -1,0 +1,5 @@
+"""Materials: fluids, solids, solutes and their solubility, gas–vapor pairs."""
+
+from granum.core.registry import domain_names
+
+__getattr__, __dir__ = domain_names(__name__)

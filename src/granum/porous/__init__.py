@@ -1,0 +1,5 @@
+"""Porous media: permeability and packed beds."""
+
+from granum.core.registry import domain_names
+
+__getattr__, __dir__ = domain_names(__name__)

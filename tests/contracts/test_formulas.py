@@ -1,0 +1,137 @@
+"""What every declared formula must hold, drawn over the registry: a new card is tested here unasked."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import inspect
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum.core import flags, registry
+from granum.core.formulas import Formula
+from granum.core.glossary import quantity_in
+from granum.core.sources import bibliography, keys_of
+
+EVERYTHING = registry.everything()
+FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
+ELEMENTWISE = {k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))}
+
+
+def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
+    """Ordinary values for each numeric input: log-uniform where the range is positive, inside the hard bounds."""
+    rng = np.random.default_rng(seed)
+    values = {}
+    for p in f.card.parameters:
+        if p.kind is None or p.sort is int or (not p.required and p.typical is None and not isinstance(p.default, float)):
+            continue
+        low, high = p.ordinary()
+        u = rng.uniform(0.02, 0.98, count)
+        values[p.name] = np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
+    return values
+
+
+def leaves(out: object) -> list[np.ndarray]:
+    return [np.asarray(x, dtype=float) for x in jax.tree.leaves(out)]
+
+
+@pytest.mark.parametrize("key", EVERYTHING)
+def test_declaration_is_complete(key: str) -> None:
+    card = EVERYTHING[key].card
+    assert card.source, "every card has a source"
+    missing = [k for k in keys_of(card.source) if k not in bibliography()]
+    assert not missing, f"not in the bibliography: {missing}"
+    for p in (*card.parameters, *card.outputs):
+        assert quantity_in(p.name), f"'{p.name}' is not in the glossary"
+        assert p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty, f"'{p.name}' has no kind"
+    assert card.english_summary.endswith("."), "the docstring starts with one sentence"
+    known = {p.name for p in (*card.parameters, *card.outputs)}
+    body = inspect.getsource(EVERYTHING[key].function if isinstance(EVERYTHING[key], Formula) else EVERYTHING[key])
+    for name in card.fitted:
+        assert name in known or f"{name}=" in body, f"fitted range of '{name}' is never checked"
+
+
+@pytest.mark.parametrize("key", FORMULAS)
+def test_docstring_has_an_example(key: str) -> None:
+    assert ">>>" in FORMULAS[key].card.doc
+
+
+@pytest.mark.parametrize("module", sorted({thing.card.module for thing in EVERYTHING.values()}))
+def test_docstring_examples_run(module: str) -> None:
+    found = importlib.import_module(module)
+    finder, runner = doctest.DocTestFinder(), doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    for name, item in vars(found).items():
+        target = item.function if isinstance(item, Formula) else item
+        if getattr(target, "__module__", None) == module and (inspect.isfunction(target) or inspect.isclass(target)):
+            for test in finder.find(target, name, globs={**vars(found)}):
+                runner.run(test)
+    assert runner.failures == 0
+
+
+@pytest.mark.parametrize("key", ELEMENTWISE)
+def test_scalar_array_vmap_agree_in_float64(key: str) -> None:
+    f = ELEMENTWISE[key]
+    inputs = draw(f, 3)
+    if not inputs:
+        return
+    batched = leaves(f(**inputs))
+    single = [leaves(f(**{n: float(v[i]) for n, v in inputs.items()})) for i in range(3)]
+    mapped = leaves(jax.vmap(lambda kw: f(**kw))(jax.tree.map(jnp.asarray, inputs)))
+    for k, whole in enumerate(batched):
+        assert whole.dtype == np.float64
+        assert np.all(np.isfinite(whole)), f"not finite at ordinary values: {inputs}"
+        np.testing.assert_allclose(whole, [s[k] for s in single], rtol=1e-12, atol=1e-300)
+        np.testing.assert_allclose(whole, mapped[k], rtol=1e-12, atol=1e-300)
+
+
+@pytest.mark.parametrize("key", ELEMENTWISE)
+def test_gradient_equals_differences(key: str) -> None:
+    f = ELEMENTWISE[key]
+    point = {n: float(v[0]) for n, v in draw(f, 1, seed=3).items()}
+    if not point:
+        return
+
+    total = jax.jit(lambda kw: sum(jnp.sum(x) for x in map(jnp.asarray, jax.tree.leaves(f(**kw)))))
+    gradient = jax.jit(jax.grad(total))(point)
+    value = abs(float(total(point)))
+    for name, x in point.items():
+        h = 1e-5 * max(abs(x), 1e-12)
+        ahead, behind = (float(total({**point, name: x + s * h})) for s in (1, -1))
+        difference = (ahead - behind) / (2 * h)
+        scale = max(abs(difference), value / max(abs(x), 1e-12) * 1e-3, 1e-300)
+        assert abs(float(gradient[name]) - difference) <= 2e-5 * scale, f"d/d{name}: {gradient[name]} against {difference}"
+
+
+@pytest.mark.parametrize("key", ELEMENTWISE)
+def test_outside_bounds_is_flagged_not_silent(key: str) -> None:
+    f = ELEMENTWISE[key]
+    inputs = draw(f, 2)
+    for p in f.card.parameters:
+        if p.name not in inputs or p.kind is None or p.kind.lower == -np.inf:
+            continue
+        bad = {**inputs, p.name: np.array([inputs[p.name][0], p.kind.lower - 1.0])}
+        result = f.evaluate(**bad)
+        for out in leaves(result.value):
+            assert np.isnan(np.broadcast_to(out, (2,))[1])
+        assert result.flags[1] & flags.OUTSIDE_DOMAIN
+        assert not result.flags[0] & flags.OUTSIDE_DOMAIN
+        break
+
+
+@pytest.mark.parametrize("key", [k for k, f in ELEMENTWISE.items() if f.fitted])
+def test_fitted_range_is_flagged_at_its_edges(key: str) -> None:
+    f = ELEMENTWISE[key]
+    inputs = {n: float(v[0]) for n, v in draw(f, 1).items()}
+    for name, (low, high) in f.fitted.items():
+        if name not in inputs:
+            continue
+        p = f.card.parameter(name)
+        assert p.kind is not None
+        for edge, beyond in ((low, low - 0.01 * max(abs(low), 1e-9)), (high, high * 1.01 if high > 0 else high * 0.99)):
+            if not np.isfinite(edge) or not p.kind.contains(beyond):
+                continue
+            assert any(n["name"] == name for n in f.evaluate(**{**inputs, name: beyond}).notices)
+            assert not any(n["name"] == name and n["card"] == key for n in f.evaluate(**{**inputs, name: edge}).notices)
