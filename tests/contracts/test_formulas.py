@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import importlib
 import inspect
+import os
 
 import jax
 import jax.numpy as jnp
@@ -12,11 +13,15 @@ import numpy as np
 import pytest
 
 from granum.core import flags, registry
+from granum.core import glossary as glossary_module
+from granum.core import sources as sources_module
 from granum.core.formulas import Formula
 from granum.core.glossary import quantity_in
+from granum.core.i18n import catalog
 from granum.core.sources import bibliography, keys_of
 
-EVERYTHING = registry.everything()
+# GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
+EVERYTHING = registry.everything(tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS)
 FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
 ELEMENTWISE = {k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))}
 
@@ -48,10 +53,19 @@ def test_declaration_is_complete(key: str) -> None:
         assert quantity_in(p.name), f"'{p.name}' is not in the glossary"
         assert p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty, f"'{p.name}' has no kind"
     assert card.english_summary.endswith("."), "the docstring starts with one sentence"
+    for text in (card.given_title, card.english_summary):
+        assert not text or text in catalog("fr"), f"no French for: {text}"
     known = {p.name for p in (*card.parameters, *card.outputs)}
     body = inspect.getsource(EVERYTHING[key].function if isinstance(EVERYTHING[key], Formula) else EVERYTHING[key])
     for name in card.fitted:
         assert name in known or f"{name}=" in body, f"fitted range of '{name}' is never checked"
+
+
+def test_one_word_one_source() -> None:
+    glossary_module.glossary()
+    assert not glossary_module.duplicates
+    bibliography()
+    assert not sources_module.duplicates
 
 
 @pytest.mark.parametrize("key", FORMULAS)

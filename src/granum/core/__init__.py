@@ -7,6 +7,7 @@ from typing import Any
 _HOME = {
     "formula": "formulas", "Formula": "formulas", "record_steps": "formulas",
     "law": "declarations", "equipment": "declarations", "lab_test": "declarations",
+    "chart": "procedures", "procedure": "procedures",
     "watch": "flags", "unconverged": "flags", "limit_active": "flags",
     "Result": "results", "Card": "cards", "Parameter": "parameters",
 }  # fmt: skip

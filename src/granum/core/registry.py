@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from granum.core.cards import domain_of
@@ -44,12 +44,12 @@ def load(domain: str) -> None:
     _loaded.add(domain)
 
 
-def everything() -> dict[str, Any]:
-    """All declared things by key."""
-    for domain in DOMAINS:
+def everything(domains: Iterable[str] = DOMAINS) -> dict[str, Any]:
+    """All declared things of some domains (by default all) by key."""
+    for domain in domains:
         load(domain)
     _settle()
-    return dict(sorted(_declared.items()))
+    return {key: thing for key, thing in sorted(_declared.items()) if key.split(".")[0] in domains}
 
 
 def find(key: str) -> Any:

@@ -1,0 +1,107 @@
+"""The one look of every chart: template, colors of the phases, axis titles, log axes, points, lines and bands. Uses Plotly."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import plotly.graph_objects as go
+
+from granum.core.glossary import glossary
+from granum.core.i18n import current_language
+from granum.core.units import pretty_unit
+
+INK, GRID, ACCENT = "#1c2430", "#e6e9ee", "#0b6e6e"
+SOLID, LIQUID, GAS, HEAT = "#b7791f", "#2b6cb0", "#6b7f99", "#c2410c"
+OK, CAUTION, OUT = "#2f855a", "#b45309", "#b91c1c"
+LINES = (ACCENT, SOLID, LIQUID, HEAT, "#6b46c1", GAS, OK, "#97266d", CAUTION, "#2c5282")
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash")
+
+_AXIS = {
+    "showline": True, "linecolor": INK, "linewidth": 1, "mirror": False, "gridcolor": GRID, "gridwidth": 1, "zeroline": False,
+    "ticks": "outside", "ticklen": 4, "tickcolor": INK, "title": {"standoff": 8},
+}  # fmt: skip
+
+
+def template() -> go.layout.Template:
+    """White plot, thin grid, no frame on top and right, system type, decimal comma in French."""
+    separators = ",\u202f" if current_language() == "fr" else ".\u202f"
+    return go.layout.Template(
+        layout={
+            "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, sans-serif", "size": 13, "color": INK},
+            "paper_bgcolor": "white", "plot_bgcolor": "white", "colorway": list(LINES), "xaxis": _AXIS, "yaxis": _AXIS,
+            "margin": {"l": 70, "r": 25, "t": 45, "b": 60}, "hovermode": "closest", "separators": separators,
+            "legend": {"bgcolor": "rgba(255,255,255,0.8)", "borderwidth": 0}, "title": {"font": {"size": 15}, "x": 0.0, "xanchor": "left"},
+        }
+    )  # fmt: skip
+
+
+def axis_title(name: str, unit: str = "", label: str | None = None) -> str:
+    """``quantity symbol / unit``: label and symbol from the glossary, symbol in italics.
+
+    >>> axis_title("particle_diameter", "um")
+    'particle diameter <i>d<sub>p</sub></i> / µm'
+    """
+    term = glossary().get(name)
+    text = label or (term.label if term else name)
+    symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol and label is None else ""
+    shown = pretty_unit(unit)
+    return f"{text}{symbol}" + (f" / {shown}" if shown else "")
+
+
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "epsilon": "ε", "eta": "η", "theta": "θ",
+    "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "varphi": "φ", "phi": "φ", "psi": "ψ",
+    "Psi": "Ψ", "omega": "ω", "Omega": "Ω", "kappa": "κ", "chi": "χ", "zeta": "ζ", "Gamma": "Γ", "Sigma": "Σ", "Phi": "Φ", "Lambda": "Λ",
+}  # fmt: skip
+
+
+def html_symbol(latex: str) -> str:
+    """A short LaTeX symbol (Greek, one subscript or superscript, a dot) as HTML."""
+    import re
+
+    text = re.sub(r"\\(?:mathrm|text|mathit)\{([^{}]*)\}", r"\1", latex)
+    text = re.sub(r"\\dot\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0307", text)
+    text = re.sub(r"\\(?:bar|overline)\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0304", text)
+    text = re.sub(r"\\([A-Za-z]+)\s*", lambda m: _GREEK.get(m.group(1), m.group(1)), text)
+    text = re.sub(r"_\{([^{}]*)\}|_(\w)", lambda m: f"<sub>{m.group(1) or m.group(2)}</sub>", text)
+    text = re.sub(r"\^\{([^{}]*)\}|\^(\w|\*)", lambda m: f"<sup>{m.group(1) or m.group(2)}</sup>", text)
+    return text.replace("{", "").replace("}", "").replace("\\", "")
+
+
+def figure(x: str, y: str, *, title: str = "", x_log: bool = False, y_log: bool = False, **layout: Any) -> go.Figure:
+    """An empty figure in the house style; ``x`` and ``y`` are finished axis titles (see ``axis_title``)."""
+    chart = go.Figure()
+    chart.update_layout(template=template(), title=title or None, width=None, height=480, **layout)
+    for update, text, log in ((chart.update_xaxes, x, x_log), (chart.update_yaxes, y, y_log)):
+        update(title=text, type="log" if log else "linear", **({"dtick": 1, "exponentformat": "power"} if log else {}))
+    return chart
+
+
+def add_points(chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK, hollow: bool = False, **more: Any) -> None:
+    """Data points; hollow ones are excluded from a fit."""
+    marker = {"color": "white" if hollow else color, "size": 7, "line": {"color": color, "width": 1.5}}
+    chart.add_trace(go.Scatter(x=x, y=y, mode="markers", name=name, marker=marker, **more))
+
+
+def add_line(
+    chart: go.Figure, x: Any, y: Any, name: str, *, color: str = ACCENT, dash: str = "solid", width: float = 2, **more: Any
+) -> None:
+    """A model line."""
+    chart.add_trace(go.Scatter(x=x, y=y, mode="lines", name=name, line={"color": color, "dash": dash, "width": width}, **more))
+
+
+def add_band(chart: go.Figure, x: Any, low: Any, high: Any, name: str, *, color: str = ACCENT) -> None:
+    """A 95 % band between two curves."""
+    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    fill = f"rgba({red},{green},{blue},0.15)"
+    chart.add_trace(go.Scatter(x=x, y=high, mode="lines", line={"width": 0}, showlegend=False, hoverinfo="skip"))
+    chart.add_trace(go.Scatter(x=x, y=low, mode="lines", line={"width": 0}, fill="tonexty", fillcolor=fill, name=name, hoverinfo="skip"))
+
+
+def add_label(chart: go.Figure, x: float, y: float, text: str, *, color: str = INK, **more: Any) -> None:
+    """A direct label on a line, in data coordinates (logarithms taken for log axes)."""
+    import math
+
+    px = math.log10(x) if chart.layout.xaxis.type == "log" else x
+    py = math.log10(y) if chart.layout.yaxis.type == "log" else y
+    chart.add_annotation(x=px, y=py, text=text, showarrow=False, font={"color": color, "size": 11}, **more)

@@ -1,0 +1,63 @@
+"""``@procedure`` and ``@chart``: cards for plain Python functions, such as a selection guide or a Plotly figure."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, get_type_hints
+
+import numpy as np
+
+from granum.core.cards import Card, Ranges, make_card
+from granum.core.parameters import Binder, outputs_of, parameters_of
+from granum.core.registry import register
+from granum.core.results import Result
+
+
+class Procedure:
+    """A declared function that is not traced: arguments are converted and checked like those of a formula."""
+
+    def __init__(self, function: Callable[..., Any], sort: str, source: str, title: str, typical: Ranges):
+        self.function, self._sort, self._title = function, sort, title
+        self.source, self._typical = source, typical
+        functools.update_wrapper(self, function)
+        register(self)
+
+    @functools.cached_property
+    def card(self) -> Card:
+        """The declaration as data."""
+        name = self.function.__name__
+        returned = get_type_hints(self.function, include_extras=True).get("return")
+        outputs = () if self._sort == "chart" else outputs_of(returned, name, {})
+        return make_card(self.function, name, self._sort, parameters=parameters_of(self.function, {}, self._typical),
+                         outputs=outputs, source=self.source, title=self._title)  # fmt: skip
+
+    @functools.cached_property
+    def key(self) -> str:
+        """``domain.name``."""
+        return self.card.key
+
+    @functools.cached_property
+    def _binder(self) -> Binder:
+        return Binder.of(self.card.key, self.card.parameters)
+
+    def __repr__(self) -> str:
+        return f"<{self._sort} {self.key}>"
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return self.function(**self._binder.bind(args, kwargs))
+
+    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
+        """The value with its card (a procedure reports problems by raising, so there are no flags)."""
+        inputs = self._binder.bind(args, kwargs)
+        return Result(self.card, inputs, self.function(**inputs), np.zeros((), np.int32))
+
+
+def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:
+    """Declare a function on concrete values whose result is data: a ranking, a table, a design."""
+    return lambda function: Procedure(function, "procedure", source, title, typical or {})
+
+
+def chart(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:
+    """Declare a function that returns a Plotly figure made with ``granum.core.charts``."""
+    return lambda function: Procedure(function, "chart", source, title, typical or {})
