@@ -1,0 +1,274 @@
+"""``fit``: non-linear least squares with exact derivatives, bounds, robust losses and honest uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.flatten_util import ravel_pytree
+from scipy.optimize import least_squares
+
+from granum.core.errors import ConvergenceError, InputError
+from granum.core.i18n import _
+from granum.core.kinds import kind_of
+from granum.estimation.losses import LeastSquares, Loss
+from granum.estimation.results import Estimate, Fit, derive, t_reach
+
+SCALE_ROUNDS = 50
+COLLINEAR = 100.0
+"""Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A model, data and bounds: everything needed to fit again (profiles, bootstrap)."""
+
+    model: Callable[[dict[str, Any], Any], Any]
+    x: Any
+    y: np.ndarray
+    sigma: np.ndarray
+    keep: np.ndarray
+    names: tuple[str, ...]
+    scale: np.ndarray
+    bounds: dict[str, tuple[float, float]]
+    loss: Loss
+
+    @cached_property
+    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
+        index = np.flatnonzero(self.keep)
+        sigma = self.sigma[index]
+
+        def residual(q: Any, measured: Any) -> Any:
+            values = dict(zip(self.names, q * self.scale, strict=True))
+            return (ravel_pytree(self.model(values, self.x))[0][index] - measured[index]) / sigma
+
+        return jax.jit(residual), jax.jit(jax.jacfwd(residual))
+
+    def residual(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
+        """Weighted residuals (model less measured) of the kept points at scaled parameters."""
+        return np.asarray(self._functions[0](q, self.y if y is None else y))
+
+    def jacobian(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
+        """Their derivatives with respect to the scaled parameters."""
+        return np.asarray(self._functions[1](q, self.y if y is None else y))
+
+    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None,
+              width: float | None = None) -> tuple[np.ndarray, Any]:  # fmt: skip
+        """Scaled solution and SciPy's outcome, some parameters held; ``width`` is the scale of a robust loss (None: plain squares)."""
+        held = fixed or {}
+        free = np.array([n not in held for n in self.names])
+        template = np.array([held.get(n, 0.0) for n in self.names]) / self.scale
+        low, high = (np.array([self.bounds[n][side] for n in self.names]) / self.scale for side in (0, 1))
+
+        def whole(part: np.ndarray) -> np.ndarray:
+            full = template.copy()
+            full[free] = part
+            return full
+
+        if not free.any():
+            return template, None
+        robust = {} if width is None else {"loss": self.loss.rho, "f_scale": self.loss.threshold * width}
+        outcome = least_squares(
+            lambda part: self.residual(whole(part), y), np.clip(q, low, high)[free],
+            jac=lambda part: self.jacobian(whole(part), y)[:, free],  # type: ignore[arg-type]
+            bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
+        )  # fmt: skip
+        return whole(outcome.x), outcome
+
+
+def fit(
+    model: Callable[[dict[str, Any], Any], Any],
+    start: Mapping[str, float],
+    x: Any,
+    y: Any,
+    *,
+    sigma: Any = None,
+    keep: Any = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    scale: Mapping[str, float] | None = None,
+    loss: Loss | None = None,
+    kinds: Mapping[str, Any] | None = None,
+    derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None,
+    card: str = "",
+    flags: list[dict[str, Any]] | None = None,
+) -> Fit:
+    """Fit ``model(parameters, x)`` to ``y``.
+
+    Parameters
+    ----------
+    start: first values by name; their size is the scale of each parameter unless ``scale`` gives it.
+    x, y: data; ``y`` (and what the model returns) may be a tuple of arrays, one for each joint data set.
+    sigma: standard deviation of y, one number, an array or a tuple like y: weights the points and makes joint data sets
+        comparable. Its overall size is estimated, not believed.
+    keep: True for the points to use, in the order of the ravelled y.
+    bounds: lowest and highest value by name; a parameter that ends on its bound is flagged and gets no interval.
+    loss: ``LeastSquares()``, ``Huber()`` or ``SoftL1()``.
+    kinds: kinds of parameters and derived quantities by name, for their units.
+    derived: function of the parameters whose results get intervals too.
+    """
+    names = tuple(start)
+    measured = np.asarray(ravel_pytree(jax.tree.map(lambda v: jnp.asarray(v, dtype=float), y))[0])
+    problem = Problem(
+        model=model, x=x, y=measured, sigma=_spread(sigma, y), names=names, loss=loss or LeastSquares(),
+        keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
+        scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
+        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names},
+    )  # fmt: skip
+    first = np.array([start[n] for n in names]) / problem.scale
+    _check(problem, first)
+    q, width, held = _settle(problem, first)
+    return _conclude(problem, q, width, held, kinds or {}, derived, card, list(flags or []))
+
+
+def _spread(sigma: Any, y: Any) -> np.ndarray:
+    like = jax.tree.map(lambda v: jnp.ones(jnp.shape(v)), y)
+    if sigma is None:
+        spread = like
+    elif jax.tree.structure(sigma) == jax.tree.structure(y):
+        spread = jax.tree.map(lambda s, ones: s * ones, sigma, like)
+    else:
+        spread = jax.tree.map(lambda ones: sigma * ones, like)
+    found = np.asarray(ravel_pytree(spread)[0])
+    if not np.all(found > 0):
+        raise InputError(_("Standard deviations of the data must be greater than zero."))
+    return found
+
+
+def _check(problem: Problem, first: np.ndarray) -> None:
+    used, count = int(problem.keep.sum()), len(problem.names)
+    if used <= count:
+        raise InputError(
+            _("{used} usable points are too few to fit {count} parameters: give at least {least}.").format(
+                used=used, count=count, least=count + 1
+            )
+        )
+    if not np.all(np.isfinite(problem.y)):
+        raise InputError(_("The data contain values that are not finite numbers."))
+    if not np.all(np.isfinite(problem.residual(first))):
+        start = {n: float(v) for n, v in zip(problem.names, first * problem.scale, strict=True)}
+        raise InputError(_("The model has no finite value at the start values {start}.").format(start=start))
+
+
+def _settle(problem: Problem, q: np.ndarray) -> tuple[np.ndarray, float | None, dict[str, float]]:
+    """Scaled solution, scale of the residuals of a robust loss, and parameters that ended on a bound."""
+    held: dict[str, float] = {}
+    width: float | None = None
+    while True:
+        q, width = _solve(problem, q, held)
+        reached = {}
+        for name, value, size in zip(problem.names, q, problem.scale, strict=True):
+            for bound in problem.bounds[name]:
+                if name not in held and np.isfinite(bound) and abs(value - bound / size) <= 1e-7 * max(1.0, abs(bound / size)):
+                    reached[name] = bound
+        if not reached or len(held) + len(reached) >= len(problem.names):
+            return q, width, held | reached
+        held |= reached
+
+
+def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[np.ndarray, float | None]:
+    q, outcome = problem.solve(q, fixed=held)
+    width = None
+    if problem.loss.robust:
+        for _round in range(SCALE_ROUNDS):
+            size = np.abs(problem.residual(q))
+            new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-300)
+            settled = width is not None and abs(new - width) <= 1e-8 * new
+            width = new
+            if settled:
+                break
+            q, outcome = problem.solve(q, fixed=held, width=width)
+    if outcome is None or not outcome.success:
+        last = {n: float(v) for n, v in zip(problem.names, q * problem.scale, strict=True)}
+        raise ConvergenceError(_("The fit did not converge; last values {last}.").format(last=last), last=last)
+    return q, width
+
+
+def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], kinds: Mapping[str, Any],
+              derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None, card: str, flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
+    names, scale = problem.names, problem.scale
+    values = {n: float(held.get(n, v)) for n, v in zip(names, q * scale, strict=True)}
+    residual, jacobian = problem.residual(q), problem.jacobian(q)
+    free = np.array([n not in held for n in names])
+    used, dof = residual.size, residual.size - int(free.sum())
+    lengths = np.linalg.norm(jacobian, axis=0)
+    _u, singular, rotation = np.linalg.svd(jacobian[:, free] / np.where(lengths[free] > 0, lengths[free], 1.0), full_matrices=False)
+    condition = float(singular[0] / singular[-1]) if singular.size and singular[-1] > 0 else np.inf
+    squares = float(residual @ residual)
+    variance = squares / dof if width is None else _robust_variance(problem.loss, residual, width, int(free.sum()))
+    covariance = np.zeros((len(names), len(names)))
+    if condition < 1e12:
+        inverse = (rotation.T / singular**2) @ rotation
+        covariance[np.ix_(free, free)] = variance * inverse * np.outer((scale / lengths)[free], (scale / lengths)[free])
+    else:
+        covariance[np.ix_(free, free)] = np.nan
+    units = {n: kind.unit for n, annotation in kinds.items() if (kind := kind_of(annotation))}
+    reach = t_reach(0.95, dof)
+    parameters = {}
+    for i, n in enumerate(names):
+        error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
+        parameters[n] = Estimate(values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error))
+    whole = np.asarray(ravel_pytree(problem.model(dict(zip(names, q * scale, strict=True)), problem.x))[0])
+    weight = 1.0 / problem.sigma[problem.keep] ** 2
+    kept_y = problem.y[problem.keep]
+    spread = float(np.sum(weight * (kept_y - np.average(kept_y, weights=weight)) ** 2))
+    count = int(free.sum()) + 1
+    correction = 2.0 * count * (count + 1) / (used - count - 1) if used > count + 1 else np.inf
+    statistics = {
+        "rmse": float(np.sqrt(np.mean((residual * problem.sigma[problem.keep]) ** 2))),
+        "r_squared": 1.0 - squares / spread if spread > 0 else np.nan,
+        "aicc": used * float(np.log(squares / used)) + 2 * count + correction if squares > 0 else -np.inf,
+        "degrees_of_freedom": float(dof),
+        "points": float(used),
+        "points_excluded": float((~problem.keep).sum()),
+        "residual_standard_deviation": float(np.sqrt(variance)),
+        "condition": condition,
+    }
+    flags += _warnings(parameters, covariance, held, condition, card)
+    found = {} if derived is None else derive(derived, values, covariance, dof, units)
+    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, replace(problem))
+
+
+def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:
+    """Huber's estimate of the variance that takes the place of s² in the covariance (Huber 1981, § 7.6)."""
+    psi, slope = loss.influence(residual / width)
+    mean = float(np.mean(slope))
+    correction = 1.0 + count / residual.size * float(np.var(slope)) / mean**2
+    return correction**2 * width**2 * float(psi @ psi) / (residual.size - count) / mean**2
+
+
+def _warnings(parameters: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,
+              card: str) -> list[dict[str, Any]]:  # fmt: skip
+    found = []
+    for name in held:
+        found.append(note("at bound", _("'{name}' ended on its bound: the data do not determine it.").format(name=name), card, name))
+    if condition >= COLLINEAR:
+        deviation = np.sqrt(np.diag(covariance))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            correlation = np.abs(np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation)))
+        i, j = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
+        names = list(parameters)
+        found.append(
+            note(
+                "poorly identified",
+                _("'{one}' and '{other}' can hardly be told apart by these data (condition {condition}).").format(
+                    one=names[i], other=names[j], condition=f"{condition:.0f}" if np.isfinite(condition) else "∞"
+                ),
+                card,
+                names[i],
+            )
+        )
+    for name, estimate in parameters.items():
+        low, high = estimate.interval_95
+        if name not in held and low < 0.0 < high:
+            found.append(note("not significant", _("'{name}' does not differ from zero at 95 %.").format(name=name), card, name))
+    return found
+
+
+def note(word: str, message: str, card: str, name: str = "") -> dict[str, Any]:
+    """One flag of a fit: a short word and a sentence."""
+    return {"flag": word, "name": name, "card": card, "message": message}

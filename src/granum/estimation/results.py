@@ -1,0 +1,193 @@
+"""What a fit gives: estimates with intervals, covariance, statistics, bands, samples, and the stable JSON shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.flatten_util import ravel_pytree
+from scipy import stats
+
+from granum.core.errors import unknown_name
+from granum.core.i18n import _
+
+if TYPE_CHECKING:
+    from granum.estimation.intervals import Profile
+    from granum.estimation.least_squares import Problem
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One estimated quantity, SI: value, standard error and 95 % t-interval."""
+
+    value: float
+    unit: str = ""
+    standard_error: float = np.nan
+    interval_95: tuple[float, float] = (np.nan, np.nan)
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data; what is not known is null."""
+        low, high = map(_number, self.interval_95)
+        return {
+            "value": _number(self.value),
+            "unit": self.unit,
+            "standard_error": _number(self.standard_error),
+            "interval_95": [low, high],
+        }
+
+
+class Band(NamedTuple):
+    """Model values with the lower and upper edge of their band."""
+
+    value: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The outcome of a fit.
+
+    Parameters
+    ----------
+    parameters: estimates by name.
+    covariance: of the parameters in that order; rows of parameters held at a bound are zero.
+    residuals: measured less model, in the units of y (all points; see ``kept``).
+    kept: which points were used.
+    statistics: rmse, r_squared, aicc, degrees_of_freedom, points, condition, residual_standard_deviation …
+    derived: quantities computed from the parameters, with intervals by the delta method.
+    flags: records with a word and a sentence.
+    """
+
+    card: str
+    parameters: dict[str, Estimate]
+    covariance: np.ndarray
+    residuals: np.ndarray
+    kept: np.ndarray
+    statistics: dict[str, float]
+    derived: dict[str, Estimate]
+    flags: list[dict[str, Any]]
+    problem: Problem = field(repr=False)
+
+    def __getitem__(self, name: str) -> Estimate:
+        found = {**self.derived, **self.parameters}
+        if name not in found:
+            raise unknown_name(_("Estimate"), name, found)
+        return found[name]
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Parameter values by name."""
+        return {name: estimate.value for name, estimate in self.parameters.items()}
+
+    @property
+    def correlation(self) -> np.ndarray:
+        """Correlation matrix of the parameters; NaN for one held at a bound."""
+        deviation = np.sqrt(np.diag(self.covariance))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return self.covariance / np.outer(deviation, deviation)
+
+    def predict(self, x: Any, *, level: float = 0.95, observation: bool = False) -> Band:
+        """Model values at ``x`` with the band of the mean, or of a new observation (constant scatter)."""
+        flat, unravel = ravel_pytree({n: float(v) for n, v in self.values.items()})
+        order = _order(self.values)
+
+        def model(vector: Any) -> Any:
+            return ravel_pytree(self.problem.model(unravel(vector), x))[0]
+
+        value, slope = model(flat), jax.jacfwd(model)(flat)
+        variance = jnp.einsum("ij,jk,ik->i", slope, self.covariance[np.ix_(order, order)], slope)
+        if observation:
+            variance = variance + self.statistics["residual_standard_deviation"] ** 2
+        reach = np.asarray(jnp.sqrt(variance)) * t_reach(level, self.statistics["degrees_of_freedom"])
+        return Band(np.asarray(value), np.asarray(value) - reach, np.asarray(value) + reach)
+
+    def derive(
+        self, function: Callable[[dict[str, Any]], Mapping[str, Any]], units: Mapping[str, str] | None = None
+    ) -> dict[str, Estimate]:
+        """Quantities computed from the parameters, with intervals by the delta method."""
+        return derive(function, self.values, self.covariance, self.statistics["degrees_of_freedom"], units or {})
+
+    def sample(self, count: int, seed: int = 0) -> dict[str, np.ndarray]:
+        """Draws from the joint distribution of the parameters (multivariate t), kept inside their bounds."""
+        rng = np.random.default_rng(seed)
+        center = np.array(list(self.values.values()))
+        root = _square_root(self.covariance)
+        dof = self.statistics["degrees_of_freedom"]
+        low, high = (np.array(side) for side in zip(*(self.problem.bounds[n] for n in self.values), strict=True))
+        kept = np.empty((0, len(center)))
+        for _round in range(100):
+            normal = rng.standard_normal((count, len(center))) @ root.T
+            shrink = np.sqrt(rng.chisquare(dof, count) / dof)
+            drawn = center + normal / shrink[:, None]
+            kept = np.concatenate([kept, drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]])
+            if len(kept) >= count:
+                break
+        return dict(zip(self.values, kept[:count].T, strict=True))
+
+    def profile(self, name: str, points: int = 21) -> Profile:
+        """Profile likelihood of one parameter; see ``granum.estimation.intervals.profile``."""
+        from granum.estimation.intervals import profile
+
+        return profile(self, name, points)
+
+    def bootstrap(self, count: int = 500, seed: int = 0) -> Mapping[str, np.ndarray]:
+        """Parameters refitted to resampled residuals; see ``granum.estimation.intervals.bootstrap``."""
+        from granum.estimation.intervals import bootstrap
+
+        return bootstrap(self, count, seed)
+
+    def as_json(self) -> dict[str, Any]:
+        """The stable ``fit`` shape."""
+        return {
+            "card": self.card,
+            "parameters": {name: e.as_json() for name, e in self.parameters.items()},
+            "derived": {name: e.as_json() for name, e in self.derived.items()},
+            "statistics": {name: _number(value) for name, value in self.statistics.items()},
+            "flags": self.flags,
+        }
+
+
+def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapping[str, float], covariance: np.ndarray,
+           degrees_of_freedom: float, units: Mapping[str, str]) -> dict[str, Estimate]:  # fmt: skip
+    """Delta method: value, standard error and t-interval of any function of the parameters."""
+    names = list(values)
+    vector = jnp.array([values[n] for n in names])
+
+    def flat(v: Any) -> dict[str, Any]:
+        return dict(function(dict(zip(names, v, strict=True))))
+
+    out, slopes = flat(vector), jax.jacfwd(flat)(vector)
+    reach = t_reach(0.95, degrees_of_freedom)
+    found = {}
+    for name, value in out.items():
+        row = np.asarray(slopes[name])
+        error = float(np.sqrt(max(row @ covariance @ row, 0.0)))
+        found[name] = Estimate(float(value), units.get(name, ""), error, (float(value) - reach * error, float(value) + reach * error))
+    return found
+
+
+def t_reach(level: float, degrees_of_freedom: float) -> float:
+    """How many standard errors a two-sided interval reaches (Student)."""
+    return float(stats.t.ppf(0.5 + level / 2.0, degrees_of_freedom)) if degrees_of_freedom >= 1 else np.nan
+
+
+def _order(values: Mapping[str, float]) -> list[int]:
+    """Position in ``values`` of each entry of the ravelled dict (JAX sorts keys)."""
+    names = list(values)
+    return [names.index(name) for name in sorted(names)]
+
+
+def _square_root(matrix: np.ndarray) -> np.ndarray:
+    scale = np.sqrt(np.diag(matrix))
+    safe = np.where(scale > 0, scale, 1.0)
+    weights, vectors = np.linalg.eigh(matrix / np.outer(safe, safe))
+    return scale[:, None] * vectors * np.sqrt(np.maximum(weights, 0.0))
+
+
+def _number(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None

@@ -1,0 +1,159 @@
+"""Data files: CSV, TSV, semicolons with decimal commas, or XLSX, whose header names columns with units in any order."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from granum.core.errors import InputError, nearest
+from granum.core.i18n import _
+from granum.core.parameters import Parameter
+from granum.core.units import to_si
+
+_HEADER = re.compile(r"^\s*(.*?)\s*(?:[\[(]\s*(.*?)\s*[\])]|\s/\s*(.+?))?\s*$")
+Row = tuple[int, list[Any]]
+Source = str | Path | IO[Any]
+
+
+def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.ndarray]:
+    """The columns of a data file as SI arrays by name; other columns of the file are ignored.
+
+    The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``. Lines that start
+    with ``#`` are comments. Missing optional columns are left out.
+    """
+    where = _(" in {file}").format(file=getattr(source, "name", source))
+    rows = list(_rows(source, where))
+    if not rows:
+        raise InputError(_("There is no header line{where}.").format(where=where))
+    (_line, header), body = rows[0], rows[1:]
+    units: dict[str, str | None] = {}
+    places: dict[str, int] = {}
+    for place, cell in enumerate(header):
+        name, unit = _heading(str(cell or ""))
+        if name in places:
+            raise InputError(_("Column '{name}' stands twice{where}.").format(name=name, where=where), name=name)
+        places[name], units[name] = place, unit
+    found: dict[str, np.ndarray] = {}
+    for p in columns:
+        if p.name not in places:
+            close = nearest(p.name, places)
+            if p.required or (close and nearest(close, [p.name]) and close.replace("_", "")[:6] == p.name.replace("_", "")[:6]):
+                raise _no_column(p, places, close, where)
+            continue
+        place = places[p.name]
+        cells = [(line, row[place] if place < len(row) else None) for line, row in body]
+        found[p.name] = _column(p, units[p.name], cells, where)
+    return found
+
+
+def _heading(cell: str) -> tuple[str, str | None]:
+    match = _HEADER.match(cell)
+    assert match is not None
+    name = match.group(1).strip().lower().replace(" ", "_").replace("-", "_")
+    return name, match.group(2) if match.group(2) is not None else match.group(3)
+
+
+def _no_column(p: Parameter, places: Iterable[str], close: str | None, where: str) -> InputError:
+    example = f"{p.name} [{p.units[0]}]" if p.units else p.name
+    message = _("There is no column '{example}' ({label}){where}.").format(example=example, label=p.label, where=where)
+    if close:
+        message += " " + _("Column '{close}' looks like it: rename it to '{name}'.").format(close=close, name=p.name)
+    else:
+        message += " " + _("Columns found: {names}.").format(names=", ".join(n for n in places if n) or "—")
+    return InputError(message, name=p.name, did_you_mean=close)
+
+
+def _column(p: Parameter, unit: str | None, cells: list[tuple[int, Any]], where: str) -> np.ndarray:
+    assert p.kind is not None
+    if unit is None and p.kind.unit not in ("dimensionless", "kg/kg"):
+        raise InputError(
+            _("Column '{name}' has no unit{where}. Write its header as '{example}'.").format(
+                name=p.name, where=where, example=f"{p.name} [{p.units[0]}]"
+            ),
+            name=p.name,
+            allowed=list(p.units),
+        )
+    values = []
+    for line, cell in cells:
+        try:
+            value = float(cell)
+        except (TypeError, ValueError):
+            value = np.nan
+        if not np.isfinite(value):
+            raise InputError(
+                _("Line {line}, column '{name}': '{text}' is not a number{where}.").format(
+                    line=line, name=p.name, text="" if cell is None else cell, where=where
+                ),
+                name=p.name,
+                line=line,
+            )
+        values.append(value)
+    array = np.asarray(to_si(np.asarray(values), unit or p.kind.unit, p.kind, p.name), dtype=float)
+    bad = ~np.asarray(p.kind.contains(array))
+    if bad.any():
+        line, cell = cells[int(np.argmax(bad))]
+        raise InputError(
+            _("Line {line}, column '{name}': {text} {unit} is not possible for a {kind}{where}.").format(
+                line=line, name=p.name, text=cell, unit=unit or "", kind=_(p.kind.name), where=where
+            ),
+            name=p.name,
+            line=line,
+        )
+    return array
+
+
+def _rows(source: Source, where: str) -> Iterable[Row]:
+    """Line number and cells of every line that is neither empty nor a comment."""
+    raw = _bytes(source, where)
+    if raw[:2] == b"PK":
+        yield from _sheet(raw, where)
+        return
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("cp1252", errors="replace")
+    lines = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and not line.lstrip().startswith("#")]
+    if not lines:
+        return
+    separator = max("\t;,", key=lambda mark: (lines[0][1].count(mark), mark == ","))
+    for i, line in lines:
+        cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+        if any(cells):
+            yield i, [cell.replace(",", ".") if separator != "," and i != lines[0][0] else cell for cell in cells]
+
+
+def _bytes(source: Source, where: str) -> bytes:
+    if not isinstance(source, (str, Path)):
+        content = source.read()
+        return content.encode("utf-8") if isinstance(content, str) else content
+    path = Path(source)
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        close = nearest(path.name, [p.name for p in path.parent.iterdir()]) if path.parent.is_dir() else None
+        message = _("There is no data file '{file}'.").format(file=source)
+        if close:
+            message += " " + _("Did you mean '{close}'?").format(close=path.parent / close)
+        raise InputError(message, name=str(source), did_you_mean=close) from None
+    except OSError as problem:
+        raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)) from None
+
+
+def _sheet(raw: bytes, where: str) -> Iterable[Row]:
+    from zipfile import BadZipFile
+
+    import openpyxl
+
+    try:
+        book = openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
+    except (BadZipFile, KeyError, ValueError) as problem:
+        raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
+    for i, cells in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
+        if any(cell is not None for cell in cells) and not str(cells[0]).startswith("#"):
+            yield i, list(cells)
