@@ -19,6 +19,7 @@ from granum.core.formulas import Formula
 from granum.core.glossary import quantity_in
 from granum.core.i18n import catalog
 from granum.core.sources import bibliography, keys_of
+from granum.reports.mathml import mathml
 
 # GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
 EVERYTHING = registry.everything(tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS)
@@ -53,6 +54,7 @@ def test_declaration_is_complete(key: str) -> None:
         assert quantity_in(p.name), f"'{p.name}' is not in the glossary"
         assert p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty, f"'{p.name}' has no kind"
     assert card.english_summary.endswith("."), "the docstring starts with one sentence"
+    assert "<math" in mathml(card.equation or "x")
     for text in (card.given_title, card.english_summary):
         assert not text or text in catalog("fr"), f"no French for: {text}"
     known = {p.name for p in (*card.parameters, *card.outputs)}

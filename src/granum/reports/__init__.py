@@ -1,1 +1,1 @@
-""""""
+"""Reports: terminal tables, calculation notes, HTML reports of lines."""

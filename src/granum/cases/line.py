@@ -1,0 +1,266 @@
+"""``Line``: a process line as read from a case file. ``Run``: the same, solved and audited."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import equinox as eqx
+import jax
+import numpy as np
+
+from granum.cases.schema import Case
+from granum.core import flags, record_steps
+from granum.core.errors import ConvergenceError, InputError
+from granum.core.formulas import Result
+from granum.core.i18n import _
+from granum.core.parameters import Parameter
+from granum.core.results import plain, quantity_json
+from granum.flowsheet import Flowsheet, Solution, line_closure, unit_closures
+from granum.flowsheet.specifications import Target, design, outlets_of
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+_design = eqx.filter_jit(design)
+
+
+def _traced(tree: Any) -> Any:
+    """Numbers as arrays, so that a compiled line is reused when only values change."""
+    return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A process line: flowsheet, design specifications and the case they came from."""
+
+    title: str
+    sheet: Flowsheet
+    targets: tuple[Target, ...] = ()
+    case: Case | None = None
+    text: str = ""
+
+    def solve(self) -> Run:
+        """Solve, check and audit. Raises ``ConvergenceError`` (with the last iterate) rather than return an unconverged line."""
+        found = _design(_traced(self.sheet), self.targets)
+        run = Run(self, found.line, found.solution, {k: float(v) for k, v in found.values.items()})
+        bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
+        if bool(found.converged) and not bad:
+            return run
+        raise ConvergenceError(_failure(found, bad, self.targets), last=run, **_place(found, bad))
+
+    def with_values(self, **values: Any) -> Line:
+        """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
+        return Line(self.title, self.sheet.with_values(values), self.targets, self.case, self.text)
+
+
+def _place(found: Any, bad: list[str]) -> dict[str, Any]:
+    links = {k.name: k for k in found.line.links}
+    if bad:
+        first = bad[0]
+        return {"stream": first, "unit": links[first].source_unit or None}
+    loops = [b for b in found.line.blocks if b.tears]
+    worst = max(range(len(loops)), key=lambda i: float(found.solution.residual[i]), default=None)
+    if worst is None:
+        return {}
+    tear = loops[worst].tears[0]
+    return {"stream": tear, "unit": links[tear].source_unit, "residual": float(found.solution.residual[worst])}
+
+
+def _failure(found: Any, bad: list[str], targets: tuple[Target, ...]) -> str:
+    place = _place(found, bad)
+    if bad:
+        return _(
+            "Stream '{stream}' from unit '{unit}' is not a finite number: check the inputs of that unit and of those before it."
+        ).format(**place)
+    if not bool(found.solution.converged):
+        return _(
+            "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
+        ).format(stream=place["stream"], unit=place["unit"], residual=f"{place['residual']:.2g}")
+    wanted = "; ".join(f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets)
+    return _("No value of the varied parameters meets the specifications: {wanted}. Widen the limits or change the wanted value.").format(
+        wanted=wanted
+    )
+
+
+@dataclass(frozen=True)
+class UnitReport:
+    """One unit of a solved line: model, figures, checks."""
+
+    name: str
+    model: Any
+    values: Any
+    checks: tuple[Check, ...]
+    closure: Any
+    steps: tuple[Result, ...] = field(default=(), repr=False)
+
+    def figures(self) -> Iterator[tuple[Parameter, Any]]:
+        """Each figure with its declaration."""
+        yield from zip(self.model.card.outputs, self.values, strict=True)
+
+    def parameters(self) -> Iterator[tuple[Parameter, Any]]:
+        """Each parameter of the unit with its value."""
+        for p in self.model.card.parameters:
+            yield p, getattr(self.model, p.name)
+
+    def as_json(self) -> dict[str, Any]:
+        """The stable ``run`` shape of one unit."""
+        return {
+            "model": self.model.card.key,
+            "results": {p.name: quantity_json(value, p) for p, value in self.figures()},
+            "checks": [
+                {
+                    "name": _(c.name),
+                    "value": plain(c.value),
+                    "low": None if c.low == -np.inf else c.low,
+                    "high": None if c.high == np.inf else c.high,
+                    "unit": c.unit,
+                    "ok": c.ok,
+                    "source": c.source,
+                }
+                for c in self.checks
+            ],
+        }
+
+
+@dataclass(frozen=True)
+class Run:
+    """A solved line: streams, unit reports, audit, flags; writes itself as JSON, tables and report."""
+
+    line: Line
+    sheet: Flowsheet
+    solution: Solution
+    found: dict[str, float]
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return self.line.title
+
+    @property
+    def streams(self) -> dict[str, Stream]:
+        """Every stream by name."""
+        return self.solution.streams
+
+    @cached_property
+    def units(self) -> dict[str, UnitReport]:
+        """Every unit's figures and checks."""
+        return {name: self._report(name, note=False) for name in self.sheet.units}
+
+    def _report(self, name: str, note: bool) -> UnitReport:
+        unit = self.sheet.units[name]
+        inlets = self.sheet.inlets_of(name, self.streams)
+        steps: list[Result] = []
+        if note:
+            with record_steps() as steps:
+                outlets = unit(**inlets)
+                values = unit.results(inlets, outlets)
+        else:
+            outlets = outlets_of(self.sheet, self.solution, name)
+            values = _figures(unit, inlets, outlets)
+        return UnitReport(name, unit, values, unit.checks(inlets, outlets), unit_closures(self.sheet, self.solution)[name], tuple(steps))
+
+    @cached_property
+    def notes(self) -> dict[str, tuple[Result, ...]]:
+        """The formulas each unit evaluated, with their numbers: the calculation note."""
+        return {name: self._report(name, note=True).steps for name in self.sheet.units}
+
+    @cached_property
+    def audit(self) -> dict[str, Any]:
+        """Closure of the whole line and the worst unit: largest of both, relative."""
+        whole = line_closure(self.sheet, self.solution)
+        units = {name: (float(c.mass), float(c.energy)) for name, c in unit_closures(self.sheet, self.solution).items()}
+        return {
+            "mass_closure": max(float(whole.mass), *(m for m, _e in units.values())),
+            "energy_closure": max(float(whole.energy), *(e for _m, e in units.values())),
+            "units": {name: {"mass": m, "energy": e} for name, (m, e) in units.items()},
+        }
+
+    @cached_property
+    def flags(self) -> list[dict[str, Any]]:
+        """What the formulas of each unit flagged, with the unit's name."""
+        return [{"unit": unit, **row} for unit, records in self.solution.records.items() for row in flags.describe(records)]
+
+    def figure(self, path: str) -> float:
+        """One result, ``unit.result``, SI."""
+        unit, _dot, name = path.partition(".")
+        if unit not in self.units or not hasattr(self.units[unit].values, name):
+            raise InputError(_("'{path}' is not a result of this line.").format(path=path), path=path)
+        return float(getattr(self.units[unit].values, name))
+
+    def stream_rows(self) -> dict[str, dict[str, float | None]]:
+        """The stream table in kg/h, °C and µm."""
+        rows: dict[str, dict[str, float | None]] = {}
+        for name, s in self.streams.items():
+            rows[name] = {
+                "solid": float(s.solid_flow) * 3600,
+                "liquid": float(s.liquid_flow) * 3600,
+                "gas": float(s.gas_flow) * 3600,
+                "temperature": float(s.temperature) - 273.15,
+                "median": median_size(s),
+            }
+            if rows[name]["median"] is not None:
+                rows[name]["median"] = float(rows[name]["median"] or 0.0) * 1e6
+        return rows
+
+    def as_json(self) -> dict[str, Any]:
+        """The stable ``run`` shape."""
+        return {
+            "title": self.title,
+            "streams": {name: stream_json(s) for name, s in self.streams.items()},
+            "units": {name: report.as_json() for name, report in self.units.items()},
+            "specifications": self.found,
+            "audit": self.audit,
+            "converged": bool(self.solution.converged),
+            "iterations": [int(n) for n in self.solution.steps],
+            "flags": self.flags,
+        }
+
+    def report(self, path: str | Path) -> None:
+        """Write the self-contained HTML report."""
+        from granum.core.files import write_atomic
+        from granum.reports.html import line_report
+
+        write_atomic(path, line_report(self))
+
+    def tables(self, path: str | Path) -> None:
+        """Write streams and results as ``.csv`` or ``.xlsx``."""
+        from granum.reports.sheets import write_tables
+
+        write_tables(self, Path(path))
+
+
+@eqx.filter_jit
+def _figures(unit: Any, inlets: dict[str, Stream], outlets: Any) -> Any:
+    return unit.results(inlets, outlets)
+
+
+def median_size(stream: Stream) -> float | None:
+    """Mass median size of a stream's solid, m, by log-linear interpolation; None without solid."""
+    shares = np.asarray(stream.size_fractions)
+    if shares.sum() <= 0 or float(stream.solid_flow) < 1e-12 * float(stream.mass_flow):
+        return None
+    edges = np.maximum(stream.mixture.edges, 1e-12)
+    return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
+
+
+def stream_json(s: Stream) -> dict[str, Any]:
+    """A stream as plain data, SI."""
+    m = s.mixture
+
+    def named(phase: str, flows: Any) -> dict[str, float | None]:
+        return {species.name: plain(x) for species, x in zip(getattr(m, phase), np.asarray(flows), strict=True)}
+
+    return {
+        "mass_flow": {"value": plain(s.mass_flow), "unit": "kg/s"},
+        "temperature": {"value": plain(s.temperature), "unit": "K"},
+        "pressure": {"value": plain(s.pressure), "unit": "Pa"},
+        "liquid": named("liquids", s.liquid),
+        "gas": named("gases", s.gas),
+        "solid": named("solids", s.solid_by_species),
+        "size": {"boundaries": list(m.size_edges), "mass_fractions": plain(s.size_fractions), "median": median_size(s)}
+        if m.solids
+        else None,
+    }

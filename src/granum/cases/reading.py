@@ -1,0 +1,250 @@
+"""From a TOML file to a ``Line`` that can be solved, with messages that name the table and key at fault."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from pydantic import ValidationError
+
+from granum.cases.line import Line
+from granum.cases.schema import Case, FeedTable, MixtureTable, SizeTable, StreamTable
+from granum.core import registry
+from granum.core.errors import CaseError, GranumError, InputError, unknown_name
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter, convert
+from granum.flowsheet import Flowsheet
+from granum.flowsheet.specifications import Target
+from granum.streams.from_materials import mixture_of
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream, empty
+
+LARGEST_FILE = 2_000_000  # bytes; a case is a page of text
+
+
+def read(path: str | Path) -> Line:
+    """Open a case file.
+
+    >>> line = read("examples/potassium-nitrate/line.toml")  # doctest: +SKIP
+    """
+    path = Path(path)
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise CaseError(_("'{path}' is larger than a case file can be.").format(path=path), path=str(path))
+        text = path.read_text(encoding="utf-8")
+    except OSError as problem:
+        raise CaseError(_("'{path}' cannot be read: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+    except UnicodeDecodeError:
+        raise CaseError(_("'{path}' is not a text file in UTF-8.").format(path=path), path=str(path)) from None
+    return read_text(text, folder=path.parent, name=path.name)
+
+
+def read_text(text: str, folder: Path | None = None, name: str = "case") -> Line:
+    """A line from the text of a case file; ``folder`` is where material files are looked for."""
+    try:
+        raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as problem:
+        raise CaseError(_("{name} is not valid TOML: {problem}.").format(name=name, problem=problem)) from None
+    try:
+        case = Case.model_validate(raw)
+    except ValidationError as problem:
+        raise CaseError(_complaint(name, problem)) from None
+    return build(case, folder=folder, text=text)
+
+
+def _complaint(name: str, problem: ValidationError) -> str:
+    first = problem.errors()[0]
+    place = ".".join(str(part) for part in first["loc"])
+    if first["type"] == "extra_forbidden":
+        owner = _fields_at(first["loc"][:-1])
+        if owner:
+            return (
+                f"{name}: "
+                + unknown_name(
+                    _("Key"), str(first["loc"][-1]), owner, _("in [{place}]").format(place=".".join(map(str, first["loc"][:-1])) or name)
+                ).message
+            )
+    if first["type"] == "missing":
+        return _("{name}: '{place}' is missing.").format(name=name, place=place)
+    return _("{name}: '{place}': {reason}.").format(name=name, place=place, reason=first["msg"])
+
+
+def _fields_at(location: tuple[Any, ...]) -> list[str]:
+    tables = {(): Case, ("mixture",): MixtureTable, ("feeds", "*"): FeedTable, ("streams", "*"): StreamTable}
+    key = tuple(location[:1]) + ("*",) * (len(location) > 1) if location and location[0] in ("feeds", "streams") else tuple(location[:1])
+    model = tables.get(key)
+    return [f.alias or n for n, f in model.model_fields.items()] if model else []
+
+
+def quantity(value: Any, kind: str, name: str, where: str) -> float:
+    """One value of a case file as SI float."""
+    return float(convert(value, Parameter(name, KINDS[kind]), " " + where))
+
+
+def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
+    """The line a validated case describes."""
+    mixture = _mixture(case.mixture, folder)
+    feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
+    units = {name: _unit(name, dict(table)) for name, table in case.units.items()}
+    links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
+    for name, table in case.streams.items():
+        if name in links:
+            raise CaseError(_("[streams] '{name}': a feed has the same name.").format(name=name))
+        if isinstance(table, list):
+            if len(table) not in (1, 2):
+                raise CaseError(_('[streams] \'{name}\': write it as ["unit.outlet", "unit.inlet"].').format(name=name))
+            table = StreamTable.model_validate({"from": table[0], "to": table[1] if len(table) == 2 else ""})
+        links[name] = (table.origin, table.target)
+    sheet = Flowsheet(units, feeds, links)
+    targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
+    return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text)
+
+
+def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
+    s = table.sizes
+    if s.boundaries is not None:
+        edges = np.asarray(convert(s.boundaries, Parameter("boundaries", KINDS["Distance"], series="classes"), _(" in [mixture.sizes]")))
+    else:
+        if s.smallest is None or s.largest is None:
+            raise CaseError(_("[mixture.sizes] needs 'smallest' and 'largest', or 'boundaries'."))
+        low, high = (quantity(v, "Length", n, "in [mixture.sizes]") for n, v in (("smallest", s.smallest), ("largest", s.largest)))
+        if low >= high:
+            raise CaseError(_("[mixture.sizes] 'smallest' must be below 'largest'."))
+        edges = np.geomspace(low, high, s.classes + 1)
+    axes = tuple((name, tuple(axis.boundaries)) for name, axis in table.axes.items())
+    own = [(folder or Path()) / file for file in table.materials]
+    return mixture_of(table.liquids, table.solids, table.gases, edges, axes=axes, own=own)
+
+
+def _shares(phase: str, given: Mapping[str, Any], mixture: Mixture, where: str) -> np.ndarray:
+    shares = np.zeros(len(getattr(mixture, phase)))
+    for name, value in given.items():
+        shares[mixture.index(phase, name)] = quantity(value, "MassFraction", name, where)
+    if not given and len(shares) == 1:
+        shares[0] = 1.0
+    if abs(shares.sum() - 1.0) > 1e-6:
+        raise CaseError(
+            _("{where}: the shares of the {phase} add up to {total}, not 1.").format(
+                where=where, phase=_(phase), total=f"{shares.sum():.6g}"
+            )
+        )
+    return shares / shares.sum()
+
+
+def _feed(name: str, table: FeedTable, mixture: Mixture) -> Stream:
+    where = _("in [feeds.{name}]").format(name=name)
+    solid_flow, liquid_flow = (
+        None if v is None else quantity(v, "MassFlow", n, where)
+        for n, v in (("solid_flow", table.solid_flow), ("liquid_flow", table.liquid_flow))
+    )
+    if table.mass_flow is not None:
+        if solid_flow is not None or liquid_flow is not None:
+            raise CaseError(_("[feeds.{name}]: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(name=name))
+        total = quantity(table.mass_flow, "MassFlow", "mass_flow", where)
+        share = (
+            quantity(table.solids_mass_fraction, "MassFraction", "solids_mass_fraction", where)
+            if table.solids_mass_fraction is not None
+            else 0.0
+        )
+        solid_flow, liquid_flow = total * share, total * (1.0 - share)
+    stream = empty(
+        mixture,
+        quantity(table.temperature, "Temperature", "temperature", where),
+        quantity(table.pressure, "Pressure", "pressure", where),
+    )
+    if liquid_flow:
+        stream = stream.replace(liquid=jnp.asarray(liquid_flow * _shares("liquids", table.liquid, mixture, where)))
+    if solid_flow:
+        by_class = _size_shares(table.sizes, mixture, where)
+        solid = solid_flow * _shares("solids", table.solid, mixture, where)[:, None] * by_class[None, :]
+        solid = solid.reshape(solid.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
+        cells = int(np.prod(mixture.solid_shape[2:]))
+        stream = stream.replace(solid=jnp.asarray(solid / cells))
+    if table.gas_flow is not None:
+        stream = stream.replace(gas=_gas(table, mixture, stream, where))
+    if float(stream.mass_flow) <= 0:
+        raise CaseError(_("[feeds.{name}] carries nothing: give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(name=name))
+    return stream
+
+
+def _gas(table: FeedTable, mixture: Mixture, stream: Stream, where: str) -> Any:
+    flow = quantity(table.gas_flow, "MassFlow", "gas_flow", where)
+    if table.relative_humidity is None:
+        return jnp.asarray(flow * _shares("gases", table.gas, mixture, where))
+    from granum.humid_gas import state
+
+    if len(mixture.gases) != 2:
+        raise CaseError(_("{where}: 'relative_humidity' needs a mixture with a carrier gas and a vapor.").format(where=where))
+    humidity = state(
+        temperature=float(stream.temperature),
+        pressure=float(stream.pressure),
+        relative_humidity=quantity(table.relative_humidity, "RelativeHumidity", "relative_humidity", where),
+    ).humidity_ratio
+    return jnp.asarray([flow, flow * humidity])
+
+
+def _size_shares(table: SizeTable | None, mixture: Mixture, where: str) -> np.ndarray:
+    count = len(mixture.sizes)
+    if table is None:
+        raise CaseError(
+            _('{where}: a feed with solid needs its size distribution, as sizes = {{ law = "rosin_rammler", … }}.').format(where=where)
+        )
+    if table.fractions is not None:
+        shares = np.asarray(table.fractions, dtype=float)
+        if shares.shape != (count,) or np.any(shares < 0) or abs(shares.sum() - 1.0) > 1e-6:
+            raise CaseError(
+                _("{where}: 'sizes.fractions' needs {count} values of zero or more that add up to 1.").format(where=where, count=count)
+            )
+        return shares
+    if table.law is None:
+        raise CaseError(_("{where}: 'sizes' needs 'law' or 'fractions'.").format(where=where))
+    options = dict(table.model_extra or {})
+    distribution = registry.law("size_distribution", table.law, where, options)
+    cumulative = np.asarray(distribution(mixture.edges))
+    inside = cumulative[-1] - cumulative[0]
+    if inside < 0.98:
+        raise CaseError(
+            _("{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes].").format(
+                where=where, missing=f"{100 * (1 - inside):.3g}"
+            )
+        )
+    shares = np.diff(cumulative)
+    shares[0] += cumulative[0]
+    shares[-1] += 1.0 - cumulative[-1]
+    return shares
+
+
+def _unit(name: str, table: dict[str, Any]) -> Any:
+    model = table.pop("model", None)
+    if not isinstance(model, str):
+        raise CaseError(_("[units.{name}] needs 'model', such as model = \"streams.mixer\".").format(name=name), unit=name)
+    try:
+        thing = registry.find(model)
+        if thing.card.sort != "equipment":
+            raise InputError(_("'{model}' is a {sort}, not equipment.").format(model=model, sort=_(thing.card.sort)))
+        return thing(**table)
+    except GranumError as problem:
+        raise CaseError(f"[units.{name}] {problem.message}", unit=name, **problem.details) from None
+
+
+def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:
+    where = _("in [specifications.{name}]").format(name=name)
+    head, *rest = sheet.locate(spec.vary)
+    if head not in sheet.units or len(rest) != 1:
+        raise CaseError(_("{where}: 'vary' must be unit.parameter.").format(where=where))
+    parameter = type(sheet.units[head]).card.parameter(rest[0])
+    low, high = (float(convert(v, parameter, " " + where)) for v in (spec.lower, spec.upper))
+    unit, _dot, figure = spec.so_that.partition(".")
+    if unit in sheet.units:
+        outputs = {p.name: p for p in type(sheet.units[unit]).card.outputs}
+        if figure not in outputs:
+            raise CaseError(unknown_name(_("Result"), figure, outputs, where).message)
+        wanted = float(convert(spec.equals, outputs[figure], " " + where))
+    else:
+        raise CaseError(unknown_name(_("Unit"), unit, sheet.units, where).message)
+    return Target(spec.vary, spec.so_that, wanted, low, high)

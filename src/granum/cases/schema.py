@@ -1,0 +1,105 @@
+"""The shape of a case file. JSON Schema for editors comes from here: ``Case.model_json_schema()``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Quantity = str | float | int
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class Sizes(_Strict):
+    """Particle size classes shared by all streams: geometric between two sizes, or given boundaries."""
+
+    smallest: Quantity | None = None
+    largest: Quantity | None = None
+    classes: int = Field(default=40, ge=1, le=2000)
+    boundaries: str | list[Quantity] | None = None
+
+
+class Axis(_Strict):
+    """A further attribute of the particles: its class boundaries (plain numbers, SI)."""
+
+    boundaries: list[float]
+
+
+class MixtureTable(_Strict):
+    """What the streams are made of, by material name."""
+
+    liquids: list[str] = []
+    solids: list[str] = []
+    gases: list[str] = []
+    sizes: Sizes = Sizes(smallest="1 um", largest="10 mm")
+    axes: dict[str, Axis] = {}
+    materials: list[str] = Field(default=[], description="TOML files of own materials, relative to the case file")
+
+
+class SizeTable(BaseModel):
+    """Size distribution of a feed: a law with its parameters, or mass fractions per class."""
+
+    model_config = ConfigDict(extra="allow")
+    law: str | None = None
+    fractions: list[float] | None = None
+
+
+class FeedTable(_Strict):
+    """A stream entering from outside. Shares are mass fractions within the phase; flows are of the whole phase."""
+
+    to: str
+    temperature: Quantity = "25 degC"
+    pressure: Quantity = "1 atm"
+    mass_flow: Quantity | None = Field(default=None, description="solid and liquid together, divided by 'solids_mass_fraction'")
+    solids_mass_fraction: Quantity | None = None
+    liquid_flow: Quantity | None = None
+    liquid: dict[str, Quantity] = {}
+    solid_flow: Quantity | None = None
+    solid: dict[str, Quantity] = {}
+    gas_flow: Quantity | None = None
+    gas: dict[str, Quantity] = {}
+    relative_humidity: Quantity | None = Field(default=None, description="of a gas feed: sets its vapor; 'gas_flow' is then dry gas")
+    sizes: SizeTable | None = None
+
+
+class StreamTable(_Strict):
+    """A connection: ``from`` and ``to`` as unit.port; a port may be left out when there is only one."""
+
+    origin: str = Field(alias="from")
+    target: str = Field(alias="to", default="")
+
+
+class Specification(_Strict):
+    """A design specification: vary one parameter so that one result takes a value."""
+
+    vary: str
+    so_that: str
+    equals: Quantity
+    lower: Quantity
+    upper: Quantity
+
+
+class Project(_Strict):
+    """Title block of the report."""
+
+    project: str = ""
+    author: str = ""
+    date: str = ""
+
+
+class Case(_Strict):
+    """A whole case file."""
+
+    title: str
+    description: str = ""
+    language: str | None = None
+    report: Project = Project()
+    mixture: MixtureTable
+    feeds: dict[str, FeedTable]
+    units: dict[str, dict[str, Any]]
+    streams: dict[str, StreamTable | list[str]] = {}
+    specifications: dict[str, Specification] = {}
+    study: dict[str, Any] = {}

@@ -1,0 +1,211 @@
+"""``granum`` on the command line: calc, fit, run, study, chart, list, show, app. Holds no physics."""
+
+from __future__ import annotations
+
+import functools
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
+
+import typer
+
+from granum.core.errors import GranumError, InputError
+from granum.core.i18n import _, set_language
+
+app = typer.Typer(
+    name="granum",
+    help="Fluid–solid unit operations: calculate, fit lab data, run process lines.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+Pairs = Annotated[list[str] | None, typer.Argument(help="Inputs as name=value, with units: particle_diameter=85um.", show_default=False)]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
+Key = Annotated[str, typer.Argument(help="Card, as domain.name; see 'granum list'.")]
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).")]
+
+
+@app.callback()
+def _options(lang: Annotated[str, typer.Option("--lang", help="Language of messages: en or fr.", envvar="GRANUM_LANG")] = "") -> None:
+    if lang:
+        if lang not in ("en", "fr"):
+            raise typer.BadParameter("choose en or fr", param_hint="--lang")
+        set_language(lang)
+
+
+def _fail(problem: GranumError, as_json: bool) -> NoReturn:
+    if as_json:
+        print(json.dumps({"error": problem.as_json()}, ensure_ascii=False))
+    print(problem.message, file=sys.stderr)
+    raise SystemExit(problem.exit_code)
+
+
+def _one_message(command: Callable[..., None]) -> Callable[..., None]:
+    """Turns errors raised on purpose into one message and an exit status."""
+
+    @functools.wraps(command)
+    def run(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except GranumError as problem:
+            _fail(problem, bool(kwargs.get("as_json")))
+        except KeyboardInterrupt:
+            raise SystemExit(130) from None
+
+    return run
+
+
+def _pairs(words: list[str] | None) -> dict[str, str]:
+    values: dict[str, str] = {}
+    for word in words or []:
+        name, equals, value = word.partition("=")
+        if not equals or not name:
+            raise InputError(_("'{word}' is not of the form name=value, such as particle_diameter=85um.").format(word=word))
+        if name in values:
+            raise InputError(_("'{name}' was given twice.").format(name=name), name=name)
+        values[name] = value
+    return values
+
+
+def _emit(data: dict[str, Any]) -> None:
+    print(json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1))
+
+
+@app.command()
+@_one_message
+def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
+    """Evaluate a formula, a law or a procedure."""
+    from granum.core import registry
+
+    thing = registry.find(key)
+    if not hasattr(thing, "evaluate"):
+        hint = {"lab test": "granum fit {key} data.csv …", "equipment": "granum run case.toml"}.get(thing.card.sort, "granum show {key}")
+        raise InputError(
+            _("'{key}' is a {sort}, which 'calc' cannot evaluate; use: {hint}").format(
+                key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
+            )
+        )
+    result = thing.evaluate(**_pairs(inputs))
+    if as_json:
+        _emit(result.as_json())
+    else:
+        from granum.reports.terminal import print_result
+
+        print_result(result)
+
+
+@app.command()
+@_one_message
+def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with units in the header.")], conditions: Pairs = None,
+        as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None) -> None:  # fmt: skip
+    """Fit a lab test to a data file: parameters with 95 % intervals."""
+    from granum.core import registry
+
+    thing = registry.find(key)
+    if thing.card.sort != "lab test":
+        raise InputError(
+            _("'{key}' is a {sort}, not a lab test; 'granum list --sort \"lab test\"' shows those.").format(
+                key=key, sort=_(thing.card.sort)
+            )
+        )
+    test = thing.read(data, **_pairs(conditions))
+    found = test.fit()
+    if chart is not None:
+        from granum.core.files import write_atomic
+
+        write_atomic(chart, test.chart(found).to_html(include_plotlyjs=True))
+    if as_json:
+        _emit(found.as_json())
+    else:
+        from granum.reports.terminal import print_fit
+
+        print_fit(found, saved=chart)
+
+
+@app.command()
+@_one_message
+def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
+        tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None) -> None:  # fmt: skip
+    """Solve a case file: streams, sizes, duties, checks, audit."""
+    from granum.cases import read
+    from granum.reports.progress import working
+
+    with working(_("Reading {file}").format(file=case.name), quiet=as_json):
+        line = read(case)
+    with working(_("Solving {title}").format(title=line.title), quiet=as_json):
+        outcome = line.solve()
+    if report is not None:
+        with working(_("Writing the report"), quiet=as_json):
+            outcome.report(report)
+    if tables is not None:
+        outcome.tables(tables)
+    if as_json:
+        _emit(outcome.as_json())
+    else:
+        from granum.reports.terminal import print_run
+
+        print_run(outcome, saved=[p for p in (report, tables) if p is not None])
+
+
+@app.command()
+@_one_message
+def chart(
+    key: Key, inputs: Pairs = None, out: Annotated[Path, typer.Option("--out", "-o", help="HTML file to write.")] = Path("chart.html")
+) -> None:
+    """Draw a chart and save it as HTML."""
+    from granum.core import registry
+    from granum.core.files import write_atomic
+
+    thing = registry.find(key)
+    if thing.card.sort != "chart":
+        raise InputError(
+            _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(key=key, sort=_(thing.card.sort))
+        )
+    write_atomic(out, thing(**_pairs(inputs)).to_html(include_plotlyjs=True))
+    print(_("saved to {path}").format(path=out))
+
+
+@app.command("list")
+@_one_message
+def list_cards(word: Annotated[str, typer.Argument(help="Show only cards that contain this word.")] = "", as_json: Json = False,
+               sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "") -> None:  # fmt: skip
+    """List the cards."""
+    from granum.core import registry
+
+    cards = [thing.card for thing in registry.everything().values()]
+    needle = word.lower()
+    found = [c for c in cards if needle in f"{c.key} {c.title} {c.summary}".lower() and (not sort or c.sort == sort)]
+    if as_json:
+        _emit({"cards": [{"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found]})
+    else:
+        from granum.reports.terminal import print_list
+
+        print_list(found)
+
+
+@app.command()
+@_one_message
+def show(key: Key, as_json: Json = False) -> None:
+    """Show a card: inputs with units and limits, outputs, equation, source."""
+    from granum.core import registry
+
+    card = registry.find(key).card
+    if as_json:
+        _emit(card.as_json())
+    else:
+        from granum.reports.terminal import print_card
+
+        print_card(card)
+
+
+def main() -> None:
+    """Entry point of the ``granum`` command."""
+    app()
+
+
+if __name__ == "__main__":
+    main()

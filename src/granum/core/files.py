@@ -1,0 +1,30 @@
+"""Files that are never half written."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from granum.core.errors import InputError
+from granum.core.i18n import _
+
+
+def write_atomic(path: str | Path, content: str | bytes) -> None:
+    """Write a file so that, whatever happens, either the old or the complete new content is there."""
+    target = Path(path)
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    try:
+        handle, name = tempfile.mkstemp(dir=target.parent or ".", prefix=f".{target.name}.")
+    except OSError as problem:
+        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.chmod(name, 0o644)
+        os.replace(name, target)
+    except OSError as problem:
+        Path(name).unlink(missing_ok=True)
+        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None

@@ -1,0 +1,118 @@
+"""The flow diagram as SVG: units in columns along the flow, recycles in lanes below, streams colored by main phase."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+import networkx as nx
+
+from granum.flowsheet.plan import Link
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.symbols import symbol_of
+
+COLUMN, ROW, BOX, LANE, MARGIN = 190, 150, 60, 22, 70
+PHASE_COLORS = {"solid": "#b7791f", "liquid": "#2b6cb0", "gas": "#6b7f99", "": "#1c2430"}
+
+
+def main_phase(stream: Any) -> str:
+    """``gas`` for a gas stream, ``solid`` for a cake or powder, else ``liquid``."""
+    solid, liquid, gas = (float(x) for x in (stream.solid_flow, stream.liquid_flow, stream.gas_flow))
+    if gas > 0.5 * (solid + liquid + gas):
+        return "gas"
+    return "solid" if solid > 0.5 * (solid + liquid) else "liquid"
+
+
+def _columns(line: Flowsheet) -> dict[str, int]:
+    torn = {name for block in line.blocks for name in block.tears}
+    graph = nx.DiGraph()
+    graph.add_nodes_from(line.units)
+    graph.add_edges_from((k.source_unit, k.target_unit) for k in line.links if k.origin and k.target and k.name not in torn)
+    columns: dict[str, int] = {}
+    for unit in nx.topological_sort(graph):
+        columns[unit] = max((columns[p] + 1 for p in graph.predecessors(unit)), default=0)
+    for unit in reversed(list(nx.topological_sort(graph))):  # pull sources such as an air heater next to what they serve
+        later = [columns[s] for s in graph.successors(unit)]
+        if later and not list(graph.predecessors(unit)):
+            columns[unit] = max(columns[unit], min(later) - 1)
+    return columns
+
+
+def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
+    """SVG of the line. Groups carry ``data-unit`` and ``data-stream`` so that a page can make them clickable.
+
+    Parameters
+    ----------
+    line: the flowsheet.
+    streams: solved streams; gives the color of the main phase and the flow in the tooltip.
+    """
+    columns = _columns(line)
+    rows: dict[str, int] = {}
+    used: dict[int, int] = {}
+    for unit in line.units:
+        rows[unit] = used.get(columns[unit], 0)
+        used[columns[unit]] = rows[unit] + 1
+    spans = {k.name: columns[k.target_unit] - columns[k.source_unit] for k in line.links if k.origin and k.target}
+    above = [k.name for k in line.links if spans.get(k.name, 0) > 1]
+    below = [k.name for k in line.links if k.name in spans and spans[k.name] <= 0]
+    top = MARGIN + LANE * len(above)
+    height = top + ROW * max(used.values()) + LANE * len(below) + MARGIN // 2
+    width = 2 * MARGIN + COLUMN * (max(columns.values()) + 1)
+    corner = {u: (MARGIN + 30 + COLUMN * columns[u], top + ROW * rows[u]) for u in line.units}
+    bottom = top + ROW * max(used.values()) - (ROW - BOX) + 48
+
+    def port(k: Link, end: str) -> tuple[float, float]:
+        unit = k.source_unit if end == "origin" else k.target_unit
+        mates = [m for m in line.links if (m.source_unit if end == "origin" else m.target_unit) == unit and getattr(m, end)]
+        place = (mates.index(k) + 1) / (len(mates) + 1)
+        x, y = corner[unit]
+        return (x + BOX if end == "origin" else x), y + BOX * place
+
+    parts = []
+    for k in line.links:
+        if not k.origin:
+            x, y = port(k, "target")
+            path, at = f"M{x - 58} {y} H{x - 3}", (x - 58, y - 5, "start")
+        elif not k.target:
+            x, y = port(k, "origin")
+            path, at = f"M{x} {y} H{x + 58}", (x + 8, y - 5, "start")
+        else:
+            (x1, y1), (x2, y2) = port(k, "origin"), port(k, "target")
+            if k.name in above:
+                lane = MARGIN // 2 + LANE * (above.index(k.name) + 1)
+                path, at = f"M{x1} {y1} h16 V{lane} H{x2 - 22} V{y2} H{x2 - 3}", ((x1 + x2) / 2, lane - 4, "middle")
+            elif k.name in below:
+                lane = bottom + LANE * (below.index(k.name) + 1)
+                path, at = f"M{x1} {y1} h22 V{lane} H{x2 - 28} V{y2} H{x2 - 3}", ((x1 + x2) / 2, lane - 4, "middle")
+            else:
+                middle = (x1 + x2) / 2
+                path, at = f"M{x1} {y1} H{middle} V{y2} H{x2 - 3}", (x1 + 6, y1 - 5, "start")
+        stream = streams.get(k.name) if streams else None
+        color = PHASE_COLORS[main_phase(stream) if stream is not None else ""]
+        tip = (
+            f"{k.name}: {float(stream.mass_flow) * 3600:.4g} kg/h, {float(stream.temperature) - 273.15:.1f} °C"
+            if stream is not None
+            else k.name
+        )
+        label = k.name if len(k.name) <= 18 else k.name.partition(".")[2] or k.name
+        parts.append(
+            f'<g class="stream" data-stream="{escape(k.name)}" tabindex="0" role="button"><title>{escape(tip)}</title>'
+            f'<path d="{path}" fill="none" stroke="{color}" stroke-width="1.8" marker-end="url(#tip-{color[1:]})"/>'
+            f'<text x="{at[0]}" y="{at[1]}" text-anchor="{at[2]}" font-size="10.5" fill="{color}">{escape(label)}</text></g>'
+        )
+    for unit, (x, y) in corner.items():
+        model = line.units[unit].card  # type: ignore[attr-defined]
+        parts.append(
+            f'<g class="unit" data-unit="{escape(unit)}" tabindex="0" role="button" transform="translate({x} {y})"><title>{escape(model.title)}</title>'
+            f'<g fill="white" stroke="#1c2430" stroke-width="1.5" stroke-linejoin="round">{symbol_of(model.key)}</g>'
+            f'<text x="{BOX / 2}" y="{BOX + 14}" text-anchor="middle" font-size="12" font-weight="600" fill="#1c2430">{escape(unit)}</text></g>'
+        )
+    tips = "".join(
+        f'<marker id="tip-{c[1:]}" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0 L8 4 L0 8 z" fill="{c}"/></marker>'
+        for c in PHASE_COLORS.values()
+    )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif" '
+        f'style="width:100%;max-width:{width}px"><defs>{tips}</defs>{"".join(parts)}</svg>'
+    )

@@ -1,0 +1,166 @@
+"""``Flowsheet``: named units and the streams between them, checked for open ports before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+
+from granum.core.errors import CaseError, unknown_name
+from granum.core.i18n import _
+from granum.flowsheet.plan import Block, Link, plan
+from granum.streams.stream import Stream
+from granum.streams.units import Unit
+
+
+class Flowsheet(eqx.Module):
+    """Named units, named feeds and the links between ports. A frozen pytree: replace a parameter with ``with_values``.
+
+    Parameters
+    ----------
+    units: name → unit.
+    feeds: stream name → stream entering from outside.
+    links: every stream of the line, feeds and products included.
+    """
+
+    units: dict[str, Unit]
+    feeds: dict[str, Stream]
+    links: tuple[Link, ...] = eqx.field(static=True)
+
+    def __init__(self, units: Mapping[str, Unit], feeds: Mapping[str, Stream], links: Mapping[str, tuple[str, str]]):
+        """``links`` maps a stream name to (origin, target), each ``unit.port``; a feed has origin ``""``.
+
+        A unit with one inlet (or one outlet) may be named without its port. Outlets that nothing takes become products
+        named ``unit.port``.
+        """
+        self.units, self.feeds = dict(units), dict(feeds)
+        named = [Link(name, self._outlet(name, origin), self._inlet(name, target)) for name, (origin, target) in links.items()]
+        taken = {k.origin for k in named}
+        for unit, thing in self.units.items():
+            named += [Link(f"{unit}.{port}", f"{unit}.{port}", "") for port in thing.outlet_names() if f"{unit}.{port}" not in taken]
+        self.links = tuple(named)
+        self._require_complete()
+
+    def _unit(self, end: str, stream: str) -> tuple[str, str]:
+        unit, _dot, port = end.partition(".")
+        if unit not in self.units:
+            raise CaseError(
+                unknown_name(_("Unit"), unit, self.units, _("in stream '{stream}'").format(stream=stream)).message, stream=stream
+            )
+        return unit, port
+
+    def _outlet(self, stream: str, end: str) -> str:
+        if not end:
+            return ""
+        unit, port = self._unit(end, stream)
+        ports = self.units[unit].outlet_names()
+        if not port and len(ports) == 1:
+            return f"{unit}.{ports[0]}"
+        if port not in ports:
+            place = _("of unit '{unit}' in stream '{stream}'").format(unit=unit, stream=stream)
+            raise CaseError(unknown_name(_("Outlet"), port, ports, place).message, stream=stream)
+        return end
+
+    def _inlet(self, stream: str, end: str) -> str:
+        if not end:
+            return ""
+        unit, port = self._unit(end, stream)
+        ports = self.units[unit].inlet_names()
+        if ports is None:
+            return end if port else f"{unit}.{stream}"
+        if not port and len(ports) == 1:
+            return f"{unit}.{ports[0]}"
+        if port not in ports:
+            place = _("of unit '{unit}' in stream '{stream}'").format(unit=unit, stream=stream)
+            raise CaseError(unknown_name(_("Inlet"), port, ports, place).message, stream=stream)
+        return end
+
+    def _require_complete(self) -> None:
+        for end in ("origin", "target"):
+            seen: dict[str, str] = {}
+            for k in self.links:
+                place = getattr(k, end)
+                if place and place in seen:
+                    raise CaseError(
+                        _("Streams '{first}' and '{second}' are both connected to '{port}'; use a mixer or a splitter.").format(
+                            first=seen[place], second=k.name, port=place
+                        )
+                    )
+                seen[place] = k.name
+        names = [k.name for k in self.links]
+        for k in self.links:
+            if not k.origin and k.name not in self.feeds:
+                raise CaseError(_("Stream '{stream}' comes from nowhere: give it under [feeds] or an origin.").format(stream=k.name))
+        for name in self.feeds:
+            if name not in names:
+                raise CaseError(_("Feed '{feed}' goes nowhere: name the unit it enters.").format(feed=name))
+        entered = {k.target for k in self.links}
+        for unit, thing in self.units.items():
+            for port in thing.inlet_names() or ():
+                if f"{unit}.{port}" not in entered and port not in thing.optional_inlets():
+                    raise CaseError(
+                        _("Inlet '{port}' of unit '{unit}' is open: connect a stream or a feed to it.").format(port=port, unit=unit),
+                        unit=unit,
+                        port=port,
+                    )
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """Units in order of calculation, loops with their torn streams."""
+        return plan(tuple(self.units), self.links)
+
+    @property
+    def products(self) -> tuple[str, ...]:
+        """Names of the streams that leave the line."""
+        return tuple(k.name for k in self.links if not k.target)
+
+    def link(self, name: str) -> Link:
+        """A stream's link by name."""
+        found = {k.name: k for k in self.links}
+        if name not in found:
+            raise unknown_name(_("Stream"), name, found)
+        return found[name]
+
+    def inlets_of(self, unit: str, streams: Mapping[str, Stream]) -> dict[str, Stream]:
+        """The streams entering a unit, by port."""
+        return {k.target.partition(".")[2]: streams[k.name] for k in self.links if k.target_unit == unit}
+
+    def locate(self, path: str) -> tuple[str, ...]:
+        """Splits ``unit.parameter[.field]`` or ``feed.field`` and checks that it exists."""
+        head, *rest = path.split(".")
+        if head in self.units and rest:
+            thing: Any = self.units[head]
+        elif head in self.feeds and rest:
+            thing = self.feeds[head]
+        else:
+            raise unknown_name(_("Unit or feed"), head, (*self.units, *self.feeds))
+        for name in rest:
+            fields = getattr(thing, "__dataclass_fields__", {})
+            if name not in fields:
+                raise unknown_name(_("Parameter"), name, fields, _("of '{owner}'").format(owner=head))
+            thing = getattr(thing, name)
+        return (head, *rest)
+
+    def value(self, path: str) -> Any:
+        """The value of ``unit.parameter`` or ``feed.field``."""
+        head, *rest = self.locate(path)
+        thing: Any = self.units.get(head, self.feeds.get(head))
+        for name in rest:
+            thing = getattr(thing, name)
+        return thing
+
+    def with_values(self, values: Mapping[str, Any]) -> Flowsheet:
+        """The same line with other parameter values; keys are ``unit.parameter`` or ``feed.field``, values SI."""
+        line = self
+        for path, value in values.items():
+            keys = self.locate(path)
+
+            def where(sheet: Flowsheet, keys: tuple[str, ...] = keys) -> Any:
+                thing: Any = sheet.units.get(keys[0], sheet.feeds.get(keys[0]))
+                for name in keys[1:]:
+                    thing = getattr(thing, name)
+                return thing
+
+            line = eqx.tree_at(where, line, value, is_leaf=lambda x: x is None)
+        return line

@@ -1,0 +1,76 @@
+"""Design specifications: parameters found so that results take wanted values, derivatives included."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.solving import Solution, solve
+from granum.numerics import find_root, solve_system
+
+
+class Target(NamedTuple):
+    """Vary ``vary`` (unit.parameter) between ``lower`` and ``upper`` so that ``so_that`` (unit.result) equals ``equals``, all SI."""
+
+    vary: str
+    so_that: str
+    equals: float
+    lower: float
+    upper: float
+
+
+class Designed(NamedTuple):
+    """A solved line that meets its specifications, with the values found."""
+
+    line: Flowsheet
+    solution: Solution
+    values: dict[str, Any]
+    converged: Any
+
+
+def figure(line: Flowsheet, solution: Solution, path: str) -> Any:
+    """One result of a unit, ``unit.result``, from a solution."""
+    unit, _dot, name = path.partition(".")
+    thing = line.units[unit]
+    return getattr(thing.results(line.inlets_of(unit, solution.streams), outlets_of(line, solution, unit)), name)
+
+
+def outlets_of(line: Flowsheet, solution: Solution, unit: str) -> Any:
+    """The outlets of a unit as its named tuple, rebuilt from a solution."""
+    thing = line.units[unit]
+    made = {k.origin.partition(".")[2]: solution.streams[k.name] for k in line.links if k.source_unit == unit}
+    return thing.outlet_type()(**made, **solution.powers[unit])
+
+
+def design(line: Flowsheet, targets: tuple[Target, ...]) -> Designed:
+    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from mid-range."""
+    if not targets:
+        solution = solve(line)
+        return Designed(line, solution, {}, solution.converged)
+    if len(targets) == 1:
+        target = targets[0]
+
+        def miss(x: Any) -> Any:
+            changed = line.with_values({target.vary: x})
+            return (figure(changed, solve(changed), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
+
+        root = find_root(miss, target.lower, target.upper)
+        values, found = {target.vary: root.value}, root.converged
+    else:
+        low = jnp.asarray([t.lower for t in targets])
+        width = jnp.asarray([t.upper for t in targets]) - low
+
+        def misses(x: Any, _args: Any) -> Any:
+            changed = line.with_values({t.vary: low[i] + width[i] * x[i] for i, t in enumerate(targets)})
+            solution = solve(changed)
+            return jnp.stack([(figure(changed, solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets])
+
+        outcome = solve_system(misses, jnp.full((len(targets),), 0.5))
+        inside = jnp.all((outcome.state >= 0) & (outcome.state <= 1))
+        values = {t.vary: low[i] + width[i] * outcome.state[i] for i, t in enumerate(targets)}
+        found = outcome.converged & inside
+    final = line.with_values(values)
+    solution = solve(final)
+    return Designed(final, solution, values, found & solution.converged)

@@ -1,0 +1,109 @@
+"""The report of a solved line: one HTML file that opens anywhere and prints well."""
+
+from __future__ import annotations
+
+import datetime
+import hashlib
+from typing import Any
+
+import numpy as np
+
+import granum
+from granum.core import charts
+from granum.core.i18n import _, current_language
+from granum.core.parameters import Parameter
+from granum.core.results import Result
+from granum.core.sources import cite
+from granum.core.units import format_number, pretty_unit
+from granum.flowsheet.drawing import draw, main_phase
+from granum.reports.mathml import mathml
+from granum.reports.terminal import value_text
+
+
+def _row(p: Parameter, value: Any) -> dict[str, str]:
+    return {"label": p.label, "symbol": mathml(p.term.symbol) if p.term else p.name, "text": value_text(value, p)}
+
+
+def note_step(step: Result) -> dict[str, Any]:
+    """One step of a calculation note: formula, numbers, result, source."""
+    return {
+        "title": step.card.title,
+        "key": step.card.key,
+        "equation": mathml(step.card.equation, display=True),
+        "inputs": [_row(p, step.inputs[p.name]) for p in step.card.parameters if step.inputs[p.name] is not None],
+        "outputs": [_row(p, step.outputs[p.name]) for p in step.card.outputs],
+        "source": step.card.citation,
+        "notices": [n["message"] for n in step.notices],
+    }
+
+
+def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
+    report = run.units[name]
+    checks = []
+    for c in report.checks:
+        low = "" if c.low == -np.inf else f"{format_number(c.low)} ≤ "
+        high = "" if c.high == np.inf else f"≤ {format_number(c.high)}"
+        unit = pretty_unit(c.unit)
+        checks.append({
+            "name": _(c.name), "ok": c.ok, "value": f"{format_number(float(c.value))} {unit}".strip(),
+            "allowed": f"{low}… {high} {unit}".strip(), "source": cite(c.source),
+        })  # fmt: skip
+    return {
+        "name": name,
+        "title": report.model.card.title,
+        "summary": report.model.card.summary,
+        "parameters": [_row(p, value) for p, value in report.parameters()],
+        "figures": [_row(p, value) for p, value in report.figures()],
+        "checks": checks,
+        "steps": [note_step(s) for s in run.notes[name]],
+    }
+
+
+def size_chart(run: Any) -> Any:
+    """Cumulative size distributions of the streams that carry solid."""
+    figure = charts.figure(
+        charts.axis_title("particle_diameter", "um"), _("cumulative mass / %"), x_log=True, title=_("Size distributions")
+    )
+    drawn = 0
+    for name, stream in run.streams.items():
+        if float(stream.solid_flow) > 1e-9 * float(stream.mass_flow) and main_phase(stream) != "gas":
+            edges = np.maximum(stream.mixture.edges, 1e-9) * 1e6
+            cumulative = 100 * np.concatenate([[0.0], np.cumsum(np.asarray(stream.size_fractions))])
+            color, dash = charts.LINES[drawn % len(charts.LINES)], charts.DASHES[drawn // len(charts.LINES) % len(charts.DASHES)]
+            charts.add_line(figure, edges, cumulative, name, color=color, dash=dash)
+            drawn += 1
+    return figure if drawn else None
+
+
+def line_report(run: Any) -> str:
+    """HTML of the report."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    case = run.line.case
+    units = [_unit_sheet(run, name) for name in run.sheet.units]
+    sizes = size_chart(run)
+    keys = {p for name in run.sheet.units for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
+    keys |= {step.card.source for steps in run.notes.values() for step in steps}
+    block = [
+        (_("Project"), case.report.project if case else ""),
+        (_("Author"), case.report.author if case else ""),
+        (_("Date"), (case.report.date if case else "") or datetime.date.today().isoformat()),
+        (_("Program"), f"Granum {granum.__version__}"),
+        (_("Inputs"), "sha256 " + hashlib.sha256(run.line.text.encode()).hexdigest()[:12]),
+    ]
+    environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    audit = run.audit
+    numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
+    heads = (_("solid kg/h"), _("liquid kg/h"), _("gas kg/h"), _("T °C"), _("d50 µm"))
+    return environment.get_template("line.html.j2").render(
+        _=_, lang=current_language(), run=run, description=case.description if case else "",
+        title_block=[(label, value) for label, value in block if value], units=units,
+        checks=sum(len(u["checks"]) for u in units),
+        failed=[(u["name"], f"{c['name']}: {c['value']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
+        flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
+        audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
+        diagram=draw(run.sheet, run.streams), stream_heads=heads,
+        stream_rows=[(name, [format_number(v) if v is not None else "" for v in row.values()]) for name, row in run.stream_rows().items()],
+        charts=[sizes.to_html(full_html=False, include_plotlyjs=True, config={"displaylogo": False})] if sizes else [],
+        sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,
+    )  # fmt: skip

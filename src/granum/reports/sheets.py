@@ -1,0 +1,54 @@
+"""Streams and results as tables: CSV or Excel."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+from typing import Any
+
+from granum.core.errors import InputError
+from granum.core.files import write_atomic
+from granum.core.i18n import _
+
+
+def table_rows(run: Any) -> dict[str, list[list[Any]]]:
+    """The two tables of a solved line, SI units: streams and unit results."""
+    data = run.as_json()
+    species = [(phase, name) for phase in ("solid", "liquid", "gas") for name in next(iter(data["streams"].values()))[phase]]
+    streams: list[list[Any]] = [
+        ["stream", "mass_flow [kg/s]", "temperature [K]", "pressure [Pa]", *(f"{p}: {n} [kg/s]" for p, n in species)]
+    ]
+    for name, s in data["streams"].items():
+        streams.append([name, *(s[k]["value"] for k in ("mass_flow", "temperature", "pressure")), *(s[p][n] for p, n in species)])
+    results: list[list[Any]] = [["unit", "model", "result", "value", "unit of value"]]
+    for unit, row in data["units"].items():
+        for name, figure in row["results"].items():
+            results.append([unit, row["model"], name, figure["value"], figure["unit"]])
+    return {"streams": streams, "results": results}
+
+
+def write_tables(run: Any, path: Path) -> None:
+    """Write ``.csv`` (both tables one under the other) or ``.xlsx`` (a sheet each)."""
+    tables = table_rows(run)
+    if path.suffix == ".csv":
+        text = io.StringIO()
+        writer = csv.writer(text)
+        for rows in tables.values():
+            writer.writerows(rows)
+            writer.writerow([])
+        write_atomic(path, text.getvalue())
+    elif path.suffix == ".xlsx":
+        from openpyxl import Workbook
+
+        book = Workbook()
+        book.remove(book.active)
+        for title, rows in tables.items():
+            sheet = book.create_sheet(title)
+            for row in rows:
+                sheet.append(row)
+        data = io.BytesIO()
+        book.save(data)
+        write_atomic(path, data.getvalue())
+    else:
+        raise InputError(_("'{path}': tables are written as .csv or .xlsx.").format(path=path), path=str(path))

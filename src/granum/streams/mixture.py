@@ -1,0 +1,140 @@
+"""What streams are made of: species in each phase, the conserved components behind them, and the particle size classes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _
+
+
+@dataclass(frozen=True)
+class Species:
+    """One substance in one phase.
+
+    Parameters
+    ----------
+    name: name within its phase.
+    composition: conserved components with their mass fractions, ``(("water", 1.0),)``; a hydrate crystal has two.
+    density: kg/m³, polynomial coefficients in temperature above 0 °C, lowest power first; a gas gives none.
+    heat_capacity: J/(kg K), polynomial coefficients in temperature above 0 °C, lowest power first.
+    reference_enthalpy: J/kg at 0 °C. Zero for the reference state of each component, so that differences between the
+        species of one component are heats of phase change: 2.501e6 for water vapor against liquid water.
+    molar_mass: kg/mol.
+    """
+
+    name: str
+    composition: tuple[tuple[str, float], ...]
+    density: tuple[float, ...] = ()
+    heat_capacity: tuple[float, ...] = (0.0,)
+    reference_enthalpy: float = 0.0
+    molar_mass: float = float("nan")
+
+    def enthalpy(self, temperature: Any) -> Any:
+        """Specific enthalpy, J/kg, at a temperature in K."""
+        theta = temperature - ZERO_CELSIUS
+        total = 0.0
+        for power in range(len(self.heat_capacity), 0, -1):  # Horner on the integral of the polynomial
+            total = (total + self.heat_capacity[power - 1] / power) * theta
+        return self.reference_enthalpy + total
+
+
+def _polynomial(coefficients: tuple[float, ...], temperature: Any) -> Any:
+    theta = temperature - ZERO_CELSIUS
+    total = 0.0
+    for c in reversed(coefficients):
+        total = total * theta + c
+    return total
+
+
+@dataclass(frozen=True, eq=False)
+class Mixture:
+    """The species a set of streams shares. Immutable and hashable, so that compiled code is reused between equal mixtures.
+
+    Parameters
+    ----------
+    solids, liquids, gases: species of each phase, in the order of the stream's arrays.
+    size_edges: class boundaries of the particle size, m, increasing (n + 1 of them).
+    axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis leaves it alone.
+    liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
+    gas_viscosity: function of temperature → Pa s.
+    """
+
+    solids: tuple[Species, ...]
+    liquids: tuple[Species, ...]
+    gases: tuple[Species, ...]
+    size_edges: tuple[float, ...]
+    axes: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    liquid_viscosity: Callable[[Any, Any], Any] | None = None
+    gas_viscosity: Callable[[Any], Any] | None = None
+    _key: Any = field(default=None, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        edges = np.asarray(self.size_edges)
+        if edges.size < 2 or np.any(np.diff(edges) <= 0) or edges[0] < 0:
+            raise InputError(_("Size classes need at least two increasing boundaries of zero or more."))
+        key = (self.solids, self.liquids, self.gases, self.size_edges, self.axes, self.liquid_viscosity, self.gas_viscosity)
+        object.__setattr__(self, "_key", (hash(key), key))
+
+    def __hash__(self) -> int:
+        return self._key[0]
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Mixture) and self._key == other._key)
+
+    @cached_property
+    def components(self) -> tuple[str, ...]:
+        """The conserved components, in order of first appearance."""
+        found: dict[str, None] = {}
+        for species in (*self.liquids, *self.gases, *self.solids):
+            for name, _share in species.composition:
+                found.setdefault(name)
+        return tuple(found)
+
+    def composition_matrix(self, species: tuple[Species, ...]) -> np.ndarray:
+        """(species × components) mass of component per mass of species."""
+        matrix = np.zeros((len(species), len(self.components)))
+        for row, item in enumerate(species):
+            for name, share in item.composition:
+                matrix[row, self.components.index(name)] = share
+        return matrix
+
+    @cached_property
+    def edges(self) -> np.ndarray:
+        """Size class boundaries, m."""
+        return np.asarray(self.size_edges)
+
+    @cached_property
+    def sizes(self) -> np.ndarray:
+        """Representative size of each class, m: the geometric mean of its boundaries (half the upper one when the lower is 0)."""
+        low, high = self.edges[:-1], self.edges[1:]
+        return np.where(low > 0, np.sqrt(low * high), 0.5 * high)
+
+    @property
+    def solid_shape(self) -> tuple[int, ...]:
+        """Shape of a stream's solid array: species × size class × further axes."""
+        return (len(self.solids), len(self.size_edges) - 1, *(len(edges) - 1 for _name, edges in self.axes))
+
+    def index(self, phase: str, name: str) -> int:
+        """Position of a species in its phase (``solids``, ``liquids``, ``gases``); a clear error for an unknown name."""
+        names = [species.name for species in getattr(self, phase)]
+        if name not in names:
+            raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=phase))
+        return names.index(name)
+
+    def enthalpies(self, phase: str, temperature: Any) -> Any:
+        """Specific enthalpies of the species of a phase, J/kg."""
+        species = getattr(self, phase)
+        return jnp.stack([jnp.asarray(s.enthalpy(temperature)) for s in species]) if species else jnp.zeros((0,))
+
+    def densities(self, phase: str, temperature: Any) -> Any:
+        """Densities of the (condensed) species of a phase, kg/m³."""
+        species = getattr(self, phase)
+        return jnp.stack([jnp.asarray(_polynomial(s.density, temperature)) for s in species]) if species else jnp.zeros((0,))

@@ -1,0 +1,228 @@
+"""A stream: solid by species × size class × further axes, liquid and gas by component, temperature, pressure."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.numerics import find_root
+from granum.streams.mixture import Mixture
+
+COLDEST, HOTTEST = 150.0, 2500.0  # K, the bracket in which a mixing temperature is sought
+
+
+class Stream(eqx.Module):
+    """Flows of matter at one temperature and pressure. Frozen; every unit returns new ones.
+
+    Parameters
+    ----------
+    mixture: what the stream is made of (shared, static).
+    solid: kg/s, ``mixture.solid_shape``.
+    liquid: kg/s, one per liquid species. Moisture is liquid that travels with solid.
+    gas: kg/s, one per gas species.
+    temperature: K. pressure: absolute, Pa.
+    """
+
+    solid: Any
+    liquid: Any
+    gas: Any
+    temperature: Any
+    pressure: Any
+    mixture: Mixture = eqx.field(static=True)
+
+    # -- totals ------------------------------------------------------------------------------------------------
+    @property
+    def solid_flow(self) -> Any:
+        """Total solid, kg/s."""
+        return jnp.sum(self.solid)
+
+    @property
+    def liquid_flow(self) -> Any:
+        """Total liquid, kg/s."""
+        return jnp.sum(self.liquid)
+
+    @property
+    def gas_flow(self) -> Any:
+        """Total gas, kg/s."""
+        return jnp.sum(self.gas)
+
+    @property
+    def mass_flow(self) -> Any:
+        """Everything, kg/s."""
+        return self.solid_flow + self.liquid_flow + self.gas_flow
+
+    @property
+    def solid_by_species(self) -> Any:
+        """Solid summed over all particle axes, kg/s per species."""
+        return jnp.sum(self.solid.reshape(self.solid.shape[0], -1), axis=1)
+
+    @property
+    def solid_by_size(self) -> Any:
+        """Solid summed over species and further axes, kg/s per size class."""
+        return jnp.sum(self.solid, axis=(0, *range(2, self.solid.ndim)))
+
+    @property
+    def components(self) -> Any:
+        """Conserved components, kg/s, in the order of ``mixture.components``."""
+        m = self.mixture
+        total = self.liquid @ m.composition_matrix(m.liquids) if m.liquids else 0.0
+        total = total + (self.gas @ m.composition_matrix(m.gases) if m.gases else 0.0)
+        return total + (self.solid_by_species @ m.composition_matrix(m.solids) if m.solids else 0.0)
+
+    # -- properties --------------------------------------------------------------------------------------------
+    def enthalpy_at(self, temperature: Any) -> Any:
+        """Enthalpy flow if the stream were at another temperature, W."""
+        m = self.mixture
+        total = jnp.zeros(())
+        for phase, flows in (("solids", self.solid_by_species), ("liquids", self.liquid), ("gases", self.gas)):
+            if getattr(m, phase):
+                total = total + jnp.sum(flows * m.enthalpies(phase, temperature))
+        return total
+
+    @property
+    def enthalpy_flow(self) -> Any:
+        """Enthalpy flow, W, against the reference states of the mixture."""
+        return self.enthalpy_at(self.temperature)
+
+    @property
+    def liquid_fractions(self) -> Any:
+        """Mass fractions of the liquid species (zero when there is no liquid)."""
+        return self.liquid / jnp.where(self.liquid_flow > 0, self.liquid_flow, 1.0)
+
+    @property
+    def size_fractions(self) -> Any:
+        """Mass fractions of the size classes (zero when there is no solid)."""
+        total = self.solid_flow
+        return self.solid_by_size / jnp.where(total > 0, total, 1.0)
+
+    @property
+    def solid_volume_flow(self) -> Any:
+        """Volume of the solid, m³/s."""
+        return jnp.sum(self.solid_by_species / self.mixture.densities("solids", self.temperature)) if self.mixture.solids else jnp.zeros(())
+
+    @property
+    def liquid_volume_flow(self) -> Any:
+        """Volume of the liquid, m³/s, component volumes being additive."""
+        return jnp.sum(self.liquid / self.mixture.densities("liquids", self.temperature)) if self.mixture.liquids else jnp.zeros(())
+
+    @property
+    def slurry_volume_flow(self) -> Any:
+        """Solid and liquid volume, m³/s."""
+        return self.solid_volume_flow + self.liquid_volume_flow
+
+    @property
+    def gas_volume_flow(self) -> Any:
+        """Volume of the gas as an ideal gas, m³/s."""
+        moles = sum(self.gas[i] / s.molar_mass for i, s in enumerate(self.mixture.gases))
+        return moles * GAS_CONSTANT * self.temperature / self.pressure
+
+    @property
+    def solid_density(self) -> Any:
+        """Mean density of the solid present, kg/m³; of the first species when there is none."""
+        some = self.solid_flow > 0
+        volume = jnp.where(some, self.solid_volume_flow, 1.0)
+        return jnp.where(some, self.solid_flow / volume, self.mixture.densities("solids", self.temperature)[0])
+
+    @property
+    def liquid_density(self) -> Any:
+        """Density of the liquid, kg/m³; of the first species when there is none."""
+        some = self.liquid_flow > 0
+        volume = jnp.where(some, self.liquid_volume_flow, 1.0)
+        return jnp.where(some, self.liquid_flow / volume, self.mixture.densities("liquids", self.temperature)[0])
+
+    @property
+    def liquid_viscosity(self) -> Any:
+        """Viscosity of the liquid, Pa s."""
+        law = self.mixture.liquid_viscosity
+        if law is None:
+            raise InputError(_("The mixture has no liquid viscosity; name its solvent or give 'liquid_viscosity'."))
+        return law(self.liquid_fractions, self.temperature)
+
+    @property
+    def gas_viscosity(self) -> Any:
+        """Viscosity of the gas, Pa s."""
+        law = self.mixture.gas_viscosity
+        if law is None:
+            raise InputError(_("The mixture has no gas viscosity; name its carrier gas."))
+        return law(self.temperature)
+
+    @property
+    def moisture_dry_basis(self) -> Any:
+        """Liquid per solid, kg/kg (zero when there is no solid)."""
+        return self.liquid_flow / jnp.where(self.solid_flow > 0, self.solid_flow, 1.0) * (self.solid_flow > 0)
+
+    @property
+    def solids_mass_fraction(self) -> Any:
+        """Solid in solid and liquid, kg/kg."""
+        total = self.solid_flow + self.liquid_flow
+        return self.solid_flow / jnp.where(total > 0, total, 1.0)
+
+    @property
+    def solids_volume_fraction(self) -> Any:
+        """Solid in the slurry by volume."""
+        total = self.slurry_volume_flow
+        return self.solid_volume_flow / jnp.where(total > 0, total, 1.0)
+
+    # -- new streams -------------------------------------------------------------------------------------------
+    def replace(self, **changes: Any) -> Stream:
+        """The same stream with some fields changed (``solid``, ``liquid``, ``gas``, ``temperature``, ``pressure``)."""
+        fields = {n: getattr(self, n) for n in ("solid", "liquid", "gas", "temperature", "pressure", "mixture")} | changes
+        return Stream(**fields)
+
+    def part(self, solid: Any = 0.0, liquid: Any = 0.0, gas: Any = 0.0) -> Stream:
+        """The share of each phase (or of each species, class) that goes one way; shares broadcast over the arrays.
+
+        A share of size class is given as ``share[None, :]`` padded with further axes by ``by_size``.
+        """
+        return self.replace(solid=self.solid * solid, liquid=self.liquid * liquid, gas=self.gas * gas)
+
+    def by_size(self, per_class: Any) -> Any:
+        """A vector over size classes shaped to multiply ``solid``."""
+        return jnp.reshape(per_class, (1, -1) + (1,) * len(self.mixture.axes))
+
+    def regraded(self, operator: Any) -> Stream:
+        """Move solid between size classes by a transfer operator (target × source, columns summing to 1), all other axes riding along."""
+        return self.replace(solid=jnp.moveaxis(jnp.tensordot(operator, self.solid, axes=([1], [1])), 0, 1))
+
+    def at_enthalpy(self, enthalpy_flow: Any, guess: Any = None) -> Stream:
+        """The same matter at the temperature that gives an enthalpy flow (W)."""
+        scale = jnp.maximum(self.mass_flow, 1e-300) * 1e3  # makes the residual a temperature
+        root = find_root(
+            lambda T: (self.enthalpy_at(T) - enthalpy_flow) / scale, COLDEST, HOTTEST, start=self.temperature if guess is None else guess
+        )
+        return self.replace(temperature=jnp.where(self.mass_flow > 0, root.value, self.temperature))
+
+    def heated(self, duty: Any) -> Stream:
+        """The same matter after taking up heat (W)."""
+        return self.at_enthalpy(self.enthalpy_flow + duty)
+
+    def __add__(self, other: Stream) -> Stream:
+        """Adiabatic mixing at the lower of the two pressures."""
+        if self.mixture != other.mixture:
+            raise InputError(_("Streams of different mixtures cannot be added."))
+        joined = self.replace(
+            solid=self.solid + other.solid,
+            liquid=self.liquid + other.liquid,
+            gas=self.gas + other.gas,
+            pressure=jnp.minimum(self.pressure, other.pressure),
+        )
+        a, b = self.mass_flow, other.mass_flow
+        guess = (a * self.temperature + b * other.temperature) / jnp.where(a + b > 0, a + b, 1.0)
+        return joined.at_enthalpy(self.enthalpy_flow + other.enthalpy_flow, guess=guess)
+
+
+def empty(mixture: Mixture, temperature: Any = 298.15, pressure: Any = STANDARD_ATMOSPHERE) -> Stream:
+    """A stream with nothing in it."""
+    return Stream(
+        solid=jnp.zeros(mixture.solid_shape),
+        liquid=jnp.zeros((len(mixture.liquids),)),
+        gas=jnp.zeros((len(mixture.gases),)),
+        temperature=jnp.asarray(temperature, dtype=float),
+        pressure=jnp.asarray(pressure, dtype=float),
+        mixture=mixture,
+    )
