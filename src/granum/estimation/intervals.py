@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import stats
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -52,7 +52,7 @@ def profile(fit: Fit, name: str, points: int = 21) -> Profile:
             reach *= 1.6
             far = _inside(estimate.value + side * reach, bound, side)
         if ratio(far) >= critical:
-            ends.append(float(brentq(lambda v: ratio(float(v)) - critical, estimate.value, far, xtol=1e-12 * step)))
+            ends.append(root_scalar(lambda v: ratio(float(v)) - critical, bracket=(estimate.value, far), xtol=1e-12 * step).root)
         else:
             ends.append(float(bound) if far == bound else np.nan)
     low, high = ends

@@ -222,9 +222,9 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         "rmse": float(np.sqrt(np.mean((residual * problem.sigma[problem.keep]) ** 2))),
         "r_squared": 1.0 - squares / spread if spread > 0 else np.nan,
         "aicc": used * float(np.log(squares / used)) + 2 * count + correction if squares > 0 else -np.inf,
-        "degrees_of_freedom": float(dof),
-        "points": float(used),
-        "points_excluded": float((~problem.keep).sum()),
+        "degrees_of_freedom": dof,
+        "points": used,
+        "points_excluded": int((~problem.keep).sum()),
         "residual_standard_deviation": float(np.sqrt(variance)),
         "condition": condition,
     }

@@ -190,4 +190,4 @@ def _square_root(matrix: np.ndarray) -> np.ndarray:
 
 
 def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
+    return value if isinstance(value, int) else float(value) if np.isfinite(value) else None

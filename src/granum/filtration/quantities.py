@@ -1,0 +1,12 @@
+"""Kinds that only filtration needs: quotients of time and filtrate volume."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from granum.core.kinds import Kind
+
+TimePerVolume = Annotated[Any, Kind("time per volume", "s/m^3", display=("s/L", "s/mL", "min/m^3"))]
+TimePerVolumeSquared = Annotated[Any, Kind("time per volume squared", "s/m^6", display=("s/L^2",))]
+RuthConstant = Annotated[Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))]
+MassPerArea = Annotated[Any, Kind("mass per area", "kg/m^2", lower=0.0, display=("g/cm^2",))]
