@@ -57,6 +57,7 @@ class Formula:
         self._declared = {"equation": equation, "title": title, "family": family}
         self._typical, self._output = typical, output
         self._compiled: dict[Any, Callable[..., Any]] = {}
+        self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
         register(self)
 
@@ -185,7 +186,48 @@ class Formula:
         value = jnp.asarray(value)
         flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, p.name, self.key, low, high, self.source)
 
+    def _prepare(self, names: tuple[str, ...]) -> tuple[Any, ...]:
+        """For calls with these keywords as plain floats: bounds as strict limits, order of the arguments, compiled body."""
+        given = dict.fromkeys(names, 1.0)
+        values = self._binder.arrange((), given)
+        for i, p in enumerate(self.card.parameters):
+            if p.name not in given:
+                values[i] = convert(values[i], p)
+        if any(p.law or p.kind is None or p.series or p.sort is int for p in self.card.parameters if p.name in given):
+            return ()
+        kinds = [self.card.parameter(n).kind for n in names]
+        limits = [
+            (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf), k.upper if k.open_upper else np.nextafter(k.upper, np.inf))
+            for k in kinds
+        ]
+        key, _dynamic = self._split(values)
+        order = [
+            (names.index(p.name), None) if p.name in given else (-1, values[i])
+            for i, p in enumerate(self.card.parameters)
+            if key[i] is _DYNAMIC
+        ]
+        return [(float(a), float(b)) for a, b in limits], order, self._compile(key, "bare")
+
+    def _quick(self, kwargs: dict[str, Any]) -> Any:
+        """The common scalar call, all keywords plain floats inside their bounds; ``_DYNAMIC`` when it is not one."""
+        names = tuple(kwargs)
+        prepared = self._prepared.get(names)
+        if prepared is None:
+            prepared = self._prepared[names] = self._prepare(names)
+        if not prepared:
+            return _DYNAMIC
+        limits, order, compiled = prepared
+        values = list(kwargs.values())
+        for value, (low, high) in zip(values, limits, strict=True):
+            if type(value) is not float or not low < value < high:
+                return _DYNAMIC
+        return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
+
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        if not args and _steps.get() is None:
+            quick = self._quick(kwargs)
+            if quick is not _DYNAMIC:
+                return quick
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             return self._body(values)
