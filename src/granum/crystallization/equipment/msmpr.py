@@ -1,0 +1,171 @@
+"""Continuous crystallizers in a line: cooled, evaporative and vacuum (adiabatic)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.errors import CaseError
+from granum.core.i18n import _
+from granum.core.kinds import (
+    Concentration,
+    Distance,
+    GrowthRate,
+    Law,
+    MassFlow,
+    NucleationRate,
+    Number,
+    PositiveNumber,
+    Power,
+    Temperature,
+    Time,
+    Volume,
+)
+from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.vessels.msmpr import AdditiveVolumes, SteadyState, steady_msmpr
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Check, Unit
+
+_CROWDED = "solids in the suspension by volume"
+_LONG = "residence time"
+_PRESENT = "steady crystals (1 when present)"
+_DRYING = "solvent evaporated"
+
+
+class Crystallized(NamedTuple):
+    """Suspension of crystals in mother liquor, solvent vapor, and the heat taken up."""
+
+    product: Stream
+    vapor: Stream
+    heat_duty: Any
+
+
+class CrystallizerFigures(NamedTuple):
+    """Figures of a continuous crystallizer."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Number
+    magma_density: Concentration
+    relative_supersaturation: Number
+    growth_rate: GrowthRate
+    nucleation_rate: NucleationRate
+    residence_time: Time
+    dominant_size: Distance
+    mass_median_size: Distance
+    evaporation: MassFlow
+    heat_duty: Power
+
+
+class _Continuous(Unit):
+    """What the continuous crystallizers share; each says how much solvent evaporates."""
+
+    def _steady(self, feed: Stream) -> tuple[SteadyState, Roles]:
+        found = roles(feed.mixture, self.solid, self.solvent)
+        densities = feed.mixture.densities("liquids", self.temperature)
+        volumes = feed.liquid / densities
+        others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
+        evaporation, per_crystal = self._evaporation(feed, found)
+        state = steady_msmpr(
+            feed_of(feed, found), self.temperature, self.volume, self.solubility, self.growth, self.nucleation,
+            crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
+            AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
+            feed.mixture.edges, evaporation, per_crystal, self.nucleus_size,
+        )  # fmt: skip
+        return state, found
+
+    def __call__(self, feed: Stream) -> Crystallized:
+        state, found = self._steady(feed)
+        liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
+        product = feed.replace(
+            solid=with_crystals(feed, found, state.crystals), liquid=liquid, gas=0.0 * feed.gas,
+            temperature=jnp.asarray(self.temperature, dtype=float),
+        )  # fmt: skip
+        gas = feed.gas if found.vapor is None else feed.gas.at[found.vapor].add(state.evaporation)
+        vapor = empty(feed.mixture, self.temperature).replace(gas=gas, pressure=feed.pressure)
+        return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Crystallized) -> CrystallizerFigures:
+        state, found = self._steady(inlets["feed"])
+        entering = feed_of(inlets["feed"], found)
+        fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
+        crystals = jnp.sum(state.crystals)
+        return CrystallizerFigures(
+            crystals, found.solute_fraction * crystals / fed, state.magma_density, state.relative_supersaturation,
+            state.growth_rate, state.nucleation_rate, state.residence_time,
+            3.0 * state.length, 3.672060748850897 * state.length, jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
+        )  # fmt: skip
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Crystallized) -> tuple[Check, ...]:
+        state, _found = self._steady(inlets["feed"])
+        product = outlets.product
+        return (
+            Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+            Check(_LONG, state.residence_time, 600.0, 36000.0, "s", "mullin2001, ch. 9"),
+            Check(_PRESENT, jnp.where(state.washed_out, 0.0, 1.0), 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+            Check(_DRYING, jnp.asarray(state.evaporation), 0.0, jnp.inf, "kg/s", "randolph1988, ch. 4"),
+        )
+
+    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+        """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
+        raise NotImplementedError
+
+
+@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, sec. 9.1", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
+           equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
+class Msmpr(_Continuous):
+    """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
+
+    The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute balance leaves;
+    seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their water from the solvent.
+    """
+
+    temperature: Temperature
+    volume: Volume
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    volume_shape_factor: PositiveNumber = 1.0
+    nucleus_size: Distance = 0.0
+    evaporation: MassFlow = 0.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+        if found.vapor is None and not (isinstance(self.evaporation, float) and self.evaporation == 0.0):
+            raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
+        return self.evaporation, 0.0
+
+
+@equipment("vacuum_crystallizer", source="mullin2001, sec. 8.4; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
+           equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}")  # fmt: skip
+class VacuumCrystallizer(_Continuous):
+    """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to foul.
+
+    The vapor is what the enthalpy balance leaves at the given temperature; ``heat_duty`` adds heat from outside (zero for the
+    adiabatic flash). The vapor pressure that the ejectors must hold follows from the temperature.
+    """
+
+    temperature: Temperature
+    volume: Volume
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    volume_shape_factor: PositiveNumber = 1.0
+    nucleus_size: Distance = 0.0
+    heat_duty: Power = 0.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+        if found.vapor is None:
+            raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
+        m, T = feed.mixture, self.temperature
+        liquid, solid, gas = (m.enthalpies(phase, T) for phase in ("liquids", "solids", "gases"))
+        latent = gas[found.vapor] - liquid[found.solvent]
+        x = found.solute_fraction
+        released = x * liquid[found.solute] + (1.0 - x) * liquid[found.solvent] - solid[found.solid]
+        return (feed.enthalpy_flow - feed.enthalpy_at(T) + self.heat_duty) / latent, released / latent

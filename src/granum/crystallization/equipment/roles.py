@@ -1,0 +1,67 @@
+"""Which species of a stream play solute, solvent, crystal and vapor in a crystallizer."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core.errors import CaseError
+from granum.core.i18n import _
+from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.msmpr import Feed
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream
+
+
+class Roles(NamedTuple):
+    """Positions of the species in the arrays of a stream; ``vapor`` is None without a vapor of the solvent."""
+
+    solid: int
+    solute: int
+    solvent: int
+    vapor: int | None
+    solute_fraction: float
+
+
+def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
+    """Find the species: the crystal by name (or the first solid), the liquid that is its anhydrous part, the solvent."""
+    if not mixture.solids:
+        raise CaseError(_("The mixture has no solid that could crystallize."))
+    s = mixture.index("solids", solid) if solid else 0
+    w = mixture.index("liquids", solvent) if solvent else 0
+    component = mixture.liquids[w].composition[0][0]
+    anhydrous = [(name, share) for name, share in mixture.solids[s].composition if name != component]
+    pure = [i for i, item in enumerate(mixture.liquids) if [n for n, _share in item.composition] == [n for n, _share in anhydrous]]
+    if len(anhydrous) != 1 or not pure:
+        raise CaseError(
+            _("The mixture has no dissolved form of '{crystal}': a liquid species made of {parts} alone is needed.").format(
+                crystal=mixture.solids[s].name, parts=", ".join(n for n, _share in anhydrous) or "—"
+            )
+        )
+    vapors = [i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]]
+    return Roles(s, pure[0], w, vapors[0] if vapors else None, anhydrous[0][1])
+
+
+def crystal_of(mixture: Mixture, found: Roles, temperature: Any, volume_shape_factor: Any) -> Crystal:
+    """The crystal as the vessel models take it."""
+    return Crystal(mixture.densities("solids", temperature)[found.solid], volume_shape_factor, found.solute_fraction)
+
+
+def feed_of(stream: Stream, found: Roles) -> Feed:
+    """Solute, solvent and crystals by size class of a stream."""
+    solid = stream.solid[found.solid]
+    return Feed(stream.liquid[found.solute], stream.liquid[found.solvent], jnp.sum(solid, axis=tuple(range(1, solid.ndim))))
+
+
+def with_crystals(stream: Stream, found: Roles, crystals: Any) -> Any:
+    """The stream's solid array with new crystal masses by class; further axes keep the shares the feed has, or the first class."""
+    solid = stream.solid[found.solid]
+    inner = tuple(range(1, solid.ndim))
+    total = jnp.sum(solid, axis=inner, keepdims=True)
+    whole = jnp.sum(solid, axis=0, keepdims=True)
+    amount = jnp.sum(solid)
+    fresh = jnp.zeros_like(whole).reshape(-1).at[0].set(1.0).reshape(whole.shape)
+    share = jnp.where(amount > 0, whole / jnp.where(amount > 0, amount, 1.0), fresh)
+    own = jnp.where(total > 0, solid / jnp.where(total > 0, total, 1.0), share)
+    return stream.solid.at[found.solid].set(own * crystals.reshape((-1,) + (1,) * len(inner)))

@@ -1,0 +1,87 @@
+"""Solubility as a law of temperature: from the materials library, or by the equations that solubility data are fitted with.
+
+Every law gives kg of anhydrous solute per kg of solvent.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Annotated, Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import law
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
+from granum.core.kinds import MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.materials.library import solute as material_solute
+
+
+class SolubilityLaw(eqx.Module):
+    """Saturation against temperature."""
+
+    @abstractmethod
+    def __call__(self, temperature: Temperature) -> MassRatio:
+        """kg of anhydrous solute per kg of solvent in equilibrium with the crystal."""
+
+
+@law("solubility_law", name="library_solubility", source="mullin2001, app.", title="Solubility from the materials library",
+     equation=r"C^* = C^*_{library}(T)")  # fmt: skip
+class LibrarySolubility(SolubilityLaw):
+    """Solubility of a system of the materials library, over its stable crystal or over a named one."""
+
+    solute: str = eqx.field(static=True)
+    crystal: str = eqx.field(static=True, default="")
+
+    def __call__(self, temperature: Temperature) -> MassRatio:
+        return material_solute(self.solute).solubility(temperature, self.crystal or None)
+
+
+@law("solubility_law", name="polynomial_solubility", source="mullin2001, sec. 3.4", title="Solubility by a polynomial in °C",
+     equation=r"C^* = \sum_k a_k (T - 273.15)^k")  # fmt: skip
+class PolynomialSolubility(SolubilityLaw):
+    """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of solvent."""
+
+    coefficients: Annotated[Number, Series("powers")]
+
+    def __call__(self, temperature: Temperature) -> MassRatio:
+        theta, total = temperature - ZERO_CELSIUS, 0.0
+        for a in jnp.asarray(self.coefficients)[::-1]:
+            total = total * theta + a
+        return total
+
+
+def from_mole_fraction(x: Any, solute: Any, solvent: Any) -> Any:
+    """Mass ratio of solute to solvent from the mole fraction of solute."""
+    return x * solute / ((1.0 - x) * solvent)
+
+
+@law("solubility_law", name="apelblat_solubility", source="apelblat1999", title="Solubility by Apelblat's equation",
+     equation=r"\ln x = A + B/T + C \ln T")  # fmt: skip
+class ApelblatSolubility(SolubilityLaw):
+    """Mole fraction at saturation by the modified Apelblat equation, T in kelvin."""
+
+    apelblat_a: Number
+    apelblat_b: Number
+    apelblat_c: Number
+    molar_mass: MolarMass
+    solvent_molar_mass: MolarMass = 0.0180153
+
+    def __call__(self, temperature: Temperature) -> MassRatio:
+        x = jnp.exp(self.apelblat_a + self.apelblat_b / temperature + self.apelblat_c * jnp.log(temperature))
+        return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)
+
+
+@law("solubility_law", name="vant_hoff_solubility", source="mullin2001, sec. 3.6", title="Solubility by the van 't Hoff equation",
+     equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R}")  # fmt: skip
+class VantHoffSolubility(SolubilityLaw):
+    """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of dissolution."""
+
+    enthalpy_of_dissolution: MolarEnergy
+    entropy_of_dissolution: Number
+    molar_mass: MolarMass
+    solvent_molar_mass: MolarMass = 0.0180153
+
+    def __call__(self, temperature: Temperature) -> MassRatio:
+        x = jnp.exp((self.entropy_of_dissolution - self.enthalpy_of_dissolution / temperature) / GAS_CONSTANT)
+        return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)

@@ -1,0 +1,190 @@
+"""Steady continuous crystallizer, mixed suspension and mixed product removal (MSMPR), as pure functions.
+
+Every crystal that is born in the vessel or enters it stays for an exponentially distributed time and grows at the same
+rate, so the product is a sum of shifted exponentials: one for the nuclei, one for each size class of the feed. Class masses
+and moments are then exact, and the only unknown is the composition of the mother liquor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+
+from granum.crystallization.vessels.crystals import Crystal, crystals_at, ratio_left
+from granum.numerics.roots import find_root
+
+SCAN = 96  # trial compositions between saturation and feed among which the first solution is sought
+
+
+class Feed(NamedTuple):
+    """What enters: dissolved solute and free solvent (kg/s), and crystals already there by size class (kg/s)."""
+
+    solute: Any
+    solvent: Any
+    crystals: Any
+
+
+class SteadyState(NamedTuple):
+    """A steady continuous crystallizer.
+
+    solute_per_solvent, solubility_per_solvent: composition of the mother liquor and at saturation, kg/kg.
+    relative_supersaturation: of the mother liquor.
+    crystals: product by size class, kg/s; the last class takes the tail beyond the grid.
+    solute, solvent: mother liquor leaving, kg/s. evaporation: vapor leaving, kg/s.
+    growth_rate: m/s. nucleation_rate: 1/(m³ s). residence_time: s. suspension_flow: m³/s.
+    magma_density: crystals per suspension volume, kg/m³. length: growth in one residence time, m.
+    washed_out: no steady crystals: the solution leaves supersaturated as it came.
+    converged: whether the mass balance was closed.
+    """
+
+    solute_per_solvent: Any
+    solubility_per_solvent: Any
+    relative_supersaturation: Any
+    crystals: Any
+    solute: Any
+    solvent: Any
+    evaporation: Any
+    growth_rate: Any
+    nucleation_rate: Any
+    residence_time: Any
+    suspension_flow: Any
+    magma_density: Any
+    length: Any
+    washed_out: Any
+    converged: Any
+
+
+class AdditiveVolumes(eqx.Module):
+    """Volume flow of a liquor whose parts add up: constant densities, and other liquids that come along (m³/s)."""
+
+    solute_density: Any
+    solvent_density: Any
+    others: Any = 0.0
+
+    def __call__(self, solute: Any, solvent: Any) -> Any:
+        return solute / self.solute_density + solvent / self.solvent_density + self.others
+
+
+@eqx.filter_jit
+def steady_msmpr(
+    feed: Feed,
+    temperature: Any,
+    volume: Any,
+    solubility: Callable[[Any], Any],
+    growth: Callable[[Any, Any, Any], Any],
+    nucleation: Callable[[Any, Any, Any, Any], Any],
+    crystal: Crystal,
+    liquor_volume: Callable[[Any, Any], Any],
+    edges: Any,
+    evaporation: Any = 0.0,
+    evaporation_per_crystal: Any = 0.0,
+    nucleus_size: Any = 0.0,
+) -> SteadyState:
+    """Steady state of one vessel.
+
+    Parameters
+    ----------
+    temperature: K. volume: of suspension, m³.
+    solubility: anhydrous solute per solvent from the temperature.
+    growth: rate of size from (solute per solvent, solubility, temperature); nucleation: the same with the magma density.
+    liquor_volume: m³/s of mother liquor from its solute and its solvent (kg/s).
+    edges: size class boundaries of the crystals, m.
+    evaporation: solvent taken off as vapor, kg/s, and what is added to it per kg of crystals that form: the heat of
+        crystallization over that of vaporization in an adiabatic vessel, which keeps every balance linear.
+
+    Of several steady states the one with most crystals is taken; the one without any is taken when it is the only one.
+    Crystals that enter with an undersaturated liquor dissolve until it is saturated or they are gone.
+    """
+    edges = jnp.asarray(edges, dtype=float)
+    saturated = solubility(temperature)
+    total = jnp.sum(feed.crystals)
+    x = crystal.solute_fraction
+    # A crystal takes its own water and, in an adiabatic vessel, evaporates some.
+    bound = 1.0 - x + evaporation_per_crystal
+    all_solute, all_solvent = feed.solute + x * total, feed.solvent - evaporation + bound * total
+    # Composition if nothing new crystallized; between it and saturation lies every steady state.
+    highest = feed.solute / (feed.solvent - evaporation)
+    start_numbers, start_sizes = _packets(feed.crystals, edges, crystal)
+
+    def state(c: Any) -> tuple[Any, ...]:
+        product = crystals_at(all_solute, all_solvent, c, x, bound)
+        left = all_solvent - bound * product
+        flow = liquor_volume(left * c, left) + product / crystal.density
+        G = growth(c, saturated, temperature)
+        return product, flow, G, nucleation(c, saturated, temperature, product / flow)
+
+    def grown(c: Any) -> Any:
+        """Crystal mass that the kinetics make, kg/s."""
+        _product, flow, G, B = state(c)
+        length = G * volume / flow
+        return crystal.mass_per_cube * (
+            B * volume * _third(nucleus_size, length) + _dot(start_numbers, _third(start_sizes, length[..., None]))
+        )
+
+    def excess(c: Any) -> Any:
+        return jnp.log(jnp.maximum(grown(c), 1e-300)) - jnp.log(jnp.maximum(state(c)[0], 1e-300))
+
+    supersaturated = highest > saturated
+    low, high = lax.stop_gradient((saturated, highest))
+    trials = low + (high - low) * _trial_points()
+    values = jax.vmap(excess)(trials)
+    rises = (values[:-1] < 0) & (values[1:] >= 0)
+    first = jnp.argmax(rises)
+    some = jnp.any(rises) & supersaturated
+    below, above = jnp.where(some, trials[first], low), jnp.where(some, trials[first + 1], high)
+    root = find_root(lambda c: jnp.where(some, excess(c), c - highest), below, jnp.where(some, above, high * (1 + 1e-9)))
+    dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x, bound), 0.0, total)
+    rest = jnp.where(supersaturated, total, dissolved_down)
+    c = jnp.where(some, root.value, ratio_left(all_solute, all_solvent, rest, x, bound))
+    product, flow, G, B = state(c)
+    product = jnp.where(some, product, rest)
+    length = G * volume / flow
+    born = jnp.where(some, B * volume, 0.0)
+    classes = _classes(jnp.append(start_numbers, born), jnp.append(start_sizes, nucleus_size), length, edges, crystal)
+    # The closure fixes the total; the classes share it, so that mass is conserved to rounding.
+    made = jnp.sum(classes)
+    classes = classes * jnp.where(made > 0, product / jnp.where(made > 0, made, 1.0), 0.0)
+    left = all_solvent - bound * product
+    return SteadyState(
+        c, saturated, c / saturated - 1.0, classes, left * c, left,
+        evaporation + evaporation_per_crystal * (product - total), G, B, volume / flow, flow, product / flow, length,
+        ~jnp.any(rises) & supersaturated & (total == 0), jnp.where(some, root.converged, True),
+    )  # fmt: skip
+
+
+def _trial_points() -> Any:
+    """Trial shares of the supersaturation: fine near both ends, where steady states crowd."""
+    near = jnp.geomspace(1e-9, 0.1, SCAN // 2)
+    return jnp.concatenate([near, jnp.linspace(0.1, 0.9, SCAN // 4 + 2)[1:-1], 1.0 - near[::-2]])
+
+
+def _third(size: Any, length: Any) -> Any:
+    """Mean cube of ``size + X`` for X exponential with mean ``length``."""
+    return size**3 + 3.0 * size**2 * length + 6.0 * size * length**2 + 6.0 * length**3
+
+
+def _dot(a: Any, b: Any) -> Any:
+    return jnp.sum(a * b, axis=-1)
+
+
+def _packets(crystals: Any, edges: Any, crystal: Crystal) -> tuple[Any, Any]:
+    """Numbers per second and sizes that stand for the classes of the feed: the mean cube of a uniform class."""
+    low, high = edges[:-1], edges[1:]
+    size = (0.25 * (low + high) * (low**2 + high**2)) ** (1.0 / 3.0)
+    return crystals / (crystal.mass_per_cube * size**3), size
+
+
+def _classes(numbers: Any, sizes: Any, length: Any, edges: Any, crystal: Crystal) -> Any:
+    """Crystal mass in each class of a sum of shifted exponentials, kg/s; the last class is open upwards."""
+    safe = jnp.maximum(length, 1e-15)
+    above = jnp.maximum(edges[:-1, None] - sizes[None, :], 0.0)  # class boundary seen from each packet
+    level = sizes[None, :] + above
+    beyond = jnp.exp(-above / safe) * (level**3 + safe * (3.0 * level**2 + safe * (6.0 * level + 6.0 * safe)))
+    tail = jnp.sum(numbers[None, :] * beyond, axis=1) * crystal.mass_per_cube
+    tail = tail.at[0].set(jnp.sum(numbers * _third(sizes, safe)) * crystal.mass_per_cube)  # what is below the grid joins its first class
+    return tail - jnp.append(tail[1:], 0.0)
