@@ -193,7 +193,8 @@ def format_number(value: float, digits: int = 4) -> str:
         if "." in text:
             text = text.rstrip("0").rstrip(".")
     else:
-        mantissa = f"{value / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
+        mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
+        mantissa, exponent = mantissa.rstrip("0").rstrip("."), int(power)
         text = f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPT)}"
     return text.replace(".", ",") if current_language() == "fr" else text
 

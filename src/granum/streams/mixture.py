@@ -64,7 +64,7 @@ class Mixture:
     size_edges: class boundaries of the particle size, m, increasing (n + 1 of them).
     axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis leaves it alone.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
-    gas_viscosity: function of temperature → Pa s.
+    gas_viscosity, gas_conductivity: functions of temperature → Pa s, W/(m K).
     """
 
     solids: tuple[Species, ...]
@@ -74,13 +74,15 @@ class Mixture:
     axes: tuple[tuple[str, tuple[float, ...]], ...] = ()
     liquid_viscosity: Callable[[Any, Any], Any] | None = None
     gas_viscosity: Callable[[Any], Any] | None = None
+    gas_conductivity: Callable[[Any], Any] | None = None
     _key: Any = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         edges = np.asarray(self.size_edges)
         if edges.size < 2 or np.any(np.diff(edges) <= 0) or edges[0] < 0:
             raise InputError(_("Size classes need at least two increasing boundaries of zero or more."))
-        key = (self.solids, self.liquids, self.gases, self.size_edges, self.axes, self.liquid_viscosity, self.gas_viscosity)
+        key = (self.solids, self.liquids, self.gases, self.size_edges, self.axes, self.liquid_viscosity, self.gas_viscosity,
+               self.gas_conductivity)  # fmt: skip
         object.__setattr__(self, "_key", (hash(key), key))
 
     def __hash__(self) -> int:

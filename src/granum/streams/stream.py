@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 
 from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
@@ -150,6 +151,26 @@ class Stream(eqx.Module):
         if law is None:
             raise InputError(_("The mixture has no gas viscosity; name its carrier gas."))
         return law(self.temperature)
+
+    @property
+    def gas_conductivity(self) -> Any:
+        """Thermal conductivity of the gas, W/(m K)."""
+        law = self.mixture.gas_conductivity
+        if law is None:
+            raise InputError(_("The mixture has no gas conductivity; name its carrier gas."))
+        return law(self.temperature)
+
+    @property
+    def gas_heat_capacity(self) -> Any:
+        """Heat capacity of the gas, J/(kg K)."""
+        slope = jax.jvp(lambda T: self.mixture.enthalpies("gases", T), (jnp.asarray(self.temperature, dtype=float),), (jnp.ones(()),))[1]
+        return jnp.sum(self.gas * slope) / jnp.where(self.gas_flow > 0, self.gas_flow, 1.0)
+
+    @property
+    def gas_density(self) -> Any:
+        """Density of the gas, kg/m³ (zero when there is none)."""
+        volume = self.gas_volume_flow
+        return self.gas_flow / jnp.where(volume > 0, volume, 1.0)
 
     @property
     def moisture_dry_basis(self) -> Any:

@@ -1,0 +1,145 @@
+"""A continuous dryer in which gas and solid are well mixed: the simplest true model of a fluidized-bed dryer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
+from granum.humid_gas.pairs import AirWater
+from granum.humid_gas.relations import saturated_fraction, wet_bulb
+from granum.materials.library import fluid
+from granum.numerics import find_root, safe_divide
+from granum.particles.formulas.numbers import reynolds_number
+from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+
+class Dried(NamedTuple):
+    """Dried solid, exhaust gas and the heat taken up from outside (negative: the loss)."""
+
+    product: Stream
+    exhaust: Stream
+    heat_duty: Any
+
+
+class WellMixedFigures(NamedTuple):
+    """Figures of a well-mixed dryer."""
+
+    evaporation_rate: MassFlow
+    moisture_dry_basis: MoistureDryBasis
+    temperature: Temperature
+    humidity_ratio: HumidityRatio
+    relative_humidity: RelativeHumidity
+    solid_holdup: Mass
+    area: Area
+    heat_duty: Power
+
+
+@equipment("well_mixed_dryer", source="kunii1991, ch. 16; ranz1952", title="Well-mixed (fluidized-bed) dryer")
+class WellMixedDryer(Unit):
+    """Dries the liquor film on non-porous particles in a gas that is well mixed with them; sizes of particle dry at their own rate.
+
+    The film is spread over the particle surface in proportion to its area. It evaporates at the wet-bulb temperature of the bed
+    gas, with heat transfer after Ranz and Marshall at the superficial velocity, until it is gone; residence times are exponential.
+    Particles and gas leave at the bed temperature. What was dissolved in the evaporated water stays on the particles as solid.
+    Simplifications: the saturated film evaporates like pure water, and no moisture is bound inside the crystals.
+    """
+
+    residence_time: Time
+    gas_velocity: Speed
+    heat_loss: Power = 0.0
+
+    def __call__(self, feed: Stream, gas: Stream) -> Dried:
+        pair = AirWater()
+        water = feed.liquid[0]
+        wet = feed + gas.replace(liquid=jnp.zeros_like(gas.liquid), solid=jnp.zeros_like(gas.solid))
+        wet = wet.replace(pressure=gas.pressure)
+        enthalpy = feed.enthalpy_flow + gas.enthalpy_flow - self.heat_loss
+
+        def after(evaporated: Any, T: Any) -> Stream:
+            """The matter in the bed at T when that much water has gone into the gas."""
+            return _evaporate(wet, safe_divide(evaporated, water)).replace(temperature=T)
+
+        def by_energy(T: Any) -> Any:
+            """Water that the heat available at a bed temperature evaporates: enthalpy is linear in it."""
+            none, all_ = after(0.0, T).enthalpy_flow, after(water, T).enthalpy_flow
+            return water * (enthalpy - none) / (all_ - none)
+
+        def by_kinetics(T: Any, evaporated: Any) -> Any:
+            bed = after(jnp.clip(evaporated, 0.0, water), T)
+            y = pair.fraction(safe_divide(bed.gas[1], bed.gas[0]))
+            saturated = jnp.minimum(saturated_fraction(pair, T, bed.pressure), 1.0)
+            Tw = wet_bulb(pair, T, bed.pressure, jnp.minimum(y, saturated), pair.lewis_factor())
+            latent = fluid("water").heat_of_vaporization.value(Tw)
+            flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
+            area = feed.by_size(6.0 / (feed.mixture.sizes * feed.solid_density)) * feed.solid / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
+            area = jnp.sum(area, axis=(0, *range(2, area.ndim)))  # m² per kg of all solid, by class
+            film = safe_divide(water, feed.solid_flow * jnp.sum(area))  # kg of water per m²
+            time = film / jnp.maximum(flux, 1e-12)  # to dry one particle
+            dried = -jnp.expm1(-time / self.residence_time) * self.residence_time / time  # share evaporated, exponential residence times
+            return water * jnp.sum(area * dried) / jnp.sum(area)
+
+        coldest = jnp.minimum(feed.temperature, gas.temperature) - 60.0
+        root = find_root(lambda T: (by_energy(T) - by_kinetics(T, by_energy(T))) / jnp.maximum(water, 1e-300), coldest, gas.temperature)
+        T = jnp.where(water > 0, root.value, wet.temperature)
+        bed = after(jnp.clip(by_energy(T), 0.0, water), T)
+        nothing = jnp.zeros_like(bed.gas)
+        product = bed.replace(gas=nothing)
+        exhaust = bed.replace(solid=jnp.zeros_like(bed.solid), liquid=jnp.zeros_like(bed.liquid))
+        return Dried(product, exhaust, -self.heat_loss)
+
+    def _heat_transfer(self, bed: Stream) -> Any:
+        """Heat transfer coefficient of each size class, W/(m² K)."""
+        conductivity = bed.gas_conductivity
+        prandtl = bed.gas_heat_capacity * bed.gas_viscosity / conductivity
+        sizes = self._sizes(bed)
+        reynolds = reynolds_number(sizes, self.gas_velocity, bed.gas_density, bed.gas_viscosity)
+        return nusselt_number_ranz_marshall(reynolds, prandtl) * conductivity / sizes
+
+    @staticmethod
+    def _sizes(bed: Stream) -> Any:
+        """Class sizes; an empty class takes the size of the fullest one, so that nothing is flagged for particles that are not there."""
+        shares = bed.size_fractions
+        return jnp.where(shares > 1e-9, bed.mixture.sizes, bed.mixture.sizes[jnp.argmax(shares)])
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> WellMixedFigures:
+        pair, exhaust = AirWater(), outlets.exhaust
+        humidity = safe_divide(exhaust.gas[1], exhaust.gas[0])
+        saturated = saturated_fraction(pair, exhaust.temperature, exhaust.pressure)
+        return WellMixedFigures(
+            evaporation_rate=inlets["feed"].liquid[0] - outlets.product.liquid[0],
+            moisture_dry_basis=outlets.product.moisture_dry_basis,
+            temperature=outlets.product.temperature,
+            humidity_ratio=humidity,
+            relative_humidity=pair.fraction(humidity) / saturated,
+            solid_holdup=outlets.product.solid_flow * self.residence_time,
+            area=exhaust.gas_volume_flow / self.gas_velocity,
+            heat_duty=outlets.heat_duty,
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Dried) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        return (
+            Check("relative humidity of the exhaust", figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+            Check("moisture of the product", figures.moisture_dry_basis, 0.0, 0.01, "kg/kg", "mullin2001, ch. 9"),
+        )
+
+
+def _evaporate(wet: Stream, share: Any) -> Stream:
+    """Move a share of the water into the gas; the same share of each solute crystallizes on the solid of its own name."""
+    m = wet.mixture
+    vapor = m.index("gases", m.liquids[0].name)
+    gas = wet.gas.at[vapor].add(wet.liquid[0] * share)
+    solid, liquid = wet.solid, wet.liquid.at[0].multiply(1.0 - share)
+    for i, species in enumerate(m.liquids[1:], start=1):
+        row = m.index("solids", species.name)
+        there = jnp.sum(solid[row])
+        spread = jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size)
+        solid = solid.at[row].add(wet.liquid[i] * share * spread)
+        liquid = liquid.at[i].multiply(1.0 - share)
+    return wet.replace(gas=gas, solid=solid, liquid=liquid)

@@ -1,0 +1,160 @@
+"""A mixture from material names: what a case file's ``[mixture]`` table means.
+
+A liquid is a fluid of the library (the first one is the solvent) or a solute dissolved in it; a solid is a solid of the library,
+a crystal of one of those solutes when it is one of its branches; a gas is a fluid of the library. Enthalpies are zero for the
+liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of vaporization and a crystal lies
+lower by its heat of crystallization.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _
+from granum.materials.correlation import Correlation
+from granum.materials.library import fluid, load, names, solid, solute
+from granum.materials.solutes import SoluteSystem
+from granum.streams.mixture import Mixture, Species
+
+COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
+HOTTEST_GAS = 873.15
+
+
+def mixture_of(
+    liquids: Sequence[str], solids: Sequence[str], gases: Sequence[str], size_edges: Iterable[float], *,
+    axes: tuple[tuple[str, tuple[float, ...]], ...] = (), own: Iterable[str | Path] = (),
+) -> Mixture:  # fmt: skip
+    """The mixture of named materials.
+
+    Parameters
+    ----------
+    liquids: solvent first, then dissolved solutes or further liquids.
+    solids: crystals and other solids.
+    gases: carrier gas first, then vapors.
+    size_edges: class boundaries, m.
+    axes: further axes of the solid.
+    own: TOML files with the user's own materials.
+    """
+    for path in own:
+        load(path)
+    systems = {name: system for name in liquids[1:] if (system := _system(name, liquids[0])) is not None}
+    return Mixture(
+        solids=tuple(_crystal(name, systems) or _inert(name) for name in solids),
+        liquids=tuple(_dissolved(name, systems[name]) if name in systems else _liquid(name) for name in liquids),
+        gases=tuple(_gas(name) for name in gases),
+        size_edges=tuple(float(e) for e in np.asarray(list(size_edges))),
+        axes=axes,
+        liquid_viscosity=SolutionViscosity(tuple(liquids), tuple(systems)) if liquids else None,
+        gas_viscosity=CarrierProperty(gases[0], "vapor_viscosity") if gases else None,
+        gas_conductivity=CarrierProperty(gases[0], "vapor_conductivity") if gases else None,
+    )
+
+
+def _system(name: str, solvent: str) -> SoluteSystem | None:
+    for candidate in (name, f"{name} in {solvent}"):
+        if candidate in names("solute"):
+            found = solute(candidate)
+            if found.solvent.name == solvent:
+                return found
+    return None
+
+
+def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[float, ...]:
+    if isinstance(law, Correlation):
+        low, high = max(law.low, COLDEST), min(law.high, hottest)
+        return law.polynomial(low, high, degree) if high > low else (float(law.value(jnp.asarray(law.low))),)
+    return law()  # a property the library lacks says so
+
+
+def _liquid(name: str) -> Species:
+    if name not in names("fluid"):
+        raise unknown_name(_("Liquid"), name, (*names("fluid"), *names("solute")))
+    f = fluid(name)
+    return Species(f.name, ((f.name, 1.0),), _polynomial(f.liquid_density), _polynomial(f.liquid_heat_capacity), 0.0, float(f.molar_mass))
+
+
+def _dissolved(name: str, system: SoluteSystem) -> Species:
+    """Apparent density of the solute in the solution saturated at 25 °C; apparent heat capacity from the system."""
+
+    @jax.jit
+    def apparent(T: Any) -> Any:
+        ratio = system.solubility(298.15)
+        whole = (1.0 + ratio) / system.solution_density(T, ratio)  # volume per kg of solvent
+        return ratio / (whole - 1.0 / system.solvent.liquid_density(T)), system.solute_heat_capacity
+
+    T = np.linspace(280.0, 350.0, 8)
+    densities, heat_capacity = apparent(T)
+    density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
+    return Species(name, ((name, 1.0),), tuple(float(c) for c in density), (float(heat_capacity),), 0.0, float(system.molar_mass))
+
+
+def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
+    for solute_name, system in systems.items():
+        for branch in system.branches:
+            if branch.crystal.name == name:
+                anhydrous = 1.0 / float(branch.hydrate_ratio)
+                parts = ((solute_name, anhydrous), (system.solvent.name, 1.0 - anhydrous))
+                return Species(
+                    name,
+                    tuple(part for part in parts if part[1] > 0),
+                    _polynomial(branch.crystal.density),
+                    _polynomial(branch.crystal.heat_capacity),
+                    float(jax.jit(lambda T, system=system: system.crystal_enthalpy(T, name))(ZERO_CELSIUS)),
+                    float(branch.crystal.molar_mass),
+                )
+    return None
+
+
+def _inert(name: str) -> Species:
+    s = solid(name)
+    return Species(s.name, ((s.name, 1.0),), _polynomial(s.density), _polynomial(s.heat_capacity), 0.0, float(s.molar_mass))
+
+
+def _gas(name: str) -> Species:
+    f = fluid(name)
+    heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
+    return Species(f.name, ((f.name, 1.0),), (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass))
+
+
+@dataclass(frozen=True)
+class SolutionViscosity:
+    """Viscosity of the liquid: the solvent's, raised by each solute as in its binary solution at its own ratio to the solvent."""
+
+    liquids: tuple[str, ...]
+    solutes: tuple[str, ...]
+
+    def __call__(self, mass_fractions: Any, temperature: Any) -> Any:
+        pure = fluid(self.liquids[0]).liquid_viscosity(temperature)
+        solvent = jnp.maximum(mass_fractions[0], 1e-12)
+        viscosity = pure
+        for i, name in enumerate(self.liquids):
+            if i == 0:
+                continue
+            if name in self.solutes:
+                system = _system(name, self.liquids[0])
+                if system is None:
+                    raise InputError(_("'{name}' is not a solute in '{solvent}'.").format(name=name, solvent=self.liquids[0]))
+                viscosity = viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / pure
+            else:  # a second liquid: logarithmic mixing by mass (Arrhenius), a simplification
+                viscosity = viscosity * (fluid(name).liquid_viscosity(temperature) / pure) ** mass_fractions[i]
+        return viscosity
+
+
+@dataclass(frozen=True)
+class CarrierProperty:
+    """A transport property of the gas, taken as that of the carrier."""
+
+    carrier: str
+    name: str
+
+    def __call__(self, temperature: Any) -> Any:
+        return getattr(fluid(self.carrier), self.name)(temperature)
