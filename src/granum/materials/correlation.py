@@ -1,0 +1,92 @@
+"""``Correlation``: one property of one material as a function of temperature, with its range and source."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import flags
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
+from granum.core.kinds import Kind, kind_of
+from granum.core.kinds import MassFraction as _MassFraction
+from granum.core.kinds import MassRatio as _MassRatio
+from granum.core.kinds import Pressure as _Pressure
+from granum.core.kinds import Temperature as _Temperature
+from granum.core.parameters import Parameter, convert
+
+
+def _reader(name: str, annotation: Any) -> Callable[[Any], Any]:
+    kind = kind_of(annotation)
+    assert isinstance(kind, Kind)
+    parameter = Parameter(name, kind)
+    return lambda value: convert(value, parameter)
+
+
+as_temperature = _reader("temperature", _Temperature)
+as_pressure = _reader("pressure", _Pressure)
+as_solute_ratio = _reader("solute_per_solvent", _MassRatio)
+as_mass_fraction = _reader("solute_mass_fraction", _MassFraction)
+
+
+class Correlation(eqx.Module):
+    """A property over temperature. Call it with K, text with a unit, arrays or tracers; the value is in SI units.
+
+    Parameters
+    ----------
+    form: the formula that turns temperature and coefficients into the value.
+    coefficients: as printed in the source; None for a form that needs none.
+    factor: from the printed unit to SI.
+    low, high: temperatures between which it was fitted, K; outside, the value is kept and flagged.
+    owner: material and property, for messages.
+    source: key in the bibliography, with table or page.
+    """
+
+    form: Any = eqx.field(static=True)
+    coefficients: Any
+    factor: float
+    low: float = eqx.field(static=True)
+    high: float = eqx.field(static=True)
+    owner: str = eqx.field(static=True)
+    source: str = eqx.field(static=True)
+
+    def __call__(self, temperature: Any) -> Any:
+        T = as_temperature(temperature)
+        self.check_range(T)
+        return self.value(T)
+
+    def value(self, temperature: Any) -> Any:
+        """The value without looking at the range: for the inside of integrals and roots."""
+        found = self.form(temperature) if self.coefficients is None else self.form(temperature, self.coefficients)
+        return found * self.factor
+
+    def check_range(self, temperature: Any) -> None:
+        """Flag the temperatures outside the fitted range, if anybody collects flags."""
+        mask = (temperature < self.low) | (temperature > self.high)
+        flags.record(flags.EXTRAPOLATED, mask, temperature, "temperature", self.owner, self.low, self.high, self.source)
+
+    def polynomial(self, low: Any, high: Any, degree: int = 2) -> tuple[float, ...]:
+        """Least-squares polynomial in degrees Celsius between two temperatures, lowest power first: what stream species take."""
+        ends = np.array([float(as_temperature(low)), float(as_temperature(high))])
+        nodes = np.cos(np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8))  # Chebyshev nodes: near-minimax error
+        T = ends.mean() + 0.5 * (ends[1] - ends[0]) * nodes
+        fitted = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree)
+        return tuple(float(c) for c in fitted.convert().coef)
+
+
+class Missing(eqx.Module):
+    """Stands where a material has no value for a property; says so when called."""
+
+    owner: str = eqx.field(static=True)
+
+    def __call__(self, *_values: Any) -> Any:
+        raise ApplicabilityError(
+            _("The library has no value for {owner}. Load a TOML file that has one with granum.materials.load.").format(owner=self.owner)
+        )
+
+    value = check_range = polynomial = __call__

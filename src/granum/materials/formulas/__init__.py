@@ -1,0 +1,1 @@
+"""Property formulas: water, gases, correlation forms, solutions, diffusivities."""

@@ -1,0 +1,193 @@
+"""Forms of property correlations: how a handful of coefficients makes a property a function of temperature.
+
+Each form is a card, and a member of the family ``correlation``: the ``form`` of a property in a material's TOML file is the part of
+its name after ``correlation_``. The unit of the value is whatever the coefficients were fitted in.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from granum.core import formula
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.kinds import Number, Series, Temperature
+
+Coefficients = Annotated[Number, Series("coefficients")]
+
+
+def _horner(coefficients: Any, x: Any) -> Any:
+    """Polynomial, lowest power first."""
+    total = 0.0 * x
+    for i in reversed(range(coefficients.shape[0])):
+        total = total * x + coefficients[i]
+    return total
+
+
+@formula(source="green2008, sec. 2", equation=r"y = \sum_i c_i T^i", title="Polynomial in kelvin")
+def correlation_polynomial(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Polynomial in the absolute temperature, lowest power first (DIPPR equation 100).
+
+    >>> round(correlation_polynomial(temperature=300.0, coefficients=[102640.0, -139.63, -0.030341, 0.0020386]), 0)
+    113063.0
+    """
+    return _horner(jnp.asarray(coefficients), temperature)
+
+
+@formula(source="mullin2001, app. A.4", equation=r"y = \sum_i c_i (T - 273.15)^i", title="Polynomial in degrees Celsius")
+def correlation_polynomial_celsius(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Polynomial in the temperature in degrees Celsius, lowest power first.
+
+    >>> correlation_polynomial_celsius(temperature="10 degC", coefficients=[1.0, 2.0])
+    21.0
+    """
+    return _horner(jnp.asarray(coefficients), temperature - ZERO_CELSIUS)
+
+
+@formula(source="green2008, table 2-8", equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T + c_4 T^{c_5}\right)",
+         title="Extended Antoine form (DIPPR 101)")  # fmt: skip
+def correlation_dippr101(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Exponential form used for vapor pressures and liquid viscosities.
+
+    >>> ethanol = [73.304, -7122.3, -7.1424, 2.8853e-6, 2.0]
+    >>> round(correlation_dippr101(temperature="78.29 degC", coefficients=ethanol) / 1e3, 0)
+    101.0
+    """
+    c, T = jnp.asarray(coefficients), temperature
+    return jnp.exp(c[0] + c[1] / T + c[2] * jnp.log(T) + c[3] * T ** c[4])
+
+
+@formula(source="green2008, table 2-312", equation=r"y = \frac{c_1 T^{c_2}}{1 + c_3/T + c_4/T^2}", title="Sutherland form (DIPPR 102)")
+def correlation_dippr102(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Generalized Sutherland form used for the viscosity and conductivity of dilute gases.
+
+    >>> round(correlation_dippr102(temperature=300.0, coefficients=[1.0613e-7, 0.8066, 52.7, 0.0]) * 1e6, 1)
+    9.0
+    """
+    c, T = jnp.asarray(coefficients), temperature
+    return c[0] * T ** c[1] / (1.0 + c[2] / T + c[3] / T**2)
+
+
+@formula(source="green2008, table 2-32", equation=r"y = c_1\, c_2^{-\left[1 + (1 - T/c_3)^{c_4}\right]}", title="Rackett form (DIPPR 105)")
+def correlation_rackett(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Rackett form used for the density of saturated liquids; c3 is the critical temperature.
+
+    >>> round(correlation_rackett(temperature=298.15, coefficients=[1628.8, 0.27469, 514.0, 0.23178]) * 46.068 / 1e3, -1)
+    790.0
+    """
+    c = jnp.asarray(coefficients)
+    y = jnp.maximum(1.0 - temperature / c[2], 1e-9)
+    return c[0] / c[1] ** (1.0 + y ** c[3])
+
+
+@formula(source="green2008, table 2-150", equation=r"y = c_2\,(1 - T_r)^{c_3 + c_4 T_r + c_5 T_r^2 + \dots},\quad T_r = T/c_1",
+         title="Watson form (DIPPR 106)")  # fmt: skip
+def correlation_watson(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Watson form used for heats of vaporization and surface tensions; c1 is the critical temperature, where the value becomes zero.
+
+    >>> round(correlation_watson(temperature=298.15, coefficients=[514.0, 55789.0, 0.31245, 0.0, 0.0]) / 46.068, -1)
+    920.0
+    """
+    c = jnp.asarray(coefficients)
+    Tr = temperature / c[0]
+    return c[1] * jnp.maximum(1.0 - Tr, 1e-9) ** _horner(c[2:], Tr)
+
+
+@formula(source="green2008, table 2-156", equation=r"y = c_1 + c_2\left[\frac{c_3/T}{\sinh(c_3/T)}\right]^2 + c_4\left[\frac{c_5/T}{\cosh(c_5/T)}\right]^2",
+         title="Aly–Lee form (DIPPR 107)")  # fmt: skip
+def correlation_aly_lee(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Aly and Lee's form for the heat capacity of ideal gases.
+
+    >>> nitrogen = [29105.0, 8614.9, 1701.6, 103.47, 909.79]
+    >>> round(correlation_aly_lee(temperature=298.15, coefficients=nitrogen) / 28.0134, 0)
+    1040.0
+    """
+    c = jnp.asarray(coefficients)
+    a, b = c[2] / temperature, c[4] / temperature
+    return c[0] + c[1] * (a / jnp.sinh(a)) ** 2 + c[3] * (b / jnp.cosh(b)) ** 2
+
+
+@formula(source="green2008, table 2-153",
+         equation=r"y = \frac{c_2^2}{\tau} + c_3 - 2c_2c_4\tau - c_2c_5\tau^2 - \frac{c_4^2\tau^3}{3} - \frac{c_4c_5\tau^4}{2} - \frac{c_5^2\tau^5}{5},"
+                  r"\quad \tau = 1 - T/c_1",
+         title="Zábranský form (DIPPR 114)")  # fmt: skip
+def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Form for the heat capacity of liquids up to the critical temperature c1.
+
+    >>> heptane = [540.2, 61.26, 314410.0, 1824.6, -2547.9]
+    >>> round(correlation_dippr114(temperature=298.15, coefficients=heptane) / 100.202, -1)
+    2240.0
+    """
+    Tc, A, B, C, D = (jnp.asarray(coefficients)[i] for i in range(5))
+    t = jnp.maximum(1.0 - temperature / Tc, 1e-9)
+    return A**2 / t + B - 2 * A * C * t - A * D * t**2 - C**2 * t**3 / 3 - C * D * t**4 / 2 - D**2 * t**5 / 5
+
+
+@formula(source="poling2001, app. A", equation=r"y = 10^{\,c_1 - c_2/(T + c_3)}", title="Antoine form")
+def correlation_antoine(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Antoine's vapor pressure form, decimal logarithm and kelvin.
+
+    >>> round(correlation_antoine(temperature=373.15, coefficients=[5.11564, 1687.537, -42.98]), 2)
+    1.01
+    """
+    c = jnp.asarray(coefficients)
+    return 10.0 ** (c[0] - c[1] / (temperature + c[2]))
+
+
+@formula(source="poling2001, ch. 9", equation=r"y = \exp\left(c_1 + \frac{c_2}{T + c_3}\right)", title="Vogel form")
+def correlation_vogel(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Vogel's form for liquid viscosities; Andrade's with c3 = 0.
+
+    >>> round(correlation_vogel(temperature=300.0, coefficients=[0.0, 300.0, 0.0]), 5)
+    2.71828
+    """
+    c = jnp.asarray(coefficients)
+    return jnp.exp(c[0] + c[1] / (temperature + c[2]))
+
+
+@formula(source="apelblat1999, eq. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T\right)", title="Apelblat form")
+def correlation_apelblat(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Apelblat's form for solubilities: an enthalpy of solution that varies linearly with temperature.
+
+    >>> round(correlation_apelblat(temperature=300.0, coefficients=[1.0, -300.0, 0.0]), 6)
+    1.0
+    """
+    c, T = jnp.asarray(coefficients), temperature
+    return jnp.exp(c[0] + c[1] / T + c[2] * jnp.log(T))
+
+
+@formula(source="mullin2001, ch. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T}\right)", title="van 't Hoff form")
+def correlation_vant_hoff(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Van 't Hoff's form for solubilities: a constant enthalpy of solution.
+
+    >>> round(correlation_vant_hoff(temperature=300.0, coefficients=[1.0, -300.0]), 6)
+    1.0
+    """
+    c = jnp.asarray(coefficients)
+    return jnp.exp(c[0] + c[1] / temperature)
+
+
+@formula(
+    source="mulero2012, eq. 2", equation=r"y = \sum_i \sigma_i\,(1 - T/T_c)^{n_i}", title="Surface tension form of Mulero and Cachadiña"
+)
+def correlation_mulero(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Sum of powers for the surface tension of pure liquids; coefficients Tc, σ0, n0, σ1, n1 and so on.
+
+    >>> round(correlation_mulero(temperature=298.15, coefficients=[513.9, 0.05, 0.952]) * 1e3, 0)
+    22.0
+    """
+    c = jnp.asarray(coefficients)
+    t = jnp.maximum(1.0 - temperature / c[0], 1e-9)
+    return sum(c[i] * t ** c[i + 1] for i in range(1, c.shape[0] - 1, 2))
+
+
+@formula(source="green2008, table 2-151", equation=r"y = c_1 + c_2 T + c_3 T^{-2}", title="Heat capacity form of Maier and Kelley")
+def correlation_maier_kelley(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Maier and Kelley's form for the heat capacity of solids.
+
+    >>> round(correlation_maier_kelley(temperature=298.15, coefficients=[22.08, 0.008971, -522500.0]) * 4184 / 101.961, 0)
+    775.0
+    """
+    c, T = jnp.asarray(coefficients), temperature
+    return c[0] + c[1] * T + c[2] / T**2

@@ -1,0 +1,138 @@
+"""Everything the library knows of a material at a temperature, as cards: what ``granum calc`` and the forms use."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import formula
+from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.kinds import (
+    Density,
+    Diffusivity,
+    DynamicViscosity,
+    HeatCapacity,
+    MassFraction,
+    MassRatio,
+    PositiveNumber,
+    Pressure,
+    Ratio,
+    SpecificEnergy,
+    SurfaceTension,
+    Temperature,
+    ThermalConductivity,
+)
+from granum.materials.correlation import Missing
+
+
+def _or_nan(property_of: Any, temperature: Any) -> Any:
+    """NaN, hence a flag, where the library has nothing: one gap must not hide the other properties."""
+    return jnp.nan + 0.0 * temperature if isinstance(property_of, Missing) else property_of(temperature)
+
+
+class LiquidProperties(NamedTuple):
+    """Properties of a pure liquid."""
+
+    liquid_density: Density
+    dynamic_viscosity: DynamicViscosity
+    specific_heat_capacity: HeatCapacity
+    thermal_conductivity: ThermalConductivity
+    surface_tension: SurfaceTension
+    vapor_pressure: Pressure
+    heat_of_vaporization: SpecificEnergy
+
+
+@formula(source="green2008, sec. 2; iapwsif97; mulero2012", typical={"temperature": (285.0, 340.0)}, title="Properties of a liquid")
+def liquid_properties(temperature: Temperature, fluid: str = "water") -> LiquidProperties:
+    """Density, viscosity, heat capacity, conductivity, surface tension, vapor pressure and heat of vaporization of a pure liquid.
+
+    The sources of each property stand in the material's file; ``granum.materials.names("fluid")`` lists the fluids.
+
+    >>> round(liquid_properties("25 degC", fluid="ethanol").dynamic_viscosity * 1e3, 1)
+    1.1
+    """
+    from granum.materials.library import fluid as find
+
+    f = find(fluid)
+    laws = (f.liquid_density, f.liquid_viscosity, f.liquid_heat_capacity, f.liquid_conductivity, f.surface_tension)
+    return LiquidProperties(*(_or_nan(law, temperature) for law in (*laws, f.vapor_pressure, f.heat_of_vaporization)))
+
+
+class GasProperties(NamedTuple):
+    """Properties of a gas or dilute vapor."""
+
+    gas_density: Density
+    dynamic_viscosity: DynamicViscosity
+    specific_heat_capacity: HeatCapacity
+    thermal_conductivity: ThermalConductivity
+
+
+@formula(source="lemmon2004; poling2001, app. A; green2008, sec. 2", typical={"temperature": (285.0, 500.0)}, title="Properties of a gas")
+def gas_properties(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, fluid: str = "dry air") -> GasProperties:
+    """Density, viscosity, heat capacity and conductivity of a gas or vapor at low pressure.
+
+    >>> round(gas_properties("20 degC").gas_density, 3)
+    1.204
+    """
+    from granum.materials.library import fluid as find
+
+    f = find(fluid)
+    laws = (f.vapor_viscosity, f.vapor_heat_capacity, f.vapor_conductivity)
+    return GasProperties(f.vapor_density(temperature, pressure), *(_or_nan(law, temperature) for law in laws))
+
+
+class VaporInGas(NamedTuple):
+    """A vapor in a carrier gas."""
+
+    diffusivity: Diffusivity
+    lewis_number: PositiveNumber
+    molar_mass_ratio: Ratio
+
+
+@formula(source="poling2001, eq. 11-4.4; marrero1972; fuller1969", typical={"temperature": (285.0, 440.0)}, title="Vapor in a carrier gas")
+def vapor_in_gas(
+    temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, vapor: str = "water", gas: str = "dry air"
+) -> VaporInGas:
+    """Diffusivity and Lewis number of a vapor in a gas that carries little of it, and the ratio of their molar masses.
+
+    >>> round(vapor_in_gas("25 degC", vapor="toluene").lewis_number, 1)
+    2.7
+    """
+    from granum.materials.pairs import gas_vapor
+
+    pair = gas_vapor(vapor, gas)
+    found = pair.diffusivity(temperature, pressure), pair.lewis_number(temperature, pressure)
+    return VaporInGas(*found, pair.molar_mass_ratio + 0.0 * temperature)
+
+
+class Saturation(NamedTuple):
+    """A saturated solution and the crystal it is in equilibrium with."""
+
+    solubility_per_solvent: MassRatio
+    solute_mass_fraction: MassFraction
+    crystal_per_solute: Ratio
+    heat_of_crystallization: SpecificEnergy
+    liquid_density: Density
+    dynamic_viscosity: DynamicViscosity
+    specific_heat_capacity: HeatCapacity
+
+
+@formula(source="haynes2014, sec. 5; laliberte2009", typical={"temperature": (285.0, 340.0)}, title="Solubility and saturated solution")
+def solubility(temperature: Temperature, system: str = "potassium nitrate") -> Saturation:
+    """Solubility of a solute over its stable crystal, with the heat released on crystallization and the properties of the solution.
+
+    Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per mass of anhydrous solute.
+    The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
+
+    >>> round(solubility("20 degC").solubility_per_solvent, 2)
+    0.32
+    """
+    from granum.materials.library import solute
+
+    s = solute(system)
+    T = temperature
+    ratio = s.solubility(T)
+    viscosity = jnp.nan + 0.0 * T if s.viscosity_law.is_missing else s.solution_viscosity(T, ratio)
+    return Saturation(ratio, s.mass_fraction(ratio), s.hydrate_ratio(T), s.heat_of_crystallization(T), s.solution_density(T, ratio),
+                      viscosity, s.solution_heat_capacity(T, ratio))  # fmt: skip

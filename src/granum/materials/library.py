@@ -1,0 +1,290 @@
+"""The library: ``fluid``, ``solid``, ``solute`` by name, ``names`` to list them, ``load`` to add one's own from a TOML file.
+
+A materials file has tables ``[fluid.NAME]``, ``[solid.NAME]`` and ``[solute.NAME]``; the files of ``granum/materials/data`` are
+examples, ``granum.materials.schema`` is the full description. The smallest useful solid::
+
+    [solid.zeolite]
+    density = { value = 2150.0, source = "measured by helium pycnometry, 2024" }
+    heat_capacity = { value = 900.0, source = "supplier" }
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+from math import inf, nan
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from granum.core import registry, units
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError, unknown_name
+from granum.core.formulas import Formula
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.materials.correlation import Correlation, Missing
+from granum.materials.fluids import Fluid
+from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
+from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SolidEntry, SoluteEntry, read_materials
+from granum.materials.solids import Solid
+from granum.materials.solutes import BASES, REFERENCE, AdditiveHeats, AdditiveVolumes, Branch, LaliberteLaw, NoLaw, SoluteSystem
+
+_KIND_OF = {
+    "liquid_density": "Density",
+    "liquid_viscosity": "DynamicViscosity",
+    "liquid_heat_capacity": "HeatCapacity",
+    "liquid_conductivity": "ThermalConductivity",
+    "surface_tension": "SurfaceTension",
+    "vapor_pressure": "Pressure",
+    "heat_of_vaporization": "SpecificEnergy",
+    "vapor_heat_capacity": "HeatCapacity",
+    "vapor_viscosity": "DynamicViscosity",
+    "vapor_conductivity": "ThermalConductivity",
+    "density": "Density",
+    "heat_capacity": "HeatCapacity",
+    "conductivity": "ThermalConductivity",
+}
+_FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
+_SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
+_LOADED: dict[str, dict[str, Any]] = {"fluid": {}, "solid": {}, "solute": {}}
+_SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute"}
+
+
+@cache
+def _shipped() -> dict[str, dict[str, Any]]:
+    found: dict[str, dict[str, Any]] = {"fluid": {}, "solid": {}, "solute": {}}
+    for path in sorted((files("granum") / "materials" / "data").iterdir(), key=lambda p: p.name):
+        if path.name.endswith(".toml"):
+            _merge(found, tomllib.loads(path.read_text(encoding="utf-8")), path.name)
+    return found
+
+
+def _merge(into: dict[str, dict[str, Any]], content: dict[str, Any], where: str | Path) -> None:
+    """Add a file's checked entries, and their aliases as references to them."""
+    parsed = read_materials(content, where)
+    for sort in into:
+        for name, entry in getattr(parsed, sort).items():
+            for word in dict.fromkeys((name, *entry.aliases)):
+                if word in into[sort]:
+                    raise InputError(_("'{name}' in {file} is already the name of a {sort}; choose another.").format(
+                        name=word, file=where, sort=sort), name=word)  # fmt: skip
+                into[sort][word] = (name, entry)
+
+
+def _entry(sort: str, name: str) -> tuple[str, Any]:
+    known = {**_shipped()[sort], **_LOADED[sort]}
+    found = known.get(name) or known.get(name.strip().lower())
+    if found is None:
+        word = name.strip()
+        found = next((item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula), None)
+    if found is None:
+        raise unknown_name(_(_SORTS[sort]), name, known)
+    return found
+
+
+def names(sort: str = "") -> list[str]:
+    """Names of the materials of a sort, ``"fluid"``, ``"solid"`` or ``"solute"``; of all sorts by default.
+
+    >>> "ethanol" in names("fluid"), "quartz" in names("solid"), "potassium nitrate" in names("solute")
+    (True, True, True)
+    """
+    if sort and sort not in _LOADED:
+        raise unknown_name(_("Sort of material"), sort, _LOADED)
+    sorts = [sort] if sort else list(_LOADED)
+    return sorted({key for s in sorts for key, _entry in (*_shipped()[s].values(), *_LOADED[s].values())})
+
+
+def fluid(name: str) -> Fluid:
+    """A pure fluid by name, chemical formula or French name.
+
+    >>> round(fluid("ethanol").liquid_density("20 degC"), 0)
+    790.0
+    """
+    return _fluid(*_key("fluid", name))
+
+
+def solid(name: str) -> Solid:
+    """A solid by name, chemical formula or French name.
+
+    >>> solid("quartz").density("20 degC")
+    2650.0
+    """
+    return _solid(*_key("solid", name))
+
+
+def solute(name: str) -> SoluteSystem:
+    """A solute–solvent system by the name of the solute, with ``in SOLVENT`` where the solvent is not water.
+
+    >>> round(float(solute("potassium nitrate").solubility("20 degC")), 2)
+    0.32
+    """
+    return _solute(*_key("solute", name))
+
+
+def load(path: str | Path) -> list[str]:
+    """Add the materials of a TOML file to the library for this session; returns their names."""
+    path = Path(path)
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as problem:
+        raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)) from problem
+    together = {sort: {**_shipped()[sort], **_LOADED[sort]} for sort in _LOADED}
+    before = {sort: set(known) for sort, known in together.items()}
+    _merge(together, content, path)
+    new = {sort: {word: found for word, found in together[sort].items() if word not in before[sort]} for sort in together}
+    for sort in new:
+        _LOADED[sort].update(new[sort])
+    try:
+        for sort, build in (("fluid", fluid), ("solid", solid), ("solute", solute)):
+            for word in new[sort]:
+                build(word)
+    except InputError:
+        for sort in new:
+            for word in new[sort]:
+                _LOADED[sort].pop(word)
+        raise
+    return sorted({key for found in new.values() for key, _entry in found.values()})
+
+
+def _key(sort: str, name: str) -> tuple[str, bool]:
+    key, _found = _entry(sort, name)
+    return key, key in _LOADED[sort]
+
+
+@cache
+def _forms() -> dict[str, Formula]:
+    cards = registry.everything(("materials",))
+    every = {key.removeprefix("materials."): thing for key, thing in cards.items() if isinstance(thing, Formula)}
+    return {name.removeprefix("correlation_"): thing for name, thing in every.items()}
+
+
+def _form(name: str, owner: str) -> Formula:
+    found = _forms().get(name)
+    if found is None:
+        raise unknown_name(_("Form of correlation"), name, [n for n, f in _forms().items() if f.card.family == "correlation"],
+                           _("for {owner}").format(owner=owner))  # fmt: skip
+    return found
+
+
+def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
+    """From a printed unit to SI; amounts become masses with the molar mass."""
+    if not unit:
+        return 1.0
+    target = units.registry().Unit(KINDS[kind_name].unit)
+    mass = units.registry().Quantity(molar_mass, "kg/mol")
+    quantity = units.registry().Quantity(1.0, units.parse_unit(unit))
+    for candidate in (quantity, quantity * mass, quantity / mass):
+        if candidate.is_compatible_with(target):
+            factor = float(candidate.to(target).magnitude)
+            if factor == factor:
+                return factor
+    raise InputError(_("Unit '{unit}' does not fit {owner}, which is in {target}.").format(unit=unit, owner=owner, target=target))
+
+
+def _property(entry: PropertyEntry | None, name: str, owner: str, molar_mass: float) -> Correlation | Missing:
+    whole = f"{owner}: {name.replace('_', ' ')}"
+    if entry is None:
+        return Missing(whole)
+    factor = _factor(entry.unit, _KIND_OF[name], molar_mass, whole)
+    low, high = entry.range or (0.0, inf)
+    if entry.form is None:
+        assert entry.value is not None
+        return Correlation(_form("polynomial", whole), np.array([entry.value]), factor, low, high, whole, entry.source)
+    coefficients = None if entry.coefficients is None else np.array(entry.coefficients)
+    form = _form(entry.form, whole)
+    needs = any(p.name == "coefficients" for p in form.card.parameters)
+    if needs == (coefficients is None):
+        word = _("needs 'coefficients'") if needs else _("takes no 'coefficients'")
+        raise InputError(_("Form '{form}' {word} ({owner}).").format(form=entry.form, word=word, owner=whole))
+    return Correlation(form, coefficients, factor, low, high, whole, entry.source)
+
+
+def _or_nan(value: float | None) -> float:
+    return nan if value is None else value
+
+
+@cache
+def _fluid(key: str, _own: bool) -> Fluid:
+    entry: FluidEntry = _entry("fluid", key)[1]
+    made = {name: _property(getattr(entry, name), name, key, entry.molar_mass) for name in _FLUID_PROPERTIES}
+    return Fluid(name=key, french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass,
+                 critical_temperature=_or_nan(entry.critical_temperature), critical_pressure=_or_nan(entry.critical_pressure),
+                 diffusion_volume=_or_nan(entry.diffusion_volume),
+                 heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS), **made)  # fmt: skip
+
+
+@cache
+def _solid(key: str, _own: bool) -> Solid:
+    entry: SolidEntry = _entry("solid", key)[1]
+    mass = _or_nan(entry.molar_mass)
+    made = {name: _property(getattr(entry, name), name, key, mass) for name in _SOLID_PROPERTIES}
+    return Solid(name=key, french=entry.fr, formula=entry.formula, molar_mass=mass, sphericity=_or_nan(entry.sphericity),
+                 mohs_hardness=_or_nan(entry.mohs_hardness), **made)  # fmt: skip
+
+
+def _constant(function: Any, *values: Any) -> float:
+    """A number worked out once, also when a material is first asked for inside a traced function."""
+    if isinstance(function, Missing):
+        return nan
+    with jax.ensure_compile_time_eval():
+        return float(function(*values))
+
+
+def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid) -> Branch:
+    whole = f"{owner}: {_('solubility')} ({entry.crystal})"
+    if entry.basis not in BASES:
+        raise unknown_name(_("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole))
+    law = Correlation(_form(entry.form, whole), np.array(entry.coefficients), entry.factor, *entry.range, whole, entry.source)
+    heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass  # released when it crystallizes
+    return Branch(crystal=solid(entry.crystal), solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
+                  stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat,
+                  law=law, basis=entry.basis, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass))  # fmt: skip
+
+
+@cache
+def _solute(key: str, _own: bool) -> SoluteSystem:
+    entry: SoluteEntry = _entry("solute", key)[1]
+    solvent = fluid(entry.solvent)
+    branches = tuple(_branch(b, key, entry.molar_mass, solvent) for b in entry.branches)
+    dry = branches[-1].crystal
+    density = viscosity = heat_capacity = None
+    if entry.density:
+        density = LaliberteLaw(liquid_density_laliberte, np.array(entry.density))
+    if entry.viscosity:
+        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, np.array(entry.viscosity))
+    if entry.heat_capacity:
+        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, np.array(entry.heat_capacity))
+    heat_capacity = heat_capacity or AdditiveHeats(solvent.liquid_heat_capacity, dry.heat_capacity)
+    system = SoluteSystem(
+        name=key.split(" in ")[0], french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass, solvent=solvent, branches=branches,
+        density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
+        viscosity_law=viscosity or NoLaw(Missing(f"{key}: {_('viscosity of the solution')}")),
+        heat_capacity_law=heat_capacity, solute_heat_capacity=nan,
+    )  # fmt: skip
+    return _with_enthalpies(system)
+
+
+def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:
+    """The system with the constants that put solution and crystals on one enthalpy scale."""
+
+    def apparent() -> Any:
+        ratio = system.solubility(REFERENCE)
+        whole = system.solution_heat_capacity(REFERENCE, ratio)
+        return ((1.0 + ratio) * whole - system.solvent.liquid_heat_capacity.value(REFERENCE)) / ratio
+
+    system = replace(system, solute_heat_capacity=_constant(apparent))
+
+    def formed(b: Branch) -> float:
+        if isinstance(b.crystal.heat_capacity, Missing):
+            return nan
+        dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(REFERENCE)
+        return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)
+
+    return replace(system, branches=tuple(replace(b, enthalpy_of_formation=_constant(formed, b)) for b in system.branches))

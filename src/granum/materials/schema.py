@@ -1,0 +1,126 @@
+"""What a materials file may contain: TOML tables ``[fluid.NAME]``, ``[solid.NAME]``, ``[solute.NAME]``, checked with Pydantic."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from granum.core.errors import InputError
+from granum.core.i18n import _
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class PropertyEntry(_Strict):
+    """One property: a constant ``value``, or a ``form`` with ``coefficients``; ``range`` in K; ``unit`` of the printed value."""
+
+    value: float | None = None
+    form: str | None = None
+    coefficients: list[float] | None = None
+    range: tuple[float, float] | None = None
+    unit: str = ""
+    source: str
+
+    @model_validator(mode="after")
+    def _one_way(self) -> PropertyEntry:
+        if (self.value is None) == (self.form is None):
+            raise ValueError("give either 'value' or 'form'")
+        if self.form is not None and self.range is None:
+            raise ValueError("a 'form' needs the 'range' of temperature, in K, that it was fitted over")
+        if self.range is not None and not 0.0 < self.range[0] < self.range[1]:
+            raise ValueError("'range' is two increasing temperatures in K")
+        return self
+
+
+class _Named(_Strict):
+    fr: str = ""
+    aliases: list[str] = []
+    formula: str = ""
+
+
+class FluidEntry(_Named):
+    """A pure fluid. Every property is optional: what is missing says so when it is asked for."""
+
+    molar_mass: float = Field(gt=0, lt=10)
+    critical_temperature: float | None = Field(default=None, gt=0)
+    critical_pressure: float | None = Field(default=None, gt=0)
+    diffusion_volume: float | None = Field(default=None, gt=0)
+    liquid_density: PropertyEntry | None = None
+    liquid_viscosity: PropertyEntry | None = None
+    liquid_heat_capacity: PropertyEntry | None = None
+    liquid_conductivity: PropertyEntry | None = None
+    surface_tension: PropertyEntry | None = None
+    vapor_pressure: PropertyEntry | None = None
+    heat_of_vaporization: PropertyEntry | None = None
+    vapor_heat_capacity: PropertyEntry | None = None
+    vapor_viscosity: PropertyEntry | None = None
+    vapor_conductivity: PropertyEntry | None = None
+
+
+class SolidEntry(_Named):
+    """A solid."""
+
+    molar_mass: float | None = Field(default=None, gt=0, lt=10)
+    sphericity: float | None = Field(default=None, gt=0, le=1)
+    mohs_hardness: float | None = Field(default=None, ge=0, le=10)
+    density: PropertyEntry | None = None
+    heat_capacity: PropertyEntry | None = None
+    conductivity: PropertyEntry | None = None
+
+
+class BranchEntry(_Strict):
+    """One crystal: which solid, how many moles of solvent it binds, where it is stable (K), its solubility and in what basis."""
+
+    crystal: str
+    bound_solvent: float = Field(default=0.0, ge=0)
+    stable: tuple[float, float]
+    basis: str
+    factor: float = 1.0
+    form: str
+    coefficients: list[float]
+    range: tuple[float, float]
+    source: str
+    heat_of_solution: float | None = None
+    """J per mol of anhydrous solute dissolved at 25 °C, negative when heat is released on dissolving."""
+    heat_source: str = ""
+    table: list[tuple[float, float]] = []
+    """Printed values the coefficients were fitted to: temperature in °C and value in the basis and factor given."""
+
+
+class SoluteEntry(_Named):
+    """A solute in a solvent."""
+
+    molar_mass: float = Field(gt=0, lt=10)
+    solvent: str = "water"
+    branches: list[BranchEntry] = Field(min_length=1)
+    density: list[float] | None = Field(default=None, min_length=5, max_length=5)
+    viscosity: list[float] | None = Field(default=None, min_length=6, max_length=6)
+    heat_capacity: list[float] | None = Field(default=None, min_length=6, max_length=6)
+
+
+class MaterialsFile(_Strict):
+    """A whole file."""
+
+    fluid: dict[str, FluidEntry] = {}
+    solid: dict[str, SolidEntry] = {}
+    solute: dict[str, SoluteEntry] = {}
+
+
+def read_materials(content: dict[str, Any], where: str | Path) -> MaterialsFile:
+    """The checked content of a materials file, or one clear error."""
+    try:
+        return MaterialsFile.model_validate(content)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        place = ".".join(str(part) for part in first["loc"])
+        raise InputError(
+            _("Materials file {file}: '{place}': {reason}.").format(
+                file=where, place=place, reason=first["msg"].removeprefix("Value error, ")
+            ),
+            file=str(where),
+            place=place,
+        ) from problem

@@ -1,0 +1,254 @@
+"""``SoluteSystem``: a solute in a solvent: solubility of each crystal, hydrates, heats, and properties of the solution.
+
+Basis everywhere: ``solute_per_solvent`` is kg of anhydrous solute per kg of solvent, the solvent bound in dissolved hydrate counted
+as solvent. Crystal quantities are per kg of crystal as it is (hydrate included) unless the name says otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import unknown_name
+from granum.core.i18n import _, current_language
+from granum.materials.correlation import Correlation, Missing, as_solute_ratio, as_temperature
+from granum.materials.fluids import Fluid
+from granum.materials.solids import Solid
+from granum.numerics import find_root
+
+REFERENCE = 298.15  # K, at which heats of crystallization are given
+
+
+def _from_anhydrous_ratio(y: Any, _bound: float, _solute: float, _solvent: float) -> Any:
+    return y
+
+
+def _from_hydrate_ratio(y: Any, bound: float, _solute: float, _solvent: float) -> Any:
+    return y / (1.0 + bound + y * bound)
+
+
+def _from_mass_fraction(y: Any, _bound: float, _solute: float, _solvent: float) -> Any:
+    return y / (1.0 - y)
+
+
+def _from_mole_fraction(y: Any, _bound: float, solute: float, solvent: float) -> Any:
+    return y * solute / ((1.0 - y) * solvent)
+
+
+def _from_molality(y: Any, _bound: float, solute: float, _solvent: float) -> Any:
+    return y * solute
+
+
+BASES: dict[str, Callable[[Any, float, float, float], Any]] = {
+    "kg anhydrous per kg solvent": _from_anhydrous_ratio,
+    "kg crystal per kg added solvent": _from_hydrate_ratio,
+    "mass fraction anhydrous": _from_mass_fraction,
+    "mole fraction anhydrous": _from_mole_fraction,
+    "mol anhydrous per kg solvent": _from_molality,
+}
+"""What a printed solubility may mean, and how it becomes kg of anhydrous solute per kg of solvent."""
+
+
+class Branch(eqx.Module):
+    """One crystal of a system with its own solubility curve.
+
+    Parameters
+    ----------
+    crystal: the solid that forms.
+    solvent_ratio: kg of solvent bound in the crystal per kg of anhydrous solute; zero without solvate.
+    stable_from, stable_to: temperatures between which it is the stable one, K.
+    heat_of_crystallization: J per kg of anhydrous solute at 25 °C, positive when heat is released; NaN when not given.
+    enthalpy_of_formation: of the crystal at 0 °C by its own heat capacity, J per kg of crystal, on the scale of the solution.
+    """
+
+    crystal: Solid
+    solvent_ratio: float
+    stable_from: float = eqx.field(static=True)
+    stable_to: float = eqx.field(static=True)
+    heat_of_crystallization: float
+    law: Correlation
+    basis: str = eqx.field(static=True)
+    enthalpy_of_formation: float
+    _masses: tuple[float, float] = eqx.field(static=True)
+
+    @property
+    def hydrate_ratio(self) -> float:
+        """kg of crystal per kg of anhydrous solute in it."""
+        return 1.0 + self.solvent_ratio
+
+    def solubility(self, temperature: Any) -> Any:
+        """kg of anhydrous solute per kg of solvent in equilibrium with this crystal, stable or not."""
+        T = as_temperature(temperature)
+        self.law.check_range(T)
+        return self.value(T)
+
+    def value(self, temperature: Any) -> Any:
+        """The solubility without looking at the range."""
+        return BASES[self.basis](self.law.value(temperature), self.solvent_ratio, *self._masses)
+
+
+class SoluteSystem(eqx.Module):
+    """A solute in a solvent, ``solute("potassium nitrate")``.
+
+    Parameters
+    ----------
+    name, french, formula: the anhydrous solute.
+    molar_mass: of the anhydrous solute, kg/mol.
+    solvent: the pure solvent.
+    branches: crystals by increasing temperature of stability.
+    density_law, viscosity_law, heat_capacity_law: of (temperature, mass fraction of anhydrous solute).
+    solute_heat_capacity: apparent heat capacity of dissolved solute in the solution saturated at 25 °C, J/(kg K).
+    """
+
+    name: str = eqx.field(static=True)
+    french: str = eqx.field(static=True)
+    formula: str = eqx.field(static=True)
+    molar_mass: float
+    solvent: Fluid
+    branches: tuple[Branch, ...]
+    density_law: Any
+    viscosity_law: Any
+    heat_capacity_law: Any
+    solute_heat_capacity: float
+
+    @property
+    def label(self) -> str:
+        """Solute and solvent in the current language."""
+        solute = self.french if current_language() == "fr" and self.french else self.name
+        return _("{solute} in {solvent}").format(solute=solute, solvent=self.solvent.label)
+
+    def branch(self, crystal: str | None = None) -> Branch:
+        """The branch of a crystal by name; without a name the only or coldest one."""
+        if crystal is None:
+            return self.branches[0]
+        found = {b.crystal.name: b for b in self.branches}
+        if crystal not in found:
+            raise unknown_name(_("Crystal"), crystal, found, _("of {owner}").format(owner=self.label))
+        return found[crystal]
+
+    def _select(self, temperature: Any, pick: Callable[[Branch, Any], Any]) -> Any:
+        """The value of the branch that is stable at each temperature; the others are evaluated where they are harmless."""
+        T = jnp.asarray(temperature)
+        out = None
+        for i, b in enumerate(self.branches):
+            low = -jnp.inf if i == 0 else b.stable_from
+            high = jnp.inf if i == len(self.branches) - 1 else b.stable_to
+            here = (low <= T) & (high > T)
+            inside = 0.5 * (b.stable_from + b.stable_to)
+            value = pick(b, jnp.where(here, T, inside))
+            out = value if out is None else jnp.where(here, value, out)
+        return out
+
+    def solubility(self, temperature: Any, crystal: str | None = None) -> Any:
+        """Saturation, kg of anhydrous solute per kg of solvent; over the stable crystal, or over a named one."""
+        T = as_temperature(temperature)
+        return self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
+
+    def hydrate_ratio(self, temperature: Any) -> Any:
+        """kg of the stable crystal per kg of anhydrous solute in it."""
+        return self._select(as_temperature(temperature), lambda b, t: b.hydrate_ratio + 0.0 * t)
+
+    def heat_of_crystallization(self, temperature: Any) -> Any:
+        """Heat released on crystallization at saturation, J per kg of anhydrous solute: the 25 °C value by Kirchhoff's law.
+
+        Equals ``solute_enthalpy`` + bound solvent − ``crystal_enthalpy``, so that energy balances close.
+        """
+
+        def released(b: Branch, t: Any) -> Any:
+            bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
+            return self.solute_enthalpy(t) + bound - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
+
+        return self._select(as_temperature(temperature), released)
+
+    def saturation_temperature(self, solute_per_solvent: Any, crystal: str | None = None) -> Any:
+        """Temperature at which a solution is saturated, K; NaN outside the range of the data. For rising solubilities."""
+        ratio = jnp.asarray(as_solute_ratio(solute_per_solvent))
+        branch = self.branch(crystal)
+        low, high = branch.law.low, branch.law.high
+        law = branch.value
+        if crystal is None:
+            high = self.branches[-1].law.high
+
+            def law(T: Any) -> Any:
+                return self._select(T, lambda b, t: b.value(t))
+
+        goal = jnp.log(jnp.maximum(ratio, 1e-300))
+        return find_root(lambda T, y: jnp.log(law(T)) - y, low, high, goal).value
+
+    # -- the solution ------------------------------------------------------------------------------------------
+    def mass_fraction(self, solute_per_solvent: Any) -> Any:
+        """Mass fraction of anhydrous solute in the solution."""
+        ratio = as_solute_ratio(solute_per_solvent)
+        return ratio / (1.0 + ratio)
+
+    def solution_density(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        """Density of the solution, kg/m³."""
+        return self.density_law(as_temperature(temperature), self.mass_fraction(solute_per_solvent))
+
+    def solution_viscosity(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        """Dynamic viscosity of the solution, Pa s."""
+        return self.viscosity_law(as_temperature(temperature), self.mass_fraction(solute_per_solvent))
+
+    def solution_heat_capacity(self, temperature: Any, solute_per_solvent: Any) -> Any:
+        """Heat capacity of the solution, J/(kg K)."""
+        return self.heat_capacity_law(as_temperature(temperature), self.mass_fraction(solute_per_solvent))
+
+    # -- enthalpies: zero for liquid solvent and dissolved solute at 0 °C; additive, so that mixing closes exactly ----------
+    def solute_enthalpy(self, temperature: Any) -> Any:
+        """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity; heats of dilution are left out."""
+        return self.solute_heat_capacity * (as_temperature(temperature) - ZERO_CELSIUS)
+
+    def crystal_enthalpy(self, temperature: Any, crystal: str | None = None) -> Any:
+        """Enthalpy of a crystal, J per kg of crystal, on the scale of the solution: lower by the heat of crystallization."""
+        b = self.branch(crystal)
+        return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
+
+    def __repr__(self) -> str:
+        return _("solute {name} ({formula})").format(name=self.label, formula=self.formula)
+
+
+class LaliberteLaw(eqx.Module):
+    """A solution property by one of Laliberté's models."""
+
+    form: Any = eqx.field(static=True)
+    coefficients: Any
+    is_missing = False
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        return self.form(temperature, solute_mass_fraction, self.coefficients)
+
+
+class AdditiveVolumes(eqx.Module):
+    """Density of a solution whose solvent and (solid) solute volumes add: within a few percent for organic solutes."""
+
+    solvent: Any
+    solute_density: Any
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        w = solute_mass_fraction
+        return 1.0 / ((1.0 - w) / self.solvent(temperature) + w / self.solute_density(temperature))
+
+
+class AdditiveHeats(eqx.Module):
+    """Heat capacity of a solution as the mass-weighted mean of solvent and solid solute."""
+
+    solvent: Any
+    solute_heat_capacity: Any
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        w = solute_mass_fraction
+        return (1.0 - w) * self.solvent(temperature) + w * self.solute_heat_capacity(temperature)
+
+
+class NoLaw(eqx.Module):
+    """Stands where a system has no law for a property of its solutions."""
+
+    missing: Missing
+    is_missing = True
+
+    def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        return self.missing(temperature)
