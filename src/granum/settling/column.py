@@ -1,0 +1,268 @@
+"""One-dimensional hindered settling with compression in batch columns and continuous clarifier-thickeners.
+
+The scheme of Bürger, Diehl and co-workers: Godunov flux for settling, upwind bulk flow, central differences of the
+primitive of the compression diffusivity, explicit steps at the limit of stability, compression in several short ones per step. It is monotone and conservative:
+shocks and fans appear where they must, concentrations stay between zero and the packed limit, and the mass of solids
+closes to rounding. First order in the cell size.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.errors import ApplicabilityError, InputError
+from granum.core.i18n import _
+from granum.settling.flux import least
+
+COURANT = 0.98
+FADE = 0.05  # of the packed concentration: a law that has no limit of its own is brought to zero over this last stretch
+
+
+class Suspension(eqx.Module):
+    """What settles: velocity law, compression law, densities, and the concentration at which it is packed.
+
+    Parameters
+    ----------
+    settling: settling velocity against concentration.
+    compression: effective stress against concentration; None for none.
+    solid_density, liquid_density: kg/m³, for the buoyant weight that compresses.
+    packed_concentration: kg/m³, where solids no longer move against each other; the solid density when not given.
+    """
+
+    settling: Any
+    compression: Any = None
+    solid_density: Any = 1050.0
+    liquid_density: Any = 998.0
+    packed_concentration: Any = None
+
+    @property
+    def packed(self) -> Any:
+        """The packed concentration."""
+        return self.solid_density if self.packed_concentration is None else self.packed_concentration
+
+    def velocity_function(self) -> Any:
+        """Settling velocity as a function of concentration, zero at the packed one."""
+        limit = jnp.asarray(self.packed, dtype=float)
+        vanishes = self.settling(limit) <= 1e-9 * self.settling(0.5 * limit)
+        steepness = jnp.where(vanishes, 1e9, 1.0 / FADE) / limit
+        return lambda C: self.settling(C) * jnp.clip((limit - C) * steepness, 0.0, 1.0)
+
+    def velocity(self, C: Any) -> Any:
+        """Settling velocity at a concentration."""
+        return self.velocity_function()(C)
+
+    def flux(self, C: Any) -> Any:
+        """Settling flux."""
+        return C * self.velocity(C)
+
+    def stiffness(self, C: Any) -> Any:
+        """Compression diffusivity over settling velocity, at or above the critical concentration, m."""
+        factor = self.solid_density / (STANDARD_GRAVITY * (self.solid_density - self.liquid_density))
+        return factor * self.compression.slope(C)
+
+    def peak(self) -> Any:
+        """Concentration of the greatest settling flux."""
+        share = jnp.geomspace(1e-4, 1.0, 400)
+        best = share[jnp.argmax(self.flux(share * self.packed))] * self.packed
+        return lax.stop_gradient(least(lambda C: -self.flux(C), 0.97 * best, jnp.minimum(1.03 * best, self.packed))[1])
+
+    def fastest(self) -> tuple[Any, Any]:
+        """Greatest speed of a concentration wave, m/s, and greatest compression diffusivity, m²/s."""
+        C = self.packed * jnp.concatenate([jnp.zeros(1), jnp.geomspace(1e-5, 1.0, 800), jnp.linspace(1 - FADE, 1.0, 40)])
+        speed = jnp.max(jnp.abs(jax.jvp(self.flux, (C,), (jnp.ones_like(C),))[1]))
+        if self.compression is None:
+            return speed, jnp.zeros(())
+        C = jnp.maximum(C, self.compression.critical_concentration)
+        return speed, jnp.max(self.velocity(C) * self.stiffness(C))
+
+    def check(self) -> None:
+        """Raise when the flux has more than one hump, for which this scheme's flux is not made; only for known numbers."""
+        if any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(self)):
+            return
+        f = np.asarray(self.flux(jnp.geomspace(1e-4, 1.0, 1500) * self.packed))
+        turns = np.diff(np.sign(np.diff(f)[np.abs(np.diff(f)) > 1e-12 * f.max()]))
+        if np.count_nonzero(turns) > 1:
+            raise ApplicabilityError(
+                _("The settling flux of this law rises and falls more than once below {limit} kg/m³; give a lower 'packed_concentration'.")
+                .format(limit=round(float(self.packed), 3))
+            )  # fmt: skip
+
+
+class Operation(NamedTuple):
+    """What is done with a column, piecewise constant: one value per interval between the times, volume flows per area in m/s."""
+
+    times: Any
+    feed_velocity: Any
+    underflow_velocity: Any
+    feed_concentration: Any
+
+
+class Simulation(eqx.Module):
+    """Course of a column.
+
+    Parameters
+    ----------
+    times: s. depths: of the cell centers below the surface, m.
+    concentration: kg/m³, (times × cells), from the top.
+    overflow_concentration, underflow_concentration: mean over each interval, kg/m³.
+    overflowed, underflowed, fed: solids per area, kg/m², from the start to each time.
+    """
+
+    times: Any
+    depths: Any
+    concentration: Any
+    overflow_concentration: Any
+    underflow_concentration: Any
+    overflowed: Any
+    underflowed: Any
+    fed: Any
+
+    @property
+    def held(self) -> Any:
+        """Solids in the column, kg/m² of its area."""
+        cell = self.depths[1] - self.depths[0]
+        return jnp.sum(self.concentration, axis=-1) * cell
+
+    @property
+    def mass_error(self) -> Any:
+        """Solids lost or made, relative to all that was ever there: the audit of the simulation."""
+        missing = self.held - self.held[..., :1] - self.fed + self.underflowed + self.overflowed
+        return jnp.max(jnp.abs(missing)) / jnp.max(self.held[..., 0] + self.fed[..., -1])
+
+    def interface_height(self, threshold: Any) -> Any:
+        """Height above the bottom of the first crossing of a concentration from the top, one per time.
+
+        A smeared front is placed by linear interpolation between the cell centers around it.
+        """
+        cell = self.depths[1] - self.depths[0]
+        bottom = self.depths[-1] + 0.5 * cell
+        padded = jnp.concatenate([jnp.zeros_like(self.concentration[..., :1]), self.concentration], axis=-1)
+        depth = jnp.concatenate([jnp.asarray([-0.5 * cell]), self.depths])
+        reached = padded >= threshold
+        first = jnp.argmax(reached, axis=-1)
+        above = jnp.take_along_axis(padded, jnp.maximum(first - 1, 0)[..., None], axis=-1)[..., 0]
+        below = jnp.take_along_axis(padded, first[..., None], axis=-1)[..., 0]
+        rise = jnp.where(below > above, below - above, 1.0)
+        place = depth[jnp.maximum(first - 1, 0)] + cell * (threshold - above) / rise
+        return bottom - jnp.where(jnp.any(reached, axis=-1), jnp.clip(place, 0.0, bottom), bottom)
+
+
+def simulate(
+    suspension: Suspension, depth: Any, initial: Any, operation: Operation, *, feed_depth: Any = 0.5, steps: Steps | None = None
+) -> Simulation:
+    """Follow a column through an operation.
+
+    Parameters
+    ----------
+    depth: of the column, m. ``initial``: concentration of the cells from the top, kg/m³; its length is the number of cells.
+    operation: times (edges of the intervals, s) and what is done in each.
+    feed_depth: share of the depth at which the feed enters.
+    steps: whole numbers of time steps; as many as stability asks for when not given. Fix them (see ``steps_needed``) for
+        ``vmap`` and for reverse-mode derivatives; forward-mode derivatives need nothing.
+    """
+    suspension.check()
+    initial = jnp.asarray(initial, dtype=float)
+    if initial.ndim != 1 or initial.shape[0] < 3:
+        raise InputError(_("A column needs at least three cells."))
+    return _run(suspension, jnp.asarray(depth, dtype=float), initial, operation, feed_depth, steps)
+
+
+def settle(
+    suspension: Suspension, height: Any, concentration: Any, times: Any, *, cells: int = 100, steps: Steps | None = None
+) -> Simulation:
+    """Batch settling of a uniform suspension of a height and concentration, at given times (the first being the start)."""
+    intervals = jnp.shape(jnp.asarray(times))[0] - 1
+    still = jnp.zeros(intervals)
+    initial = jnp.broadcast_to(jnp.asarray(concentration, dtype=float), (cells,))
+    return simulate(suspension, height, initial, Operation(jnp.asarray(times, dtype=float), still, still, still), steps=steps)
+
+
+class Steps(NamedTuple):
+    """Time steps per interval, and short steps of compression in each."""
+
+    steps: Any
+    compression: Any
+
+
+def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation) -> Steps:
+    """Steps that keep the scheme monotone in the longest interval."""
+    speed, spread = suspension.fastest()
+    size = depth / cells
+    span = jnp.max(jnp.diff(operation.times))
+    steps = jnp.maximum(jnp.ceil(span * (speed + jnp.max(operation.feed_velocity)) / (size * COURANT)), 1.0)
+    compression = jnp.maximum(jnp.ceil(2.0 * spread * span / (steps * size**2)), 1.0)
+    return Steps(steps.astype(int), compression.astype(int))
+
+
+@eqx.filter_jit
+def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation, feed_depth: Any, steps: Steps | None) -> Simulation:
+    cells = initial.shape[0]
+    size = depth / cells
+    feed_cell = jnp.clip(jnp.floor(jnp.asarray(feed_depth) * cells), 0, cells - 1) + 1
+    index, face = jnp.arange(cells + 2), jnp.arange(cells + 1)
+    inner = (face > 0) & (face < cells)
+    peak = suspension.peak()
+    top_flux = suspension.flux(peak)
+    velocity, compression = suspension.velocity_function(), suspension.compression
+    critical = None if compression is None else jnp.asarray(compression.critical_concentration, dtype=float)
+    at_critical = 0.0 if compression is None else velocity(critical)
+    count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation)) if steps is None else steps
+    count = Steps(*(jnp.asarray(n) if steps is None else int(n) for n in count))
+
+    def interval(carry: Any, given: Any) -> Any:
+        span, q, qu, Cf = given
+        share = span / (count.steps * size)
+        # Faces under the feed carry the underflow down, those above the overflow up.
+        down = share * jnp.where(face >= feed_cell, qu, 0.0)
+        up = -share * jnp.where(face >= feed_cell, 0.0, q - qu)
+        settles = jnp.where(inner, share, 0.0)
+        spreads = jnp.where(inner, 0.5 * share / (size * count.compression), 0.0)
+        source = jnp.where(index == feed_cell, share * q * Cf, 0.0)
+
+        def step(_i: Any, C: Any) -> Any:
+            # The first and the last element are not cells: they gather what left over the weir and with the underflow.
+            v = velocity(C)
+            f = C * v
+            supply, demand = jnp.where(peak > C, f, top_flux), jnp.where(peak < C, f, top_flux)
+            through = settles * jnp.minimum(supply[:-1], demand[1:]) + down * C[:-1] + up * C[1:]
+            moved = C + source + jnp.pad(through, (1, 0)) - jnp.pad(through, (0, 1))
+            if compression is None:
+                return moved
+            # Compression takes several short steps, its coefficient (a mean over what lies above the critical
+            # concentration) kept: each is a mean of neighbors, so that it makes no new extremes.
+            b = jnp.maximum(C, critical)
+            d = jnp.where(critical < C, v, at_critical) * suspension.stiffness(b)
+            gap = C[1:] - C[:-1]
+            level = gap == 0
+            part = jnp.where(level, C[1:] > critical, (b[1:] - b[:-1]) / jnp.where(level, 1.0, gap))
+            spread = spreads * (d[1:] + d[:-1]) * part
+
+            def compress(_j: Any, C: Any) -> Any:
+                rise = spread * (C[1:] - C[:-1])
+                return C + jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))
+
+            return lax.fori_loop(0, count.compression, compress, moved)
+
+        held, over, under, fed = carry
+        state = lax.fori_loop(0, count.steps, step, jnp.pad(held, 1))
+        gone_over, gone_under = state[0] * size, state[-1] * size
+        after = (state[1:-1], over + gone_over, under + gone_under, fed + q * Cf * span)
+        qe = q - qu
+        means = (gone_over / jnp.where(qe > 0, qe * span, jnp.inf), gone_under / jnp.where(qu > 0, qu * span, jnp.inf))
+        return after, (after, means)
+
+    spans = jnp.diff(operation.times)
+    given = tuple(jnp.broadcast_to(jnp.asarray(x, dtype=float), spans.shape) for x in operation[1:])
+    zero = jnp.zeros(())
+    first = (initial, zero, zero, zero)
+    _last, (states, means) = lax.scan(interval, first, (spans, *given))
+    course = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), first, states)
+    depths = (jnp.arange(cells) + 0.5) * size
+    return Simulation(operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3])
