@@ -67,7 +67,7 @@ def wet_to_dry_mass_ratio(void_fraction: VoidFraction, liquid_density: Density, 
 
 
 @formula(
-    source="ruth1935; geankoplis2003, eq. 14.2-10",
+    source="ruth1935; geankoplis2003, § 14.2",
     equation=r"W = \frac{\rho_l\,s}{1 - m\,s}",
     typical={"solids_mass_fraction": (0.01, 0.3), "wet_to_dry_mass_ratio": (1.1, 2.5)},
 )

@@ -1,0 +1,232 @@
+"""What all cake filters share: the split of a slurry into cake, filtrate and washings, washing and deliquoring of the cake."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core.kinds import (
+    Area,
+    CakeResistance,
+    Diffusivity,
+    Distance,
+    Fraction,
+    Length,
+    MediumResistance,
+    MoistureDryBasis,
+    PressureDrop,
+    Ratio,
+    SurfaceTension,
+    Time,
+    VoidFraction,
+    VolumeFlow,
+)
+from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
+from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
+from granum.filtration.formulas.washing import axial_dispersion_cake, dispersion_number, solute_remaining_dispersion
+from granum.filtration.quantities import MassPerArea
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Check, Unit
+
+_CAPACITY = "share of the filtration capacity in use"
+_WASH = "share of the washing capacity in use"
+_TOO_THICK = "solids in the feed over those of a packed cake"
+
+
+class Filtered(NamedTuple):
+    """Wet cake, mother filtrate, and the wash filtrate with what it displaced (empty without wash liquor)."""
+
+    cake: Stream
+    filtrate: Stream
+    washings: Stream
+
+
+class Plan(NamedTuple):
+    """How one cake passes through its cycle."""
+
+    dry_cake_mass_per_area: Any
+    cake_thickness: Any
+    formation_time: Any
+    wash_time: Any
+    deliquoring_time: Any
+    cycle_time: Any
+    area_required: Any
+    wash_use: Any
+
+
+class CakeFigures(NamedTuple):
+    """Figures of a cake filter."""
+
+    area_required: Area
+    capacity_use: Ratio
+    cake_thickness: Distance
+    dry_cake_mass_per_area: MassPerArea
+    cycle_time: Time
+    formation_time: Time
+    wash_time: Time
+    deliquoring_time: Time
+    filtrate_flow: VolumeFlow
+    wash_ratio: Ratio
+    wash_use: Ratio
+    solute_remaining: Fraction
+    cake_saturation: Fraction
+    moisture_dry_basis: MoistureDryBasis
+
+
+class Slurry(NamedTuple):
+    """What the filter sees of its feed."""
+
+    solid_flow: Any
+    solid_density: Any
+    liquid_density: Any
+    dynamic_viscosity: Any
+    dry_cake_per_filtrate: Any
+    void_volume_flow: Any
+    liquid_share: Any
+
+
+class CakeFilter(Unit):
+    """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle goes.
+
+    The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power ``compressibility`` of the
+    pressure drop. The surface–volume diameter for washing and deliquoring is that of the solid in the feed unless given.
+    """
+
+    area: Area
+    pressure_drop: PressureDrop
+    cake_resistance: CakeResistance
+    void_fraction: VoidFraction
+    _: KW_ONLY  # so that subclasses may add fields without a default
+    medium_resistance: MediumResistance = 0.0
+    compressibility: Ratio = 0.0
+    reference_pressure: PressureDrop = 1e5
+    solids_recovery: Fraction = 1.0
+    surface_tension: SurfaceTension = 0.072
+    diffusivity: Diffusivity = 1e-9
+    particle_diameter: Length | None = None
+
+    @abc.abstractmethod
+    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
+        """The cycle of one cake at this feed."""
+
+    @property
+    def resistance(self) -> Any:
+        """Specific resistance of the cake at the driving pressure."""
+        return cake_resistance_power_law(self.pressure_drop, self.cake_resistance, self.compressibility, self.reference_pressure)
+
+    def slurry(self, feed: Stream) -> Slurry:
+        """Flows and properties that the filtration equations need."""
+        solid = self.solids_recovery * feed.solid_flow
+        void = solid / feed.solid_density * self.void_fraction / (1.0 - self.void_fraction)
+        liquid = feed.liquid_volume_flow
+        kept = jnp.minimum(void, liquid)
+        filtrate = jnp.maximum(liquid - kept, 1e-12 * liquid + 1e-300)
+        share = kept / jnp.where(liquid > 0, liquid, 1.0)
+        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, solid / filtrate, void, share)
+
+    def wash_flux(self, loading: Any, feed: Stream, wash: Stream | None) -> Any:
+        """Superficial velocity of wash liquor through a cake of that dry mass per area."""
+        viscosity = feed.liquid_viscosity if wash is None else wash.liquid_viscosity
+        return self.pressure_drop / (viscosity * (self.resistance * loading + self.medium_resistance))
+
+    def thickness(self, loading: Any, solid_density: Any) -> Any:
+        """Cake thickness of a dry mass per area."""
+        return loading / ((1.0 - self.void_fraction) * solid_density)
+
+    def squeezed(self) -> Any:
+        """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not squeeze."""
+        return 1.0
+
+    def wash_ratio(self, feed: Stream, wash: Stream | None) -> Any:
+        """Wash liquor per void volume."""
+        void = self.slurry(feed).void_volume_flow
+        return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
+
+    def solute_left(self, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
+        """Fraction of the mother liquor that washing leaves in the cake."""
+        if wash is None:
+            return jnp.ones(())
+        pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, feed, wash) / self.void_fraction
+        spreading = axial_dispersion_cake(pore_velocity, self._diameter(feed), self.diffusivity)
+        return solute_remaining_dispersion(
+            self.wash_ratio(feed, wash), dispersion_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), spreading)
+        )
+
+    def saturation(self, feed: Stream, plan: Plan) -> Any:
+        """Saturation of the cake at discharge."""
+        s = self.slurry(feed)
+        thick = jnp.maximum(plan.cake_thickness, 1e-9)
+        capillary = capillary_number_cake(
+            self._diameter(feed), self.void_fraction, thick, self.pressure_drop, s.liquid_density, self.surface_tension
+        )
+        return saturation_after_deliquoring(
+            plan.deliquoring_time,
+            self.pressure_drop,
+            cake_permeability(self.resistance, self.void_fraction, s.solid_density),
+            s.dynamic_viscosity,
+            self.void_fraction,
+            thick,
+            irreducible_saturation(capillary),
+        )
+
+    def _diameter(self, feed: Stream) -> Any:
+        if self.particle_diameter is not None:
+            return self.particle_diameter
+        share = feed.size_fractions
+        inverse = jnp.sum(share / feed.mixture.sizes)
+        return jnp.where(inverse > 0, 1.0 / jnp.where(inverse > 0, inverse, 1.0), 1e-4)
+
+    def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
+        plan, s = self.plan(feed, wash), self.slurry(feed)
+        wet = self.saturation(feed, plan) * self.squeezed()
+        kept = feed.part(solid=self.solids_recovery, liquid=s.liquid_share)
+        through = feed.part(solid=1.0 - self.solids_recovery, liquid=1.0 - s.liquid_share, gas=1.0)
+        if wash is None:
+            cake = kept.part(solid=1.0, liquid=wet)
+            return Filtered(cake, through.replace(liquid=feed.liquid - cake.liquid), empty(feed.mixture, feed.temperature, feed.pressure))
+        left = self.solute_left(feed, wash, plan)
+        flow = wash.liquid_volume_flow
+        stays = (1.0 - left) * jnp.minimum(s.void_volume_flow, feed.liquid_volume_flow) / jnp.where(flow > 0, flow, 1.0)
+        joined = kept + wash
+        cake = joined.replace(liquid=wet * (left * kept.liquid + jnp.minimum(stays, 1.0) * wash.liquid), gas=0.0 * joined.gas)
+        washings = joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid)
+        return Filtered(cake, through, washings)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> CakeFigures:
+        feed, wash = inlets["feed"], inlets.get("wash")
+        plan, cake = self.plan(feed, wash), outlets.cake
+        return CakeFigures(
+            area_required=plan.area_required,
+            capacity_use=plan.area_required / self.area,
+            cake_thickness=plan.cake_thickness,
+            dry_cake_mass_per_area=plan.dry_cake_mass_per_area,
+            cycle_time=plan.cycle_time,
+            formation_time=plan.formation_time,
+            wash_time=plan.wash_time,
+            deliquoring_time=plan.deliquoring_time,
+            filtrate_flow=outlets.filtrate.liquid_volume_flow,
+            wash_ratio=self.wash_ratio(feed, wash),
+            wash_use=plan.wash_use,
+            solute_remaining=self.solute_left(feed, wash, plan),
+            cake_saturation=self.saturation(feed, plan),
+            moisture_dry_basis=cake.moisture_dry_basis,
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        plan = self.plan(feed, inlets.get("wash"))
+        return (
+            Check(_CAPACITY, plan.area_required / self.area, 0.0, 1.0, "dimensionless", "ruth1935"),
+            Check(_WASH, plan.wash_use, 0.0, 1.0, "dimensionless", "mccabe2005, ch. 29"),
+            Check(_TOO_THICK, feed.solids_volume_fraction / (1.0 - self.void_fraction), 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"),
+        )
+
+    @classmethod
+    def size(cls, feed: Stream, wash: Stream | None = None, *, capacity_use: float = 1.0, **fields: Any) -> Any:
+        """The filter whose area this feed just fills to the share ``capacity_use``, everything else given."""
+        trial = cls(area=1.0, **fields)
+        return cls(area=trial.plan(feed, wash).area_required / capacity_use, **fields)

@@ -1,0 +1,146 @@
+"""Continuous cake filters: each point of the area forms, washes, drains and drops one cake a turn."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from typing import Any
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Fraction, Length, RotationSpeed, Speed
+from granum.filtration.equipment.cake_filter import CakeFilter, Filtered, Plan
+from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+_THIN = "cake thickness for discharge"
+_TURN = "rotation speed"
+_SUBMERGED = "submerged share of the drum"
+_SECTORS = "sum of the shares of the cycle"
+RPM = 0.10471975511965977  # radian/s
+_BELT = "belt speed"
+_VACUUM = "pressure drop under vacuum"
+
+
+class ContinuousFilter(CakeFilter):
+    """Abstract continuous filter: a turn time, and its shares for forming, washing and draining."""
+
+    @property
+    @abc.abstractmethod
+    def turn_time(self) -> Any:
+        """Time of one turn."""
+
+    @property
+    @abc.abstractmethod
+    def shares(self) -> tuple[Any, Any, Any]:
+        """Shares of the turn for forming, washing and draining."""
+
+    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
+        s, turn = self.slurry(feed), self.turn_time
+        form, washed, drained = (share * turn for share in self.shares)
+        filtrate = filtrate_volume_constant_pressure(
+            form, 1.0, self.pressure_drop, s.dynamic_viscosity, self.resistance, s.dry_cake_per_filtrate, self.medium_resistance
+        )
+        most = s.dry_cake_per_filtrate * filtrate
+        loading = s.solid_flow * turn / self.area
+        wash_volume = 0.0 if wash is None else wash.liquid_volume_flow * turn / self.area
+        use = wash_volume / jnp.maximum(self.wash_flux(loading, feed, wash) * washed, 1e-300)
+        return Plan(loading, self.thickness(loading, s.solid_density), form, washed, drained, turn, s.solid_flow * turn / most, use)
+
+
+def _limits(unit: Any, feed: Stream, wash: Stream | None, thinnest: Any, source: str) -> tuple[Check, ...]:
+    return (
+        Check(_THIN, unit.plan(feed, wash).cake_thickness, thinnest, jnp.inf, "m", source),
+        Check(_SECTORS, sum(unit.shares), 0.0, 1.0, "dimensionless", source),
+        Check(_VACUUM, unit.pressure_drop, 1e4, 8.5e4, "Pa", source),
+    )
+
+
+@equipment("rotary_vacuum_drum", source="geankoplis2003, § 14.2; mccabe2005, ch. 29", title="Rotary vacuum drum filter",
+           equation=r"\frac{V}{\Omega\,t_c} = \sqrt{\frac{2 f \Delta p}{t_c\,\eta\,\alpha\,W} + \left(\frac{R_s}{\alpha W t_c}\right)^2} - \frac{R_s}{\alpha W t_c}")  # fmt: skip
+class RotaryVacuumDrum(ContinuousFilter):
+    """Drum that dips into the slurry, sucks its cake on, washes it with sprays, sucks it dry and scrapes it off.
+
+    The cake carries all solids of the feed; ``capacity_use`` says whether the submerged share has time enough to form it.
+    """
+
+    rotation_speed: RotationSpeed
+    submergence: Fraction = 0.33
+    wash_share: Fraction = 0.25
+    deliquoring_share: Fraction = 0.2
+    discharge_thickness: Length = 0.006
+
+    @property
+    def turn_time(self) -> Any:
+        return 2.0 * jnp.pi / self.rotation_speed
+
+    @property
+    def shares(self) -> tuple[Any, Any, Any]:
+        return self.submergence, self.wash_share, self.deliquoring_share
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        feed, wash = inlets["feed"], inlets.get("wash")
+        return (
+            *super().checks(inlets, outlets),
+            *_limits(self, feed, wash, self.discharge_thickness, "perry2008, § 18"),
+            Check(_TURN, self.rotation_speed, 0.1 * RPM, 3.0 * RPM, "radian/s", "perry2008, § 18"),
+            Check(_SUBMERGED, self.submergence, 0.1, 0.4, "dimensionless", "perry2008, § 18"),
+        )
+
+
+@equipment("rotary_disc_filter", source="wakeman2005", title="Rotary vacuum disc filter")
+class RotaryDiscFilter(ContinuousFilter):
+    """Vertical discs on a shaft, cake on both faces: much area in little room, thin cakes, poor washing.
+
+    The area is that of all disc faces.
+    """
+
+    rotation_speed: RotationSpeed
+    submergence: Fraction = 0.35
+    wash_share: Fraction = 0.0
+    deliquoring_share: Fraction = 0.4
+    discharge_thickness: Length = 0.01
+
+    @property
+    def turn_time(self) -> Any:
+        return 2.0 * jnp.pi / self.rotation_speed
+
+    @property
+    def shares(self) -> tuple[Any, Any, Any]:
+        return self.submergence, self.wash_share, self.deliquoring_share
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        return (
+            *super().checks(inlets, outlets),
+            *_limits(self, inlets["feed"], inlets.get("wash"), self.discharge_thickness, "perry2008, § 18"),
+            Check(_SUBMERGED, self.submergence, 0.1, 0.5, "dimensionless", "perry2008, § 18"),
+        )
+
+
+@equipment("horizontal_belt_filter", source="wakeman2005", title="Horizontal belt filter")
+class HorizontalBeltFilter(ContinuousFilter):
+    """Vacuum belt fed on top: quick-settling, coarse crystals and thorough washing; the cake forms with gravity, not against it."""
+
+    belt_length: Length
+    belt_speed: Speed
+    formation_share: Fraction = 0.3
+    wash_share: Fraction = 0.4
+    deliquoring_share: Fraction = 0.3
+    discharge_thickness: Length = 0.004
+
+    @property
+    def turn_time(self) -> Any:
+        return self.belt_length / self.belt_speed
+
+    @property
+    def shares(self) -> tuple[Any, Any, Any]:
+        return self.formation_share, self.wash_share, self.deliquoring_share
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        return (
+            *super().checks(inlets, outlets),
+            *_limits(self, inlets["feed"], inlets.get("wash"), self.discharge_thickness, "perry2008, § 18"),
+            Check(_BELT, self.belt_speed, 0.01, 0.8, "m/s", "wakeman2005"),
+        )
