@@ -11,8 +11,9 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.kinds import Concentration, Density, Law, PositiveNumber, Speed
+from granum.core.kinds import Concentration, Density, Law, PositiveNumber, Ratio, Speed
 from granum.numerics import safe_power
+from granum.particles.formulas.hindered import hindrance_richardson_zaki
 from granum.settling.quantities import SpecificVolume
 
 
@@ -136,21 +137,24 @@ class RichardsonZakiConcentration(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="hindered_particles", source="kynch1952", equation=r"v = v_t\,h(\varphi),\quad \varphi = C/\rho_s",
-    title="Settling velocity of hindered particles",
+    "settling_velocity", name="hindered_particles", source="kynch1952; richardson1954",
+    equation=r"v = v_t\,h(\varphi, \mathrm{Re}),\quad \varphi = C/\rho_s", title="Settling velocity of hindered particles",
 )  # fmt: skip
 class HinderedParticles(eqx.Module):
     """Settling velocity of particles of one terminal velocity, slowed by any hindrance law on the volume fraction.
 
-    >>> law = HinderedParticles("1.1 mm/s", 1200.0, hindrance=lambda phi: (1 - phi) ** 4.65)
-    >>> round(float(law(240.0)) * 1e3, 4)
+    The Reynolds number is that of one particle at its terminal velocity.
+
+    >>> round(float(HinderedParticles("1.1 mm/s", 1200.0, reynolds=0.11)(240.0)) * 1e3, 4)
     0.3897
     """
 
     terminal_velocity: Speed
     solid_density: Density
-    hindrance: Annotated[Any, Law("hindrance")]
+    reynolds: Ratio = 0.01
+    hindrance: Annotated[Any, Law("hindrance")] = hindrance_richardson_zaki
 
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
-        return self.terminal_velocity * self.hindrance(jnp.asarray(solids_concentration) / self.solid_density)
+        share = jnp.clip(jnp.asarray(solids_concentration) / self.solid_density, 1e-12, 1.0 - 1e-9)
+        return self.terminal_velocity * self.hindrance(share, self.reynolds)

@@ -1,0 +1,140 @@
+"""Oil–water separator after API publication 421: what floats is skimmed, what sinks is scraped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import ceil, sqrt
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import Area, Concentration, Density, DynamicViscosity, Fraction, Length, PositiveNumber, Ratio, Speed, VolumeFlow
+from granum.settling.equipment.gravity import DRAG, HINDRANCE, Drag, Hindrance, class_velocities, over_axes
+from granum.settling.formulas.api import (
+    HORIZONTAL_LIMIT,
+    basin_length_api,
+    horizontal_velocity_api,
+    rise_velocity_api,
+    turbulence_factor_api,
+)
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+SECTION_LIMIT = 160 * 0.3048**2  # m²: 160 ft² a channel
+
+
+class Skimmed(NamedTuple):
+    """Floated oil, scraped sludge, treated water."""
+
+    skimmings: Stream
+    sludge: Stream
+    water: Stream
+
+
+class SeparatorFigures(NamedTuple):
+    """Figures of an API separator."""
+
+    horizontal_velocity: Speed
+    rise_velocity: Speed
+    velocity_ratio: Ratio
+    turbulence_factor: PositiveNumber
+    basin_area: Area
+    basin_length: Length
+    removal_efficiency: Fraction
+
+
+@equipment("api_separator", source="api421", title="API oil–water separator")
+class ApiSeparator(Unit):
+    """Gravity oil–water separator: channels in which oil globules down to 150 µm rise to the surface.
+
+    Oil is a dispersed species of the stream, with size classes, lighter than the liquid; heavier species go to the sludge. A
+    class is removed in the ratio of its velocity to the overflow rate times the turbulence factor. All limits of API 421
+    are checks.
+    """
+
+    length: Length
+    width: Length
+    height: Length
+    channel_number: PositiveNumber = 1.0
+    droplet_diameter: Length = 150e-6
+    skimmings_concentration: Concentration = 500.0
+    underflow_concentration: Concentration = 100.0
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def velocities(self, feed: Stream) -> tuple[Any, Any, Any]:
+        """Horizontal velocity, rise velocity of the design globule of the lightest species, turbulence factor."""
+        horizontal = feed.slurry_volume_flow / (self.channel_number * self.width * self.height)
+        lightest = jnp.min(feed.mixture.densities("solids", feed.temperature))
+        lighter = jnp.minimum(lightest, feed.liquid_density * (1.0 - 1e-9))
+        rise = rise_velocity_api(feed.liquid_density, lighter, feed.liquid_viscosity, self.droplet_diameter)
+        return horizontal, rise, turbulence_factor_api(horizontal / rise)
+
+    def __call__(self, feed: Stream) -> Skimmed:
+        velocity = class_velocities(feed, self.drag, self.hindrance)
+        factor = self.velocities(feed)[2]
+        loading = factor * feed.slurry_volume_flow / (self.channel_number * self.length * self.width)
+        share = jnp.minimum(jnp.abs(velocity) / loading, 1.0)
+        up, down = (over_axes(jnp.where(side, share, 0.0), feed) for side in (velocity < 0, velocity > 0))
+        top, bottom = feed.part(solid=up), feed.part(solid=down)
+        available = jnp.maximum(feed.liquid_volume_flow, 1e-300)
+
+        def liquid(part: Stream, concentration: Any) -> Any:
+            return jnp.maximum(part.solid_flow / concentration - part.solid_volume_flow, 0.0) / available
+
+        over, under = liquid(top, self.skimmings_concentration), liquid(bottom, self.underflow_concentration)
+        scale = 1.0 / jnp.maximum(over + under, 1.0)
+        over, under = over * scale, under * scale
+        return Skimmed(
+            feed.part(solid=up, liquid=over), feed.part(solid=down, liquid=under),
+            feed.part(solid=1.0 - up - down, liquid=1.0 - over - under, gas=1.0),
+        )  # fmt: skip
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Skimmed) -> SeparatorFigures:
+        feed = inlets["feed"]
+        horizontal, rise, factor = self.velocities(feed)
+        some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
+        removed = (outlets.skimmings.solid_flow + outlets.sludge.solid_flow) / some
+        area = self.channel_number * self.length * self.width
+        return SeparatorFigures(horizontal, rise, horizontal / rise, factor, area, basin_length_api(horizontal, rise, self.height), removed)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Skimmed) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        limit = horizontal_velocity_api(figures.rise_velocity)
+        time = self.length / figures.horizontal_velocity
+        section = self.width * self.height
+        return (
+            Check("horizontal velocity over its limit", figures.horizontal_velocity / limit, 0.0, 1.0, "dimensionless", "api421"),
+            Check("length over the length needed", self.length / figures.basin_length, 1.0, float("inf"), "dimensionless", "api421"),
+            Check("residence time", time / 60.0, 0.0, 60.0, "min", "api421"),
+            Check("cross-section of a channel", section, 0.0, 15.0, "m^2", "api421"),
+            Check("depth over width", self.height / self.width, 0.3, 0.5, "dimensionless", "api421"),
+            Check("length over width", self.length / self.width, 5.0, float("inf"), "dimensionless", "api421"),
+            Check("depth", self.height, 3 * 0.3048, 8 * 0.3048, "m", "api421"),
+            Check("width", self.width, 6 * 0.3048, 20 * 0.3048, "m", "api421"),
+        )
+
+    @classmethod
+    def size(
+        cls, volume_flow: VolumeFlow, water_density: Density, oil_density: Density, dynamic_viscosity: DynamicViscosity,
+        depth_over_width: Ratio = 0.3, droplet_diameter: Length = 150e-6, horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT,
+    ) -> ApiSeparator:  # fmt: skip
+        """The separator for a flow: section from the horizontal velocity, as many channels as it takes, length with turbulence.
+
+        The length is at least five widths. Concrete numbers, SI.
+        """
+        rise = rise_velocity_api(water_density, oil_density, dynamic_viscosity, droplet_diameter)
+        if not rise > 0:
+            raise InputError(
+                _("The oil must be lighter than the water: {oil} against {water} kg/m³.").format(oil=oil_density, water=water_density)
+            )
+        horizontal = horizontal_velocity_api(rise, horizontal_velocity_limit)
+        section = volume_flow / horizontal
+        channels = max(1, ceil(section / SECTION_LIMIT - 1e-9))
+        height = sqrt(depth_over_width * section / channels)
+        width = height / depth_over_width
+        length = max(basin_length_api(horizontal, rise, height), 5.0 * width)
+        return cls(length=length, width=width, height=height, channel_number=float(channels), droplet_diameter=droplet_diameter)

@@ -1,0 +1,209 @@
+"""Clarifiers rated by grade efficiency: any plan, circular scraped, rectangular, lamella, grit chamber."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
+from granum.settling.equipment.gravity import DRAG, HINDRANCE, AbstractSettler, Drag, Hindrance, Outlets, class_velocities
+from granum.settling.formulas.basins import removal_efficiency_camp, removal_efficiency_hazen
+from granum.settling.formulas.lamella import (
+    critical_velocity_cocurrent,
+    critical_velocity_countercurrent,
+    critical_velocity_crosscurrent,
+)
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+HOUR = 3600.0
+
+
+def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
+    """Share removed at each settling velocity: ideal basin, or mixed tanks in series when their number is given."""
+    falling = jnp.maximum(velocity, 1e-300)
+    share = removal_efficiency_camp(falling, critical) if tank_number is None else removal_efficiency_hazen(falling, critical, tank_number)
+    return jnp.where(velocity > 0, share, 0.0)
+
+
+class AbstractBasin(AbstractSettler):
+    """A settler whose critical velocity is its overflow rate: volume flow of the feed over a settling area."""
+
+    if TYPE_CHECKING:  # fields of every subclass
+        tank_number: Any
+        drag: Any
+        hindrance: Any
+
+    @abc.abstractmethod
+    def settling_area(self) -> Any:
+        """Area on which solids settle, m²."""
+
+    def critical_velocity(self, feed: Stream) -> Any:
+        return feed.slurry_volume_flow / self.settling_area()
+
+    def removed(self, feed: Stream) -> Any:
+        velocity = class_velocities(feed, self.drag, self.hindrance)
+        return grade_efficiency(velocity, self.critical_velocity(feed), self.tank_number)
+
+
+@equipment("clarifier", source="hazen1904; camp1946", title="Clarifier")
+class Clarifier(AbstractBasin):
+    """Gravity settler of a given area that removes each size class by its hindered settling velocity.
+
+    Ideal basin (Camp) unless a number of mixed tanks (Hazen) is given. The overflow rate is that of the whole feed, which is
+    on the safe side of the true one by the underflow. Sizing and rating are the same statement: area times critical velocity
+    is the feed's volume flow.
+    """
+
+    area: Area
+    underflow_concentration: Concentration
+    tank_number: PositiveNumber | None = None
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def settling_area(self) -> Any:
+        return self.area
+
+    @classmethod
+    def size(cls, volume_flow: VolumeFlow, settling_velocity: Any, underflow_concentration: Any, **more: Any) -> Clarifier:
+        """The clarifier that just removes completely what settles at a given (hindered) velocity."""
+        return cls(area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more)
+
+
+@equipment("circular_clarifier", source="degremont2007; hazen1904", title="Circular scraped clarifier")
+class CircularClarifier(AbstractBasin):
+    """Circular clarifier with a rotating scraper, fed in the center.
+
+    Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %.
+    """
+
+    diameter: Length
+    height: Length
+    underflow_concentration: Concentration
+    bottom_slope: Ratio = 0.06
+    tank_number: PositiveNumber | None = 3.0
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def settling_area(self) -> Any:
+        return jnp.pi / 4.0 * self.diameter**2
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
+        time = self.settling_area() * self.height / inlets["feed"].slurry_volume_flow
+        return (
+            *super().checks(inlets, outlets),
+            Check("diameter", self.diameter, 0.0, 60.0, "m", "degremont2007"),
+            Check("depth at the wall", self.height, 2.0, 3.5, "m", "degremont2007"),
+            Check("bottom slope", self.bottom_slope, 0.04, 0.08, "dimensionless", "degremont2007"),
+            Check("residence time", time / HOUR, 1.5, 4.0, "hour", "metcalf2003"),
+        )
+
+
+@equipment("rectangular_clarifier", source="degremont2007; camp1946", title="Rectangular clarifier")
+class RectangularClarifier(AbstractBasin):
+    """Rectangular clarifier with a traveling bridge or chain scraper.
+
+    Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not scour the sludge.
+    """
+
+    length: Length
+    width: Length
+    height: Length
+    underflow_concentration: Concentration
+    tank_number: PositiveNumber | None = 3.0
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def settling_area(self) -> Any:
+        return self.length * self.width
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
+        flow = inlets["feed"].slurry_volume_flow
+        return (
+            *super().checks(inlets, outlets),
+            Check("length over width", self.length / self.width, 3.0, 6.5, "dimensionless", "degremont2007"),
+            Check("depth", self.height, 2.5, 4.0, "m", "degremont2007"),
+            Check("horizontal velocity", flow / (self.width * self.height), 0.0, 0.025, "m/s", "metcalf2003"),
+            Check("residence time", self.settling_area() * self.height / flow / HOUR, 1.5, 4.0, "hour", "metcalf2003"),
+        )
+
+
+_FLOWS = {
+    "countercurrent": critical_velocity_countercurrent,
+    "cocurrent": critical_velocity_cocurrent,
+    "crosscurrent": critical_velocity_crosscurrent,
+}
+
+
+@equipment("lamella", source="yao1970; degremont2007", title="Lamella settler")
+class Lamella(AbstractSettler):
+    """Lamella settler: a pack of inclined plates, with the water against, with or across the sliding sludge.
+
+    The critical velocity is Yao's. Practical limits: 45 to 60° from the horizontal, spacing 10 to 20 cm on raw water (down to
+    5 cm on clean duties), Reynolds number between the plates below 800.
+    """
+
+    plate_number: PositiveNumber
+    plate_length: Length
+    plate_width: Length
+    plate_spacing: Length
+    underflow_concentration: Concentration
+    plate_angle: Angle = 1.0471975511965976
+    flow_direction: Literal["countercurrent", "cocurrent", "crosscurrent"] = "countercurrent"
+    tank_number: PositiveNumber | None = None
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def plate_velocity(self, feed: Stream) -> Any:
+        """Mean velocity of the water between the plates, m/s."""
+        across = self.plate_length if self.flow_direction == "crosscurrent" else self.plate_width
+        return feed.slurry_volume_flow / (self.plate_number * across * self.plate_spacing)
+
+    def critical_velocity(self, feed: Stream) -> Any:
+        along = self.plate_width if self.flow_direction == "crosscurrent" else self.plate_length
+        return _FLOWS[self.flow_direction](self.plate_velocity(feed), along, self.plate_spacing, self.plate_angle)
+
+    def removed(self, feed: Stream) -> Any:
+        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), self.critical_velocity(feed), self.tank_number)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        velocity = self.plate_velocity(feed)
+        reynolds = velocity * 2.0 * self.plate_spacing * feed.liquid_density / feed.liquid_viscosity
+        return (
+            *super().checks(inlets, outlets),
+            Check("angle of the plates", jnp.rad2deg(self.plate_angle), 45.0, 60.0, "degree", "degremont2007"),
+            Check("spacing of the plates", self.plate_spacing, 0.05, 0.2, "m", "degremont2007"),
+            Check("Reynolds number between the plates", reynolds, 0.0, 800.0, "dimensionless", "degremont2007"),
+        )
+
+
+@equipment("grit_chamber", source="camp1946; metcalf2003", title="Grit chamber")
+class GritChamber(AbstractBasin):
+    """Grit chamber: a channel fast enough to carry organic matter through and slow enough to let sand settle.
+
+    Practical limits: horizontal velocity about 0.3 m/s (0.25 to 0.4), residence time 45 to 90 s.
+    """
+
+    length: Length
+    width: Length
+    height: Length
+    underflow_concentration: Concentration = 500.0
+    tank_number: PositiveNumber | None = None
+    drag: Drag = DRAG
+    hindrance: Hindrance = HINDRANCE
+
+    def settling_area(self) -> Any:
+        return self.length * self.width
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
+        flow = inlets["feed"].slurry_volume_flow
+        return (
+            *super().checks(inlets, outlets),
+            Check("horizontal velocity", flow / (self.width * self.height), 0.25, 0.4, "m/s", "metcalf2003"),
+            Check("residence time", self.settling_area() * self.height / flow, 45.0, 90.0, "s", "metcalf2003"),
+        )

@@ -1,0 +1,106 @@
+"""What all gravity settlers share: settling velocity of every class, split into underflow and overflow."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core.kinds import Concentration, Fraction, Law, Speed, VolumeFlow
+from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
+from granum.particles.formulas.hindered import hindrance_richardson_zaki
+from granum.particles.formulas.numbers import reynolds_number
+from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+Drag = Annotated[Any, Law("drag_coefficient")]
+Hindrance = Annotated[Any, Law("hindrance")]
+DRAG, HINDRANCE = drag_coefficient_brown_lawler, hindrance_richardson_zaki
+
+
+class Outlets(NamedTuple):
+    """Thick and clear stream."""
+
+    underflow: Stream
+    overflow: Stream
+
+
+class Figures(NamedTuple):
+    """Figures of a settler."""
+
+    overflow_rate: Speed
+    removal_efficiency: Fraction
+    underflow_volume_flow: VolumeFlow
+    underflow_concentration: Concentration
+    overflow_concentration: Concentration
+
+
+def class_velocities(feed: Stream, drag: Any, hindrance: Any) -> Any:
+    """Hindered settling velocity of each species and size class, m/s; negative for what rises."""
+    m = feed.mixture
+    density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
+    size = jnp.asarray(m.sizes) + 0.0 * density
+    alone = terminal_velocity(size, density, feed.liquid_density, feed.liquid_viscosity, drag=drag)
+    reynolds = reynolds_number(size, jnp.abs(alone), feed.liquid_density, feed.liquid_viscosity)
+    crowd = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
+    return alone * hindrance(crowd, reynolds)
+
+
+def over_axes(share: Any, feed: Stream) -> Any:
+    """A matrix over species and sizes shaped to multiply ``solid``."""
+    return share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+
+
+def concentration(stream: Stream) -> Any:
+    """Solids per volume of slurry, kg/m³; zero when there is none."""
+    volume = stream.slurry_volume_flow
+    return jnp.where(volume > 0, stream.solid_flow / jnp.where(volume > 0, volume, 1.0), 0.0)
+
+
+def divide(feed: Stream, removed: Any, underflow_concentration: Any) -> Outlets:
+    """Underflow with the removed share of the solids, thickened to a concentration; the rest is overflow.
+
+    When the feed does not hold enough liquid for that concentration, all of it goes down: the underflow is then thicker.
+    """
+    settled = feed.part(solid=removed)
+    liquid = settled.solid_flow / underflow_concentration - settled.solid_volume_flow
+    available = feed.liquid_volume_flow
+    share = jnp.clip(liquid / jnp.where(available > 0, available, 1.0), 0.0, 1.0)
+    return Outlets(feed.part(solid=removed, liquid=share), feed.part(solid=1.0 - removed, liquid=1.0 - share, gas=1.0))
+
+
+class AbstractSettler(Unit):
+    """A settler that removes each size class by its settling velocity against a velocity of the equipment."""
+
+    if TYPE_CHECKING:  # a field of every subclass
+        underflow_concentration: Any
+
+    @abc.abstractmethod
+    def critical_velocity(self, feed: Stream) -> Any:
+        """Settling velocity that is removed completely, m/s."""
+
+    @abc.abstractmethod
+    def removed(self, feed: Stream) -> Any:
+        """Share removed of each species and size class."""
+
+    def __call__(self, feed: Stream) -> Outlets:
+        return divide(feed, over_axes(self.removed(feed), feed), self.underflow_concentration)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Outlets) -> Figures:
+        feed = inlets["feed"]
+        some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
+        return Figures(
+            self.critical_velocity(feed),
+            outlets.underflow.solid_flow / some,
+            outlets.underflow.slurry_volume_flow,
+            concentration(outlets.underflow),
+            concentration(outlets.overflow),
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        thinner = concentration(feed) / self.underflow_concentration
+        return (Check("feed thinner than the underflow", thinner, 0.0, 1.0, "dimensionless", "coe1916"),)
