@@ -1,0 +1,1 @@
+"""Formulas of humid gas: humidity, enthalpy, wet bulb, processes."""

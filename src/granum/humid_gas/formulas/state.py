@@ -1,0 +1,120 @@
+"""The full state of a humid gas from any two of its properties."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import flags, formula
+from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.kinds import (
+    Density, HumidityRatio, Law, MassRatio, MoleFraction, PositiveNumber, Pressure, RelativeHumidity, SpecificEnergy, Temperature,
+)  # fmt: skip
+import granum.humid_gas.relations as rel
+from granum.humid_gas.inputs import Solver
+from granum.humid_gas.kinds import SpecificVolume
+from granum.humid_gas.pairs import AIR_WATER
+
+GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
+RANGE = {"temperature": (213.15, 623.15), "pressure": (1e3, 1e7)}
+
+
+class HumidGasState(NamedTuple):
+    """Everything about a humid gas; per kg of dry gas where a mass is meant."""
+
+    temperature: Temperature
+    humidity_ratio: HumidityRatio
+    relative_humidity: RelativeHumidity
+    wet_bulb_temperature: Temperature
+    adiabatic_saturation_temperature: Temperature
+    dew_point_temperature: Temperature
+    enthalpy: SpecificEnergy
+    specific_volume: SpecificVolume
+    density: Density
+    vapor_pressure: Pressure
+    vapor_mole_fraction: MoleFraction
+    condensate_ratio: MassRatio
+
+
+@formula(
+    source="ashrae2017, ch. 1; keey1978; wagner2002; lemmon2000; iapwsif97, eq. 30",
+    equation=r"w = \frac{M_v}{M_g}\frac{p_v}{p-p_v},\quad h = h_g(T) + w\,h_v(T),\quad "
+    r"(w_s(T_w)-w)\,L_v(T_w) = \frac{h}{k_Y c}\,[h_g + w h_v]_{T_w}^{T}",
+    fitted=RANGE,
+    typical={"temperature": (303.15, 363.15), "humidity_ratio": (0.002, 0.02), "pressure": (8e4, 2e5)},
+    output="humid_gas_state",
+    title="State of a humid gas",
+)
+def state(
+    temperature: Temperature | None = None,
+    humidity_ratio: HumidityRatio | None = None,
+    relative_humidity: RelativeHumidity | None = None,
+    wet_bulb_temperature: Temperature | None = None,
+    adiabatic_saturation_temperature: Temperature | None = None,
+    dew_point_temperature: Temperature | None = None,
+    enthalpy: SpecificEnergy | None = None,
+    specific_volume: SpecificVolume | None = None,
+    vapor_pressure: Pressure | None = None,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
+    lewis_factor: PositiveNumber | None = None,
+) -> HumidGasState:
+    """State of a humid gas from any two of its properties, at any pressure and for any gas–vapor pair.
+
+    Temperatures below the triple point are over ice. A humidity ratio or enthalpy beyond saturation gives fog: saturated gas with
+    ``condensate_ratio`` kg of drops per kg of dry gas, to which humidity ratio and enthalpy then belong too. The dew point of perfectly
+    dry gas does not exist; the coldest temperature of the pair is given instead. A relative humidity above the boiling point is
+    vapor pressure over saturation pressure.
+
+    The notes' reading at 22.2 °C dry and 17 °C wet: 60 %, 47.8 kJ/kg, dew point 14 °C.
+
+    >>> air = state(temperature="22.2 degC", wet_bulb_temperature="17 degC")
+    >>> round(air.relative_humidity, 2), round(air.enthalpy / 1e3, 1), round(air.dew_point_temperature - 273.15)
+    (0.59, 47.6, 14)
+    """
+    given = {
+        "temperature": temperature, "humidity_ratio": humidity_ratio, "vapor_pressure": vapor_pressure,
+        "dew_point_temperature": dew_point_temperature, "relative_humidity": relative_humidity,
+        "wet_bulb_temperature": wet_bulb_temperature, "adiabatic_saturation_temperature": adiabatic_saturation_temperature,
+        "enthalpy": enthalpy, "specific_volume": specific_volume,
+    }  # fmt: skip
+    given = {name: jnp.asarray(value, dtype=float) for name, value in given.items() if value is not None}
+    P = jnp.asarray(pressure, dtype=float)
+    lewis = pair.lewis_factor() if lewis_factor is None else lewis_factor
+    gas, possible = Solver(pair, P, lewis, given).solve()
+    return describe(pair, gas, P, lewis, possible, given)
+
+
+def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: dict[str, Any]) -> HumidGasState:
+    """All properties of a solved state; the given ones are repeated exactly, an impossible state is NaN and flagged."""
+    possible = possible & jnp.isfinite(gas.T) & jnp.isfinite(gas.y)
+    name, value = list(given.items())[-1]
+    flags.record(flags.OUTSIDE_DOMAIN, ~possible, value, name, "humid_gas.state")
+    T = jnp.where(possible, gas.T, 300.0)
+    y = jnp.where(possible, gas.y, 0.0)
+    fog = jnp.where(possible, gas.fog, 0.0)
+    gas = rel.Gas(T, y, fog)
+    ys = rel.saturated_fraction(pair, T, P)
+    adiabatic = rel.wet_bulb(pair, T, P, y, None)
+    wet = adiabatic if lewis is None else rel.wet_bulb(pair, T, P, y, lewis)
+    values = {
+        "temperature": T,
+        "humidity_ratio": rel.humidity_ratio(pair, gas),
+        "relative_humidity": y / ys,
+        "wet_bulb_temperature": wet,
+        "adiabatic_saturation_temperature": adiabatic,
+        "dew_point_temperature": rel.dew_point(pair, P, y),
+        "enthalpy": rel.enthalpy(pair, gas, P),
+        "specific_volume": rel.specific_volume(pair, gas, P),
+        "vapor_pressure": y * P,
+        "vapor_mole_fraction": y,
+        "condensate_ratio": pair.molar_mass_ratio * fog,
+    }
+    mass = (1.0 - y) * pair.gas_molar_mass * (1.0 + pair.molar_mass_ratio * fog) + y * pair.vapor_molar_mass
+    values["density"] = mass / pair.molar_volume(T, P, y)
+    values |= given
+    shape = jnp.broadcast_shapes(*(jnp.shape(v) for v in values.values()), jnp.shape(possible))
+    return HumidGasState(**{
+        name: jnp.where(possible, jnp.broadcast_to(values[name], shape), jnp.nan) for name in HumidGasState._fields
+    })  # fmt: skip

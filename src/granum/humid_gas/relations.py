@@ -1,0 +1,203 @@
+"""Psychrometric relations of any pair, on temperature T, pressure P and vapor mole fraction y: balances and their bracketed roots.
+
+Every unknown is sought between physical ends at which the balance has opposite signs, so no search can fail inside the range.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from granum.humid_gas.blocks import blockwise
+from granum.humid_gas.pairs import SLACK, AbstractPair
+from granum.numerics.roots import find_root
+
+LARGE = 1000  # elements from which a second, ice-free copy of the search is worth compiling
+
+
+class Gas(NamedTuple):
+    """A state: temperature, gas-phase vapor fraction (at most saturated) and condensate per dry gas, mol/mol, that floats as fog."""
+
+    T: Any
+    y: Any
+    fog: Any
+
+
+def saturated_fraction(pair: AbstractPair, T: Any, P: Any) -> Any:
+    """Vapor fraction at saturation over the phase that is stable at T."""
+    return pair.saturated_fraction(T, P, pair.is_frozen(T))
+
+
+def enthalpy(pair: AbstractPair, gas: Gas, P: Any) -> Any:
+    """J per kg of dry gas, fog included."""
+    h = pair.molar_enthalpy(gas.T, P, gas.y) / (1.0 - gas.y)
+    fog = jnp.where(gas.fog > 0, gas.fog * pair.condensate_molar_enthalpy(gas.T, P, pair.is_frozen(gas.T)), 0.0)
+    return (h + fog) / pair.gas_molar_mass
+
+
+def specific_volume(pair: AbstractPair, gas: Gas, P: Any) -> Any:
+    """Gas-phase volume, m³ per kg of dry gas (the volume of fog drops is left out)."""
+    return pair.molar_volume(gas.T, P, gas.y) / ((1.0 - gas.y) * pair.gas_molar_mass)
+
+
+def humidity_ratio(pair: AbstractPair, gas: Gas) -> Any:
+    """All vapor and fog per dry gas."""
+    return pair.humidity_ratio(gas.y) + pair.molar_mass_ratio * gas.fog
+
+
+def settled(pair: AbstractPair, T: Any, P: Any, y: Any) -> Gas:
+    """The state of temperature T and total vapor fraction y: what is above saturation becomes fog."""
+    ys = saturated_fraction(pair, T, P)
+    foggy = y > ys
+    ys = jnp.where(foggy, ys, 0.5)
+    total = jnp.where(foggy, y, 0.5)
+    fog = total / (1.0 - total) - ys / (1.0 - ys)
+    return Gas(T, jnp.where(foggy, ys, y), jnp.where(foggy, fog, 0.0))
+
+
+def wet_bulb_balance(pair: AbstractPair, Ts: Any, T: Any, P: Any, y: Any, frozen: Any, lewis: Any) -> Any:
+    """Heat given by the gas less heat taken by evaporation at a wet surface of temperature Ts; zero at the wet bulb.
+
+    Scaled by (1 − y)(1 − ys), which keeps it finite up to pure vapor and to the boiling point. Without
+    a Lewis factor it is the adiabatic-saturation balance of enthalpies.
+    """
+    ys = pair.saturated_fraction(Ts, P, frozen)
+    saturated = pair.molar_enthalpy(Ts, P, ys)
+    condensate = pair.condensate_molar_enthalpy(Ts, P, frozen)
+    adiabatic = (1.0 - ys) * pair.molar_enthalpy(T, P, y) + (ys - y) * condensate - (1.0 - y) * saturated
+    if lewis is None:
+        return adiabatic
+    evaporation = (ys - y) * (pair.vapor_partial_enthalpy(Ts, P, ys) - condensate)
+    return lewis * adiabatic + (lewis - 1.0) * evaporation
+
+
+def wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
+    """Temperature of the wet surface at which the balance closes: liquid where such a state exists, else ice."""
+    if lewis is None:
+        return blockwise(lambda T, P, y: _wet_bulb(pair, T, P, y, None), T, P, y)
+    return blockwise(lambda T, P, y, lewis: _wet_bulb(pair, T, P, y, lewis), T, P, y, lewis)
+
+
+def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
+    Tf = pair.freezing_temperature
+    boiling = pair.boiling_temperature(P)
+    top = jnp.minimum(T, boiling)
+    liquid = (T >= Tf) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), T, P, y, False, lewis) >= 0)
+    frozen = jax.lax.stop_gradient(~liquid)
+    guess = _wet_bulb_guess(pair, T, P, y, boiling)
+    lower = jnp.minimum(Tf, top) * (1 - SLACK)
+
+    def over_liquid(T: Any, P: Any, y: Any) -> Any:
+        return find_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, False, lewis), lower, top * (1 + SLACK), T, P, y,
+                         start=guess).value  # fmt: skip
+
+    def over_either(T: Any, P: Any, y: Any) -> Any:
+        low = jnp.where(frozen, pair.lowest_temperature, lower)
+        high = jnp.where(frozen, jnp.minimum(top, Tf), top) * (1 + SLACK)
+        return find_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), low, high, T, P, y, start=guess).value
+
+    if frozen.size < LARGE:
+        return over_either(T, P, y)
+    return jax.lax.cond(jnp.any(frozen), over_either, over_liquid, T, P, y)
+
+
+def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:
+    """Start value: saturation line exponential in T, its decay exp(−d) replaced by the inverse of a short series, constant capacities."""
+    R = jnp.minimum(T, boiling)
+    ys, slope = jax.jvp(lambda T: pair.saturated_fraction(T, P, False), (R,), (jnp.ones_like(R),))
+    b = slope / ys
+    k = (29.2 + 5.0 * y) / 44e3  # molar heat capacity over heat of vaporization, air and water
+    a, C = k / b, k * (T - R)
+    B = y + C + a - ys * a
+    d = (jnp.sqrt(jnp.maximum(B * B - 4 * a * (y + C - ys * (1 + C)), 0.0)) - B) / (2 * a)
+    for _pass in range(4):
+        steep = 1 + d * (1 + d * (1 / 2 + d / 6))
+        decay = steep + d * d * d * d / 24
+        value = (y + C + a * d) * decay - ys * (1 + C + a * d)
+        d = d - value / (a * decay + (y + C + a * d) * steep - ys * a)
+    return R - d / (b + d / R)
+
+
+def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any) -> Any:
+    """Vapor fraction of gas at T whose wet bulb is Ts; negative where even dry gas is wetter than that. Nearly linear in y."""
+    frozen = pair.is_frozen(Ts)
+    ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
+    y = ys
+    for _pass in range(4):
+        value, slope = jax.jvp(lambda y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), (y,), (jnp.ones_like(y),))
+        y = y - value / jnp.where(slope == 0, 1.0, slope)
+    return y
+
+
+def fraction_at_volume(pair: AbstractPair, T: Any, P: Any, v: Any) -> Any:
+    """Vapor fraction of unsaturated gas of a specific volume."""
+    y = jnp.zeros_like(T * P * v)
+    for _pass in range(4):
+        value, slope = jax.jvp(
+            lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),)
+        )
+        y = y - value / slope
+    return y
+
+
+def fraction_at_enthalpy(pair: AbstractPair, T: Any, P: Any, h: Any) -> Any:
+    """Vapor fraction of unsaturated gas of an enthalpy per kg dry gas."""
+    y = jnp.zeros_like(T * P * h)
+    for _pass in range(5):
+        value, slope = jax.jvp(
+            lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),)
+        )
+        y = y - value / slope
+    return y
+
+
+def dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
+    """Temperature at which gas of vapor fraction y becomes saturated: dew point, or frost point where the ice forms first."""
+    return blockwise(lambda P, y: _dew_point(pair, P, y), P, y)
+
+
+def _dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
+    Tf = pair.freezing_temperature
+    frozen = jax.lax.stop_gradient(y < pair.saturated_fraction(Tf, P, False))
+    lowest = pair.lowest_temperature
+    lower = jnp.where(frozen, lowest, Tf)
+    upper = jnp.where(frozen, Tf, pair.boiling_temperature(P)) * (1 + SLACK)
+    y = jnp.maximum(y, pair.saturated_fraction(lowest, P, True) * (1 + SLACK))
+
+    def balance(x: Any, P: Any, y: Any) -> Any:
+        return jnp.log(pair.saturated_fraction(1.0 / x, P, frozen)) - jnp.log(y)
+
+    return 1.0 / find_root(balance, 1.0 / upper, 1.0 / (lower * (1 - SLACK)), P, y).value
+
+
+def temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
+    """Temperature of gas of total vapor fraction y and given enthalpy, fog included; the freezing point where ice and water coexist."""
+    return blockwise(lambda P, y, h: _temperature_at_enthalpy(pair, P, y, h), P, y, h)
+
+
+def _temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
+    dew = dew_point(pair, P, y)
+    Tf = pair.freezing_temperature
+    total = y / (1.0 - jnp.minimum(y, 1 - 1e-15))
+
+    def at(T: Any, P: Any, y: Any, total: Any, frozen: Any, fogged: Any) -> Any:
+        ys = jnp.where(fogged, jnp.minimum(pair.saturated_fraction(T, P, frozen), y), y)
+        fog = total - ys / (1.0 - ys)
+        liquid = jnp.where(fogged, fog * pair.condensate_molar_enthalpy(T, P, frozen), 0.0)
+        return (pair.molar_enthalpy(T, P, ys) / (1.0 - ys) + liquid) / pair.gas_molar_mass
+
+    def balance(T: Any, P: Any, y: Any, total: Any, frozen: Any, fogged: Any, h: Any) -> Any:
+        return at(T, P, y, total, frozen, fogged) - h
+
+    fogged = h < at(dew, P, y, total, pair.is_frozen(dew), False)
+    warm = dew > Tf
+    above = h >= at(jnp.asarray(Tf), P, y, total, False, True)
+    below = h < at(jnp.asarray(Tf), P, y, total, True, True)
+    frozen = fogged & (~warm | below)
+    lower = jnp.where(fogged, jnp.where(frozen, pair.lowest_temperature, Tf), dew * (1 - SLACK))
+    upper = jnp.where(fogged, jnp.where(frozen & warm, Tf, dew), pair.highest_temperature) * (1 + SLACK)
+    fogged, frozen = jax.lax.stop_gradient((fogged, frozen))
+    T = find_root(balance, lower, upper, P, y, total, frozen, fogged, h).value
+    return jnp.where(fogged & warm & ~above & ~below, Tf, T)
