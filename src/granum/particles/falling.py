@@ -1,0 +1,81 @@
+"""The force balance of steady fall, solved for the Reynolds number under any drag law."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+
+from granum.numerics.roots import find_root
+
+NEWTON_STEPS = 3
+SETTLED = 1e-6  # a last Newton step this small leaves an error of its square
+LEAST = 1e-30  # criteria below this are in the limit of infinitely slow fall
+
+
+def shape_factors(sphericity: Any) -> tuple[Any, Any]:
+    """Ganser's Stokes and Newton shape factors K₁ and K₂ of an isometric particle; one for a sphere."""
+    stokes = 3.0 / (1.0 + 2.0 / jnp.sqrt(sphericity))
+    lack = -jnp.log10(sphericity)
+    angular = lack > 0.0
+    power = jnp.where(angular, jnp.where(angular, lack, 1.0) ** 0.5743, 0.0)
+    return stokes, 10.0 ** (1.8148 * power)
+
+
+def drag_of_shape(drag: Any, sphericity: Any) -> Callable[[Any], Any]:
+    """The drag law of a shape as a function of the Reynolds number alone.
+
+    A law that knows the sphericity takes it. A law for spheres is carried over by Ganser's similarity,
+    ``C_D(Re, ψ) = K₂ C_D(K₁ K₂ Re)``, which leaves it as it is for a sphere.
+    """
+    card = getattr(drag, "card", None)
+    if card is not None and any(p.name == "sphericity" for p in card.parameters):
+        return drag if card.sort == "law" else lambda Re: drag(reynolds=Re, sphericity=sphericity)
+    if isinstance(sphericity, float) and sphericity == 1.0:
+        return drag
+    stokes, newton = shape_factors(sphericity)
+    return lambda Re: newton * drag(stokes * newton * Re)
+
+
+def reynolds_from_size(drag: Callable[[Any], Any], criterion: Any) -> tuple[Any, Any]:
+    """Reynolds number of terminal fall from X = C_D Re², and whether it was found."""
+    # Stokes' law at small X and a constant drag of 0.47 at large X.
+    start = jnp.log(criterion / 24.0) - jnp.log1p(0.0285 * jnp.sqrt(criterion))
+    return _balance(lambda y: 2.0 * y + jnp.log(drag(jnp.exp(y))) - jnp.log(criterion), start)
+
+
+def reynolds_from_velocity(drag: Callable[[Any], Any], criterion: Any) -> tuple[Any, Any]:
+    """Reynolds number of terminal fall from Y = Re/C_D, and whether it was found."""
+    start = jnp.log(jnp.sqrt(24.0 * criterion) + 0.47 * criterion)
+    return _balance(lambda y: y - jnp.log(drag(jnp.exp(y))) - jnp.log(criterion), start)
+
+
+def _balance(equation: Callable[[Any], Any], start: Any) -> tuple[Any, Any]:
+    """Root in ln Re: three Newton steps serve smooth laws to the last digit, a bracket the others; exact derivatives."""
+
+    def search(f: Callable[[Any], Any], y: Any) -> tuple[Any, Any]:
+        guess, step = y, jnp.inf
+        for _ in range(NEWTON_STEPS):
+            value, slope = jax.jvp(f, (y,), (jnp.ones_like(y),))
+            step = value / slope
+            y = y - step
+        settled = abs(step) < SETTLED
+        return lax.cond(jnp.all(settled), lambda: (y, jnp.ones_like(y)), lambda: _bracketed(f, guess, y, settled))
+
+    def divide(linear: Callable[[Any], Any], right: Any) -> Any:
+        return right / linear(jnp.ones_like(right))
+
+    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide, has_aux=True)
+    return jnp.exp(value), found > 0.0
+
+
+def _bracketed(f: Callable[[Any], Any], guess: Any, reached: Any, settled: Any) -> tuple[Any, Any]:
+    low, high = guess - 3.0, guess + 3.0
+    low = jnp.where(f(low) < 0.0, low, guess - 60.0)
+    high = jnp.where(f(high) > 0.0, high, guess + 60.0)
+    root = find_root(f, low, high, start=guess)
+    value = jnp.where(settled, reached, root.value)
+    return value, jnp.where(settled | root.converged, 1.0, 0.0)
