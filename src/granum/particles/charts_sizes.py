@@ -51,12 +51,11 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
     up = np.concatenate([[0.0], np.repeat(height[first:], 2), [0.0]])
     drawing.add_trace(go.Scatter(x=across, y=up, mode="lines", name=_("histogram"), fill="tozeroy", line={"color": SOLID, "width": 1}))
     grid = _positive_range(distribution)
-    right = {"yaxis": "y2"}
-    add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(distribution.cumulative(grid)), _("cumulative"), **right)
+    add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(distribution.cumulative(grid)), _("cumulative"), yaxis="y2")
     at = edges[edges > 0]
-    add_points(drawing, _shown(at, unit), 100.0 * np.asarray(distribution.cumulative(at)), _("class limits"), **right)
+    add_points(drawing, _shown(at, unit), 100.0 * np.asarray(distribution.cumulative(at)), _("class limits"), yaxis="y2")
     if law is not None:
-        add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(law(grid)), _("law"), color="#6b46c1", dash="dash", **right)
+        add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(law(grid)), _("law"), color="#6b46c1", dash="dash", yaxis="y2")
     drawing.update_layout(
         yaxis2={
             "overlaying": "y",

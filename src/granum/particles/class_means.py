@@ -36,10 +36,10 @@ class SizeSummary(NamedTuple):
 def summary_of(distribution: SizeDistribution, basis: str | None = None, sphericity: float = 1.0) -> SizeSummary:
     """The means of a distribution, its percentiles on a basis (its own by default), its surface."""
     on = distribution if basis is None else distribution.to_basis(basis)
-    means = (distribution.mean(p, q) for p, q in ((1, 0), (2, 0), (3, 0), (3, 2), (2, 1), (3, 1), (4, 3)))
+    means = [distribution.mean(p, q) for p, q in ((1, 0), (2, 0), (3, 0), (3, 2), (2, 1), (3, 1), (4, 3))]
     d10, d50, d90 = (on.percentile(part) for part in (0.1, 0.5, 0.9))
     open_end = distribution.fractions[..., 0] * (distribution.edges[0] == 0.0)
-    return SizeSummary(*means, d10, d50, d90, (d90 - d10) / d50, distribution.specific_surface(sphericity), open_end)
+    return SizeSummary._make([*means, d10, d50, d90, (d90 - d10) / d50, distribution.specific_surface(sphericity), open_end])
 
 
 @procedure(source="iso9276-2; astm_e799", title="Size summary of a class table")

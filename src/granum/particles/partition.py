@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import formula, law
 from granum.core.kinds import Fraction, Law, Length, PositiveNumber, Ratio, Within
+from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 
 _LN2, _LN3 = 0.6931471805599453, 1.0986122886681098
@@ -25,6 +26,10 @@ class PartitionCurve(eqx.Module):
     @abstractmethod
     def __call__(self, particle_diameter: Length) -> Fraction:
         """Part of a size that reports to the coarse product."""
+
+    def over(self, lower: Any, upper: Any) -> Any:
+        """Mean over size classes, their material spread evenly over size."""
+        return gauss_legendre(self, lower, upper, order=8) / (jnp.asarray(upper) - jnp.asarray(lower))
 
     def size_at(self, part: Any) -> Any:
         """Size of which a part reports to the coarse product, m."""
@@ -146,6 +151,10 @@ class IdealPartition(PartitionCurve):
         """Part of a size that reports to the coarse product."""
         return jnp.where(jnp.asarray(particle_diameter) >= self.cut_size, 1.0, 0.0)
 
+    def over(self, lower: Any, upper: Any) -> Any:
+        """Part of each class above the cut size."""
+        return jnp.clip((upper - self.cut_size) / (jnp.asarray(upper) - jnp.asarray(lower)), 0.0, 1.0)
+
     def size_at(self, part: Any) -> Any:
         """The cut size, whatever the part."""
         return self.cut_size * jnp.ones_like(jnp.asarray(part, dtype=float))
@@ -172,6 +181,10 @@ class BypassedPartition(PartitionCurve):
     def __call__(self, particle_diameter: Length) -> Fraction:
         """Part of a size that reports to the coarse product."""
         return self.bypass_fraction + (1.0 - self.bypass_fraction) * self.separation(particle_diameter)
+
+    def over(self, lower: Any, upper: Any) -> Any:
+        """Mean over size classes."""
+        return self.bypass_fraction + (1.0 - self.bypass_fraction) * self.separation.over(lower, upper)
 
 
 @formula(source="tromp1937; wills2016", equation=r"E_p = \tfrac12 (d_{75} - d_{25})")

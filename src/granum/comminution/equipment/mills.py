@@ -1,0 +1,155 @@
+"""Mills and crushers: population balance, Bond, and Whiten's cone crusher."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.comminution.equipment.screens import size_passing
+from granum.comminution.formulas.energy import product_size_bond
+from granum.comminution.kinds import WorkIndex
+from granum.comminution.population import TanksInSeries, fragments, rate_matrix
+from granum.core import equipment
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time
+from granum.numerics.smooth import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+_TINY = 1e-12
+
+
+class Ground(NamedTuple):
+    """Ground product and the power taken up."""
+
+    product: Stream
+    shaft_power: Any
+
+
+class MillFigures(NamedTuple):
+    """Figures of a mill."""
+
+    residence_time: Time
+    feed_size: Length
+    product_size: Length
+    reduction_ratio: Ratio
+    specific_energy: SpecificEnergy
+
+
+@equipment("ball_mill", source="austin1984; reid1965", title="Mill with a population balance")
+class BallMill(Unit):
+    """Continuous mill of fixed holdup: first-order breakage of every size class, with the residence time law of the shell.
+
+    The mean residence time is the mass of solid in the mill over the feed of solid. The shaft power heats the product; it does not
+    set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Batch grinding is plug flow.
+    """
+
+    selection: Annotated[Any, Law("selection_function")]
+    breakage: Annotated[Any, Law("breakage_function")]
+    holdup_mass: Mass
+    mixing: Annotated[Any, Law("residence_time_law")] = TanksInSeries(1)
+    shaft_power: Power = 0.0
+
+    def _residence_time(self, feed: Stream) -> Any:
+        return self.holdup_mass / jnp.maximum(feed.solid_flow, _TINY)
+
+    def __call__(self, feed: Stream) -> Ground:
+        matrix = rate_matrix(feed.mixture.edges, self.selection, self.breakage)
+        ground = feed.regraded(self.mixing.operator(matrix, self._residence_time(feed)))
+        return Ground(ground.heated(self.shaft_power), jnp.asarray(self.shaft_power))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> MillFigures:
+        feed = inlets["feed"]
+        coarse, fine = size_passing(feed), size_passing(outlets.product)
+        energy = safe_divide(self.shaft_power, feed.solid_flow)
+        return MillFigures(self._residence_time(feed), coarse, fine, coarse / fine, energy)
+
+
+class CrusherFigures(NamedTuple):
+    """Figures of a crusher."""
+
+    feed_size: Length
+    product_size: Length
+    reduction_ratio: Ratio
+    specific_energy: SpecificEnergy
+
+
+@equipment("bond_mill", source="bond1952; bond1961", title="Crusher or mill by Bond's law")
+class BondMill(Unit):
+    """Size reduction by a given power: every size shrinks by the ratio of the 80 % sizes that Bond's law allows.
+
+    The product keeps the shape of the feed's distribution; a self-similar product is what Bond's law assumes.
+    """
+
+    shaft_power: Power
+    work_index: WorkIndex
+    efficiency_factor: PositiveNumber = 1.0
+
+    def _product_size(self, feed: Stream) -> Any:
+        energy = safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow) / self.efficiency_factor
+        return product_size_bond(size_passing(feed), energy, self.work_index)
+
+    def __call__(self, feed: Stream) -> Ground:
+        edges = jnp.asarray(feed.mixture.edges)
+        ratio = self._product_size(feed) / size_passing(feed)
+        lower, upper = ratio * edges[:-1], ratio * edges[1:]
+        below = jnp.clip((edges[:, None] - lower[None, :]) / (upper - lower)[None, :], 0.0, 1.0)
+        below = below.at[0].set(0.0)  # what leaves the grid at its fine end stays in the finest class
+        ground = feed.regraded(jnp.diff(below, axis=0))
+        return Ground(ground.heated(self.shaft_power), jnp.asarray(self.shaft_power))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
+        feed = inlets["feed"]
+        coarse, fine = size_passing(feed), size_passing(outlets.product)
+        return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))
+
+    @classmethod
+    def size(cls, mass_flow: MassFlow, feed_size: Length, product_size: Length, work_index: WorkIndex,
+             efficiency_factor: float = 1.0) -> BondMill:  # fmt: skip
+        """The machine whose power brings a flow from one 80 % size to another."""
+        from granum.comminution.formulas.energy import specific_energy_bond
+
+        energy = specific_energy_bond(feed_size, product_size, work_index)
+        return cls(mass_flow * energy * efficiency_factor, work_index, efficiency_factor)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Ground) -> tuple[Check, ...]:
+        return (Check("product in the finest size class", outlets.product.size_fractions[0], 0.0, 0.2, "", "bond1961"),)
+
+
+@equipment("cone_crusher", source="whiten1972; napiermunn1996", title="Cone or jaw crusher (Whiten)")
+class ConeCrusher(Unit):
+    """Whiten's crusher: particles are classified, those nipped are broken and classified again, until they pass.
+
+    The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is kept.
+    """
+
+    always_passing_size: Length
+    always_broken_size: Length
+    breakage: Annotated[Any, Law("breakage_function")]
+    classification_exponent: PositiveNumber = 2.3
+    shaft_power: Power = 0.0
+
+    def __check_init__(self) -> None:
+        low, high = self.always_passing_size, self.always_broken_size
+        if isinstance(low, float) and isinstance(high, float) and low >= high:
+            raise InputError(
+                _("The size that always passes must be smaller than the size that is always broken."), name="always_passing_size"
+            )
+
+    def __call__(self, feed: Stream) -> Ground:
+        from granum.comminution.breakage import WhitenClassification
+
+        edges = jnp.asarray(feed.mixture.edges)
+        chance = WhitenClassification(self.always_passing_size, self.always_broken_size, self.classification_exponent)
+        c = chance.over(edges[:-1], edges[1:]).at[0].set(0.0)
+        b = fragments(edges, self.breakage)
+        operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
+        return Ground(feed.regraded(operator).heated(self.shaft_power), jnp.asarray(self.shaft_power))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
+        feed = inlets["feed"]
+        coarse, fine = size_passing(feed), size_passing(outlets.product)
+        return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))
