@@ -129,6 +129,18 @@ class Fit:
                 break
         return dict(zip(self.values, kept[:count].T, strict=True))
 
+    def ellipse(self, one: str, other: str, level: float = 0.95, points: int = 100) -> tuple[np.ndarray, np.ndarray]:
+        """Outline of the joint confidence region of two parameters (linear approximation, F distribution)."""
+        names = list(self.parameters)
+        for name in (one, other):
+            if name not in names:
+                raise unknown_name(_("Parameter"), name, names)
+        pair = [names.index(one), names.index(other)]
+        angle = np.linspace(0.0, 2.0 * np.pi, points)
+        reach = np.sqrt(2.0 * stats.f.ppf(level, 2, self.statistics["degrees_of_freedom"]))
+        x, y = reach * _square_root(self.covariance[np.ix_(pair, pair)]) @ np.stack([np.cos(angle), np.sin(angle)])
+        return self[one].value + x, self[other].value + y
+
     def profile(self, name: str, points: int = 21) -> Profile:
         """Profile likelihood of one parameter; see ``granum.estimation.intervals.profile``."""
         from granum.estimation.intervals import profile

@@ -10,3 +10,4 @@ TimePerVolume = Annotated[Any, Kind("time per volume", "s/m^3", display=("s/L", 
 TimePerVolumeSquared = Annotated[Any, Kind("time per volume squared", "s/m^6", display=("s/L^2",))]
 RuthConstant = Annotated[Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))]
 MassPerArea = Annotated[Any, Kind("mass per area", "kg/m^2", lower=0.0, display=("g/cm^2",))]
+PressureTimePerVolume = Annotated[Any, Kind("pressure impulse per volume", "Pa*s/m^3", display=("bar*s/L",))]
