@@ -79,10 +79,9 @@ def diameter_criterion(
 @formula(source="clift1978, chapter 5", equation=r"C_D(\mathrm{Re})\,\mathrm{Re}^2 = X", typical={"velocity_criterion": (1e-2, 1e6)})
 def reynolds_number_from_velocity_criterion(velocity_criterion: PositiveNumber, drag: Drag = drag_coefficient_brown_lawler) -> Ratio:
     """Reynolds number of terminal motion from the criterion X, under any drag law.
-    granum.particles.formulas.criteria 0.00491 -> 0.0049
-        >>> from granum.particles.formulas.drag import drag_coefficient_stokes
-        >>> round(reynolds_number_from_velocity_criterion(velocity_criterion=4.8, drag=drag_coefficient_stokes), 6)
-        granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
+
+    >>> from granum.particles.formulas.drag import drag_coefficient_stokes
+    >>> round(reynolds_number_from_velocity_criterion(velocity_criterion=4.8, drag=drag_coefficient_stokes), 6)
     0.2
     """
     Re, found = reynolds_from_size(drag, jnp.maximum(velocity_criterion, LEAST))
@@ -94,12 +93,9 @@ def reynolds_number_from_velocity_criterion(velocity_criterion: PositiveNumber, 
 @formula(source="clift1978, chapter 5", equation=r"\frac{\mathrm{Re}}{C_D(\mathrm{Re})} = Y", typical={"diameter_criterion": (1e-4, 1e4)})
 def reynolds_number_from_diameter_criterion(diameter_criterion: PositiveNumber, drag: Drag = drag_coefficient_brown_lawler) -> Ratio:
     """Reynolds number of terminal motion from the criterion Y, under any drag law.
-    granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
-    0.2
-        >>> from granum.particles.formulas.drag import drag_coefficient_newton
-        >>> round(reynolds_number_from_diameter_criterion(diameter_criterion=500 / 0.44, drag=drag_coefficient_newton), 6)
-        granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
-    0.2
+
+    >>> from granum.particles.formulas.drag import drag_coefficient_newton
+    >>> round(reynolds_number_from_diameter_criterion(diameter_criterion=500 / 0.44, drag=drag_coefficient_newton), 6)
     500.0
     """
     Re, found = reynolds_from_velocity(drag, jnp.maximum(diameter_criterion, LEAST))
@@ -132,14 +128,11 @@ def terminal_velocity_by_regime(
 
         The hand method of the courses. It jumps by a factor 1.9 at X = 4.8, where Allen's law is far too low in drag.
         Differs from the print: the course gives Newton's velocity as √(3 g (ρ_p/ρ_f − 1) d); 3 stands for 4/(3·0.44) = 3.03.
-    granum.particles.formulas.criteria 500.0 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
+
     0.2
-    500.0
-        >>> found = terminal_velocity_by_regime(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
-        >>> round(1000 * found.terminal_velocity, 3), round(found.velocity_criterion, 2)
-        granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 500.0 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
-    0.2
-    500.0
+
+    >>> found = terminal_velocity_by_regime(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
+    >>> round(1000 * found.terminal_velocity, 3), round(found.velocity_criterion, 2)
     (2.247, 2.7)
     """
     rho, eta = fluid_density, dynamic_viscosity
@@ -172,16 +165,12 @@ def terminal_diameter_by_regime(
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> SizeByRegime:
     """Diameter of the particle with a given terminal speed by Stokes, Allen or Newton, whichever the criterion Y selects.
-    granum.particles.formulas.criteria (2.247, 2.7) -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 500.0 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
+
     0.2
     500.0
-    (2.247, 2.7)
-        >>> found = terminal_diameter_by_regime(velocity="2.247 mm/s", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
-        >>> round(1e6 * found.terminal_diameter, 1), round(found.diameter_criterion, 6)
-        granum.particles.formulas.criteria  -> granum.particles.formulas.criteria (2.247, 2.7) -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 500.0 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.2 -> granum.particles.formulas.criteria  -> granum.particles.formulas.criteria 0.00491 -> 0.0049
-    0.2
-    500.0
-    (2.247, 2.7)
+
+    >>> found = terminal_diameter_by_regime(velocity="2.247 mm/s", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
+    >>> round(1e6 * found.terminal_diameter, 1), round(found.diameter_criterion, 6)
     (50.0, 0.000526)
     """
     rho, eta = fluid_density, dynamic_viscosity

@@ -50,7 +50,7 @@ def trajectory_stokes(
     >>> path = trajectory_stokes(particle_diameter="50 um", particle_density=2650, fluid_density=1.2, dynamic_viscosity=1.81e-5,
     ...                          time=[0.0, 10.0], initial_horizontal_velocity=1.0)
     >>> round(float(path.horizontal_position[1]), 5)
-    0.02034
+    0.02033
     """
     tau = (particle_density + added_mass_coefficient * fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
     terminal = gravity * (particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
@@ -88,7 +88,7 @@ def trajectory(
     >>> path = trajectory(particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP",
     ...                   time=[0.0, 0.5, 1.0], initial_horizontal_velocity=1.0)
     >>> round(float(path.vertical_velocity[2]), 3)
-    0.155
+    0.157
     """
     motion = Motion.of(
         particle_diameter, particle_density, fluid_density, dynamic_viscosity, gravity, added_mass_coefficient, drag,
@@ -124,10 +124,9 @@ def settling_distance_stokes(
     NOT FOUND trajectory 0.155
         With equal densities it never does: not a number, flagged.
 
-        >>> found = settling_distance_stokes(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP",
-        ...                                  height=2.0, stream_velocity=0.01, initial_horizontal_velocity=0.01)
-        >>> round(found.settling_distance, 2)
-        granum.particles.formulas.trajectories  -> NOT FOUND trajectory 0.155
+    >>> found = settling_distance_stokes(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP",
+    ...                                  height=2.0, stream_velocity=0.01, initial_horizontal_velocity=0.01)
+    >>> round(found.settling_distance, 2)
     8.9
     """
     tau = (particle_density + added_mass_coefficient * fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
@@ -168,15 +167,13 @@ def settling_distance(
     added_mass_coefficient: Ratio = 0.0,
 ) -> Settled:
     """Horizontal distance and time in which a particle settles (or rises) through a height, under any drag law.
-    granum.particles.formulas.trajectories 8.9 -> granum.particles.formulas.trajectories  -> NOT FOUND trajectory 0.155
+
     8.9
         With equal densities it never does: not a number, flagged.
 
-        >>> found = settling_distance(particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP", height=1.0,
-        ...                           stream_velocity=0.1, initial_horizontal_velocity=0.1)
-        >>> round(found.settling_distance, 2)
-        granum.particles.formulas.trajectories  -> granum.particles.formulas.trajectories 8.9 -> granum.particles.formulas.trajectories  -> NOT FOUND trajectory 0.155
-    8.9
+    >>> found = settling_distance(particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP", height=1.0,
+    ...                           stream_velocity=0.1, initial_horizontal_velocity=0.1)
+    >>> round(found.settling_distance, 2)
     0.64
     """
 
