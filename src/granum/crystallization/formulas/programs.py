@@ -1,0 +1,94 @@
+"""Programs over time: temperature of a batch, evaporation, addition of antisolvent."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Annotated
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import formula, law
+from granum.core.kinds import MassFlow, Number, PositiveNumber, Ratio, Series, Temperature, Time
+from granum.numerics.smooth import safe_power
+
+
+class Program(eqx.Module):
+    """A quantity as a function of time."""
+
+    @abstractmethod
+    def __call__(self, time: Time) -> Number:
+        """Value at a time."""
+
+
+@formula(
+    source="mullin1971; jones1974",
+    equation=r"T = T_0 - (T_0 - T_f)\left(\frac{t}{t_f}\right)^p",
+    output="temperature",
+    typical={"time": (600.0, 3000.0), "duration": (3600.0, 7200.0), "temperature_start": (320.0, 340.0), "temperature_end": (280.0, 300.0)},
+)
+def temperature_cooling_power(
+    time: Time, duration: Time, temperature_start: Temperature, temperature_end: Temperature, cooling_exponent: PositiveNumber = 3.0
+) -> Temperature:
+    """Temperature of a programmed cooling batch, a power of time: 1 is linear, 3 the seeded optimum without nucleation.
+
+    For growth at constant rate on a given number of seeds, supersaturation stays constant when the crystal mass, and with it the
+    temperature fall, rises with the cube of time; natural cooling does the opposite.
+
+    >>> round(temperature_cooling_power(time="40 min", duration="80 min", temperature_start="32 degC", temperature_end="28 degC") - 273.15, 2)
+    31.5
+    """
+    return temperature_start - (temperature_start - temperature_end) * safe_power(time / duration, cooling_exponent)
+
+
+@law("program", name="power_cooling", source="mullin1971; jones1974", title="Cooling by a power of time",
+     equation=r"T = T_0 - (T_0 - T_f)(t/t_f)^p")  # fmt: skip
+class PowerCooling(Program):
+    """Cooling from one temperature to another by a power of time: 1 linear, 3 cubic."""
+
+    temperature_start: Temperature
+    temperature_end: Temperature
+    duration: Time
+    cooling_exponent: PositiveNumber = 1.0
+
+    def __call__(self, time: Time) -> Temperature:
+        share = safe_power(jnp.clip(time / self.duration, 0.0, 1.0), self.cooling_exponent)
+        return self.temperature_start - (self.temperature_start - self.temperature_end) * share
+
+
+@law("program", name="natural_cooling", source="mullin1971", title="Natural cooling",
+     equation=r"T = T_j + (T_0 - T_j)\,e^{-t/\tau}")  # fmt: skip
+class NaturalCooling(Program):
+    """Cooling towards a constant jacket temperature, fast at first: the exponential of an uncontrolled batch."""
+
+    temperature_start: Temperature
+    jacket_temperature: Temperature
+    cooling_time: Time
+
+    def __call__(self, time: Time) -> Temperature:
+        return self.jacket_temperature + (self.temperature_start - self.jacket_temperature) * jnp.exp(-time / self.cooling_time)
+
+
+@law("program", name="temperature_points", source="mullin1971", title="Temperature by points",
+     equation=r"T(t) \text{ linear between points}")  # fmt: skip
+class TemperaturePoints(Program):
+    """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch."""
+
+    time: Annotated[Time, Series("points")]
+    temperature: Annotated[Temperature, Series("points")]
+
+    def __call__(self, time: Time) -> Temperature:
+        return jnp.interp(jnp.asarray(time, dtype=float), jnp.asarray(self.time), jnp.asarray(self.temperature))
+
+
+@law("program", name="constant_flow", source="mullin2001, ch. 8", title="Constant flow",
+     equation=r"m(t) = \dot m\, t")  # fmt: skip
+class ConstantFlow(Program):
+    """Mass added (or evaporated) so far at a constant flow, from a start to an end."""
+
+    mass_flow: MassFlow
+    time_start: Time = 0.0
+    time_end: Time = 1e12
+
+    def __call__(self, time: Time) -> Ratio:
+        return self.mass_flow * jnp.clip(time - self.time_start, 0.0, self.time_end - self.time_start)

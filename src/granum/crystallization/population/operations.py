@@ -1,0 +1,141 @@
+"""How a batch is driven: what happens to temperature, solute and solvent in one time step.
+
+An operation maps the contents at the start of a step and the crystal mass at its end to the contents at its end, so that
+the one unknown of a step stays the growth path. Solute and solvent are totals, those inside crystals included: a closed batch
+keeps them, whatever crystallizes.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.numerics.smooth import safe_divide
+
+
+class Contents(NamedTuple):
+    """Temperature (K), total solute and solvent (kg, those in crystals included), antisolvent within the solvent (kg)."""
+
+    temperature: Any
+    solute: Any
+    solvent: Any
+    antisolvent: Any
+
+
+class Operation(eqx.Module):
+    """One way of driving a batch."""
+
+    @abstractmethod
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        """Contents at time zero."""
+
+    @abstractmethod
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        """Contents at the end of a step that leaves a mass of crystals."""
+
+
+class Addition(eqx.Module):
+    """What is added or taken off over time: functions of time that give the cumulative mass, kg.
+
+    Parameters
+    ----------
+    evaporated: solvent taken off. antisolvent: antisolvent added. solute, solvent: feed solution added.
+    """
+
+    evaporated: Callable[[Any], Any] | None = None
+    antisolvent: Callable[[Any], Any] | None = None
+    solute: Callable[[Any], Any] | None = None
+    solvent: Callable[[Any], Any] | None = None
+
+    def applied(self, old: Contents, start: Any, end: Any) -> tuple[Any, Any, Any]:
+        """Solute, solvent and antisolvent after a step."""
+
+        def added(what: Callable[[Any], Any] | None) -> Any:
+            return 0.0 if what is None else what(end) - what(start)
+
+        more = added(self.antisolvent)
+        return old.solute + added(self.solute), old.solvent + added(self.solvent) + more - added(self.evaporated), old.antisolvent + more
+
+
+class Programmed(Operation):
+    """Temperature as a function of time, with solvent evaporated, antisolvent or feed added as given."""
+
+    temperature: Callable[[Any], Any]
+    addition: Addition = Addition()
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.temperature(0.0), dtype=float), solute, solvent, jnp.zeros(()))
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        return Contents(self.temperature(end), *self.addition.applied(old, start, end))
+
+
+class HeatData(eqx.Module):
+    """Heat capacities and the heat of crystallization.
+
+    Parameters
+    ----------
+    liquid, crystal: J/(kg K). released: J per kg of crystal that forms.
+    """
+
+    liquid: Any
+    crystal: Any
+    released: Any
+
+    def capacity(self, contents: Contents, crystals: Any) -> Any:
+        """Heat capacity of the suspension, J/K."""
+        return (contents.solute + contents.solvent - crystals) * self.liquid + crystals * self.crystal
+
+
+class Jacketed(Operation):
+    """A vessel cooled through a jacket: temperature from the heat balance, exact for a step of constant heat release.
+
+    Parameters
+    ----------
+    initial_temperature: K. jacket: jacket temperature (K) as a function of time. exchange: UA, W/K.
+    """
+
+    initial_temperature: Any
+    jacket: Callable[[Any], Any]
+    exchange: Any
+    heat: HeatData
+    addition: Addition = Addition()
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.initial_temperature, dtype=float), solute, solvent, jnp.zeros(()))
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        span = end - start
+        capacity = self.heat.capacity(old, crystals_before)
+        rate = self.exchange * span / capacity
+        fall = jnp.where(rate > 1e-9, -safe_divide(jnp.expm1(-rate), rate, 1.0), 1.0)
+        jacket = 0.5 * (self.jacket(start) + self.jacket(end))
+        gained = self.exchange * span * (jacket - old.temperature) + self.heat.released * (crystals - crystals_before)
+        return Contents(old.temperature + gained * fall / capacity, *self.addition.applied(old, start, end))
+
+
+class Flashing(Operation):
+    """A batch under vacuum: the pressure program sets the temperature, heat balance gives the solvent that flashes off.
+
+    Parameters
+    ----------
+    temperature: K as a function of time, the boiling point of the solution at the pressure of that time.
+    heat_of_vaporization: J/kg as a function of temperature.
+    """
+
+    temperature: Callable[[Any], Any]
+    heat_of_vaporization: Callable[[Any], Any]
+    heat: HeatData
+
+    def start(self, solute: Any, solvent: Any) -> Contents:
+        return Contents(jnp.asarray(self.temperature(0.0), dtype=float), solute, solvent, jnp.zeros(()))
+
+    def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
+        T = self.temperature(end)
+        freed = self.heat.capacity(old, crystals_before) * (old.temperature - T) + self.heat.released * (crystals - crystals_before)
+        flashed = freed / self.heat_of_vaporization(0.5 * (old.temperature + T))
+        return Contents(T, old.solute, old.solvent - flashed, old.antisolvent)

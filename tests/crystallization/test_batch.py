@@ -1,0 +1,193 @@
+"""The packet engine against closed forms, a moment solution by SciPy, and its own conservation laws."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from tests.crystallization.cases import B_ORDER, DENSITY, DURATION, G_ORDER, KB, KG, START, linear_cooling, model, seeds
+
+from granum.crystallization.formulas.growth import GrowthLaw, PowerLawDissolution, PowerLawGrowth
+from granum.crystallization.formulas.nucleation import NoNucleation, NucleationLaw, PowerLawNucleation
+from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
+from granum.crystallization.population.lagrangian import Model, SolventVolume, march
+from granum.crystallization.population.operations import Addition, Flashing, HeatData, Jacketed, Programmed
+from granum.crystallization.population.packets import Seeds, SizeMap
+from granum.crystallization.vessels.crystals import Crystal
+
+
+class Constant(GrowthLaw):
+    value: float
+
+    def __call__(self, solute_per_solvent, solubility_per_solvent, temperature):
+        return self.value + 0.0 * solute_per_solvent
+
+
+class ConstantBirths(NucleationLaw):
+    value: float
+
+    def __call__(self, solute_per_solvent, solubility_per_solvent, temperature, magma_density):
+        return self.value + 0.0 * solute_per_solvent
+
+
+def published(mass=0.5, steps=400, **more):
+    times = jnp.linspace(0.0, DURATION, steps + 1)
+    return march(model(**more), Programmed(linear_cooling), seeds(mass), START, 1.0, times)
+
+
+def by_scipy(mass=0.5):
+    """Moments of the continuous parabola, integrated by LSODA at 1e-11: written apart from the package."""
+    x, w = np.polynomial.legendre.leggauss(20)
+    size, weight = 100e-6 + 10e-6 * x, (1 - x**2) * w
+    m = np.array([np.sum(weight * size**k) for k in range(5)])
+    m *= mass / 1000 / (DENSITY * m[3])
+    total = START + DENSITY * m[3]
+
+    def rates(t, y):
+        y = y * m
+        T = 32 - 4 * t / DURATION
+        saturated = 0.1286 + 5.88e-3 * T + 1.721e-4 * T * T
+        S = max((total - DENSITY * y[3]) / saturated - 1, 0)
+        G, B = KG * S**G_ORDER, KB * S**B_ORDER * DENSITY * y[3]
+        return np.array([B, G * y[0], 2 * G * y[1], 3 * G * y[2], 4 * G * y[3]]) / m
+
+    y = solve_ivp(rates, (0, DURATION), np.ones(5), method="LSODA", rtol=1e-11, atol=1e-13).y[:, -1] * m
+    return y, total - DENSITY * y[3]
+
+
+def test_published_seeded_batch_agrees_with_the_moment_solution():
+    exact, ratio = by_scipy()
+    found = jax.jit(published)()
+    np.testing.assert_allclose(found.moments[-1], exact[:4], rtol=1e-4)
+    assert float(found.solute_per_solvent[-1]) == pytest.approx(ratio, abs=1e-7)
+    packets = found.final
+    np.testing.assert_allclose(packets.moments(), found.moments[-1], rtol=1e-12)
+    fourth = jnp.sum(packets.number * (packets.high**5 - packets.low**5) / (5 * (packets.high - packets.low)))
+    assert float(fourth / packets.moments()[3]) == pytest.approx(exact[4] / exact[3], rel=1e-4)  # L43
+
+
+def test_second_order_and_conservation():
+    exact, _ratio = by_scipy()
+    errors = [abs(float(published(steps=n).moments[-1, 0]) / exact[0] - 1) for n in (100, 200, 400)]
+    assert errors[0] / errors[1] > 3.6
+    assert errors[1] / errors[2] > 3.6
+    found = published()
+    total = found.solute_per_solvent + found.crystals
+    assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-14
+    assert bool(jnp.all(found.final.number >= 0))
+
+
+@pytest.mark.parametrize("steps", [100])
+def test_heavy_seed_and_fast_growth_never_undershoot_saturation(steps):
+    found = published(20.0, steps, kg=300 * KG)
+    assert float(jnp.min(found.solute_per_solvent - found.solubility_per_solvent)) > -1e-15
+    fine = published(20.0, 1600, kg=300 * KG)
+    assert float(found.solute_per_solvent[-1] - fine.solute_per_solvent[-1]) == pytest.approx(0.0, abs=3e-8)
+    assert float(found.moments[-1, 0] / fine.moments[-1, 0]) == pytest.approx(1.0, rel=1e-5)
+
+
+def test_growth_and_nucleation_at_constant_rates():
+    """mu0 = B t, mu3 = B G^3 t^4 / 4, from an unseeded start."""
+    rates = Model(PolynomialSolubility([1e-6]), Constant(1e-8), ConstantBirths(1e6), Crystal(1000.0), SolventVolume(1000.0))
+    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.none(), 0.5, 1000.0, jnp.linspace(0, 1000.0, 51))
+    np.testing.assert_allclose(found.moments[-1, 0], 1e6 * 1000.0, rtol=1e-12)
+    np.testing.assert_allclose(found.moments[-1, 3], 1e6 * 1e-24 * 1000.0**4 / 4, rtol=1e-11)
+
+
+@pytest.mark.parametrize("kind", ["moments", "tracked"])
+def test_unseeded_start_makes_crystals(kind):
+    more = {} if kind == "moments" else {"dissolution": PowerLawDissolution(1e-5)}
+    births = PowerLawNucleation(1e14, 3.0, magma_order=0.0)
+    rates = Model(
+        PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), PowerLawGrowth(KG, 1.32), births, Crystal(DENSITY), SolventVolume(1000.0), **more
+    )
+    found = march(rates, Programmed(linear_cooling), Seeds.none(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    assert float(found.crystals[-1]) > 0.05
+    assert float(found.solute_per_solvent[-1] + found.crystals[-1]) == pytest.approx(START, abs=1e-14)
+
+
+def test_tracked_packets_agree_with_shifted_moments():
+    plain, tracked = published(), published(dissolution=PowerLawDissolution(1e-5))
+    np.testing.assert_allclose(tracked.moments[-1], plain.moments[-1], rtol=1e-9)
+
+
+def test_dissolution_of_an_exponential_distribution():
+    """n = exp(-L/l) shifted down by 2 l keeps exp(-2) of each moment; naive moment equations give a negative mass."""
+    size = 1e-4
+    edges = jnp.linspace(0.0, 40 * size, 4001)
+    number = jnp.exp(-edges[:-1] / size) - jnp.exp(-edges[1:] / size)
+    start = Seeds(edges[:-1], edges[1:], number)
+    rates = Model(
+        PolynomialSolubility([0.5]), Constant(0.0), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), dissolution=Constant(1e-6)
+    )
+    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), start, 0.1, 1000.0, jnp.linspace(0, 200.0, 101))
+    np.testing.assert_allclose(found.moments[-1], np.exp(-2.0) * np.asarray(found.moments[0]), rtol=2e-4)
+    assert float(found.moments[-1, 3]) > 0
+
+
+def test_temperature_cycle_dissolves_fines_and_conserves():
+    def cycle(t):
+        return 303.15 - 3.0 * jnp.sin(2 * jnp.pi * t / 2400.0)
+
+    found = march(model(dissolution=PowerLawDissolution(KG, 1.0)), Programmed(cycle), seeds(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    numbers = found.moments[:, 0]
+    assert float(jnp.max(numbers)) > float(numbers[-1]) >= 0.0  # crystals disappear while it is warm
+    total = found.solute_per_solvent + found.crystals
+    assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
+    assert float(jnp.min(found.solute_per_solvent / found.solubility_per_solvent - 1)) < -1e-4
+
+
+def test_size_dependent_growth_follows_its_path():
+    """phi = 1 + gamma L with constant G0: L(t) = (L0 + 1/gamma) exp(gamma G0 t) - 1/gamma; b close to 1."""
+    gamma, b = 1e4, 0.5
+    growth_map = SizeMap(gamma, b)
+    rates = Model(PolynomialSolubility([1e-6]), Constant(1e-8), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), size_map=growth_map)
+    found = march(
+        rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.of_one_size(1e-4, 1e-3, 1000.0), 0.5, 1000.0, jnp.linspace(0, 5000.0, 11)
+    )
+    exact = solve_ivp(lambda t, L: 1e-8 * (1 + gamma * L) ** b, (0, 5000.0), [1e-4], rtol=1e-10, atol=1e-16).y[0, -1]
+    assert float((found.moments[-1, 3] / found.moments[-1, 0]) ** (1 / 3)) == pytest.approx(exact, rel=1e-8)
+
+
+def test_jacobian_of_six_parameters_is_exact():
+    def run(q):
+        return published(q[4], 200, kg=q[0], growth_order=q[1], kb=q[2], nucleation_order=q[3]).moments[-1] * q[5]
+
+    run = jax.jit(run)
+    q = jnp.array([KG, G_ORDER, KB, B_ORDER, 0.5, 1.0])
+    jacobian = jax.jit(jax.jacfwd(run))(q)
+    for i in range(6):
+        h = 1e-5 * q[i]
+        np.testing.assert_allclose(jacobian[:, i], (run(q.at[i].add(h)) - run(q.at[i].add(-h))) / (2 * h), rtol=1e-6)
+    np.testing.assert_allclose(jax.jit(jax.jacrev(run))(q), jacobian, rtol=1e-9)
+
+
+HEAT = HeatData(3800.0, 920.0, 44.5e3)
+
+
+def test_jacket_closes_the_heat_balance():
+    found = march(model(), Jacketed(305.15, lambda t: 300.0 + 0.0 * t, 2.0, HEAT), seeds(), START, 1.0, jnp.linspace(0, DURATION, 801))
+    T, m = np.asarray(found.temperature), np.asarray(found.crystals)
+    capacity = (START + 1.0 - m) * 3800.0 + m * 920.0
+    gained = np.sum(0.5 * (capacity[1:] + capacity[:-1]) * np.diff(T))
+    removed = np.sum(2.0 * (0.5 * (T[1:] + T[:-1]) - 300.0) * np.diff(np.asarray(found.time)))
+    assert removed + gained == pytest.approx(44.5e3 * (m[-1] - m[0]), abs=1e-3 * removed)
+    assert 300.0 < T[-1] < 305.15
+
+
+def test_vacuum_batch_evaporates_what_the_heat_balance_says():
+    found = march(model(), Flashing(linear_cooling, lambda T: 2.43e6 + 0.0 * T, HEAT), seeds(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    m, gone = found.crystals, found.solvent[0] - found.solvent[-1]
+    freed = 3800.0 * (START + 1.0) * 4.0 + 44.5e3 * (m[-1] - m[0])
+    assert float(gone) == pytest.approx(float(freed) / 2.43e6, rel=3e-2)  # the capacity falls as crystals form
+    assert float(found.solute_per_solvent[-1] * found.solvent[-1] + m[-1]) == pytest.approx(START + 0.5e-3, abs=1e-13)
+
+
+def test_evaporation_drives_crystallization():
+    still = Programmed(lambda t: 305.15 + 0.0 * t, Addition(evaporated=lambda t: 0.2 * t / DURATION))
+    found = march(model(), still, seeds(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    assert float(found.solvent[-1]) == pytest.approx(0.8)
+    ideal = START - 0.8 * START  # all solute beyond saturation
+    assert float(found.crystals[-1] - found.crystals[0]) == pytest.approx(ideal, rel=0.02)
