@@ -21,7 +21,8 @@ from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
 from granum.settling.flux import least
 
-COURANT = 0.98
+COURANT = 0.98  # of a cell crossed in one step
+BED_COURANT = 0.4  # the same where compression acts too: what flows out and what is squeezed out together stay below what is there
 FADE = 0.05  # of the packed concentration: a law that has no limit of its own is brought to zero over this last stretch
 
 
@@ -73,14 +74,15 @@ class Suspension(eqx.Module):
         best = share[jnp.argmax(self.flux(share * self.packed))] * self.packed
         return lax.stop_gradient(least(lambda C: -self.flux(C), 0.97 * best, jnp.minimum(1.03 * best, self.packed))[1])
 
-    def fastest(self) -> tuple[Any, Any]:
-        """Greatest speed of a concentration wave, m/s, and greatest compression diffusivity, m²/s."""
+    def fastest(self) -> tuple[Any, Any, Any]:
+        """Greatest speed of a wave, m/s, the same where the bed is compressed, and greatest compression diffusivity, m²/s."""
         C = self.packed * jnp.concatenate([jnp.zeros(1), jnp.geomspace(1e-5, 1.0, 800), jnp.linspace(1 - FADE, 1.0, 40)])
-        speed = jnp.max(jnp.abs(jax.jvp(self.flux, (C,), (jnp.ones_like(C),))[1]))
+        speed = jnp.abs(jax.jvp(self.flux, (C,), (jnp.ones_like(C),))[1])
         if self.compression is None:
-            return speed, jnp.zeros(())
-        C = jnp.maximum(C, self.compression.critical_concentration)
-        return speed, jnp.max(self.velocity(C) * self.stiffness(C))
+            return jnp.max(speed), jnp.zeros(()), jnp.zeros(())
+        bed = jnp.maximum(C, self.compression.critical_concentration)
+        slow = jnp.max(jnp.where(C == bed, jnp.maximum(speed, self.velocity(C)), self.velocity(bed)))
+        return jnp.max(speed), slow, jnp.max(self.velocity(bed) * self.stiffness(bed))
 
     def check(self) -> None:
         """Raise when the flux has more than one hump, for which this scheme's flux is not made; only for known numbers."""
@@ -171,7 +173,8 @@ def simulate(
     initial = jnp.asarray(initial, dtype=float)
     if initial.ndim != 1 or initial.shape[0] < 3:
         raise InputError(_("A column needs at least three cells."))
-    return _run(suspension, jnp.asarray(depth, dtype=float), initial, operation, feed_depth, steps)
+    fixed = None if steps is None else Steps(*map(int, steps))
+    return _run(suspension, jnp.asarray(depth, dtype=float), initial, operation, feed_depth, fixed)
 
 
 def settle(
@@ -193,10 +196,11 @@ class Steps(NamedTuple):
 
 def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation) -> Steps:
     """Steps that keep the scheme monotone in the longest interval."""
-    speed, spread = suspension.fastest()
+    speed, dense_speed, spread = suspension.fastest()
     size = depth / cells
-    span = jnp.max(jnp.diff(operation.times))
-    steps = jnp.maximum(jnp.ceil(span * (speed + jnp.max(operation.feed_velocity)) / (size * COURANT)), 1.0)
+    span, bulk = jnp.max(jnp.diff(operation.times)), jnp.max(operation.feed_velocity)
+    crossed = jnp.maximum((speed + bulk) / COURANT, (dense_speed + bulk) / BED_COURANT)
+    steps = jnp.maximum(jnp.ceil(span * crossed / size), 1.0)
     compression = jnp.maximum(jnp.ceil(2.0 * spread * span / (steps * size**2)), 1.0)
     return Steps(steps.astype(int), compression.astype(int))
 
@@ -214,7 +218,6 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
     critical = None if compression is None else jnp.asarray(compression.critical_concentration, dtype=float)
     at_critical = 0.0 if compression is None else velocity(critical)
     count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation)) if steps is None else steps
-    count = Steps(*(jnp.asarray(n) if steps is None else int(n) for n in count))
 
     def interval(carry: Any, given: Any) -> Any:
         span, q, qu, Cf = given
@@ -232,11 +235,12 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
             f = C * v
             supply, demand = jnp.where(peak > C, f, top_flux), jnp.where(peak < C, f, top_flux)
             through = settles * jnp.minimum(supply[:-1], demand[1:]) + down * C[:-1] + up * C[1:]
-            moved = C + source + jnp.pad(through, (1, 0)) - jnp.pad(through, (0, 1))
+            change = source + jnp.pad(through, (1, 0)) - jnp.pad(through, (0, 1))
             if compression is None:
-                return moved
-            # Compression takes several short steps, its coefficient (a mean over what lies above the critical
-            # concentration) kept: each is a mean of neighbors, so that it makes no new extremes.
+                return C + change
+            # Compression takes several short steps, each with its share of the change by flow, so that steady states are
+            # exact; its coefficient (a mean over what lies above the critical concentration) is kept meanwhile.
+            change = change / count.compression
             b = jnp.maximum(C, critical)
             d = jnp.where(critical < C, v, at_critical) * suspension.stiffness(b)
             gap = C[1:] - C[:-1]
@@ -246,9 +250,9 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
 
             def compress(_j: Any, C: Any) -> Any:
                 rise = spread * (C[1:] - C[:-1])
-                return C + jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))
+                return C + change + jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))
 
-            return lax.fori_loop(0, count.compression, compress, moved)
+            return lax.fori_loop(0, count.compression, compress, C)
 
         held, over, under, fed = carry
         state = lax.fori_loop(0, count.steps, step, jnp.pad(held, 1))
