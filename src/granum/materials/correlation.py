@@ -48,7 +48,7 @@ class Correlation(eqx.Module):
     """
 
     form: Any = eqx.field(static=True)
-    coefficients: Any
+    coefficients: tuple[float, ...] | None = eqx.field(static=True)
     factor: float
     low: float = eqx.field(static=True)
     high: float = eqx.field(static=True)
@@ -62,7 +62,7 @@ class Correlation(eqx.Module):
 
     def value(self, temperature: Any) -> Any:
         """The value without looking at the range: for the inside of integrals and roots."""
-        found = self.form(temperature) if self.coefficients is None else self.form(temperature, self.coefficients)
+        found = self.form(temperature) if self.coefficients is None else self.form(temperature, np.asarray(self.coefficients))
         return found * self.factor
 
     def check_range(self, temperature: Any) -> None:

@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import jax
-import numpy as np
 
 from granum.core import registry, units
 from granum.core.constants import ZERO_CELSIUS
@@ -196,8 +195,8 @@ def _property(entry: PropertyEntry | None, name: str, owner: str, molar_mass: fl
     low, high = entry.range or (0.0, inf)
     if entry.form is None:
         assert entry.value is not None
-        return Correlation(_form("polynomial", whole), np.array([entry.value]), factor, low, high, whole, entry.source)
-    coefficients = None if entry.coefficients is None else np.array(entry.coefficients)
+        return Correlation(_form("polynomial", whole), (entry.value,), factor, low, high, whole, entry.source)
+    coefficients = None if entry.coefficients is None else tuple(entry.coefficients)
     form = _form(entry.form, whole)
     needs = any(p.name == "coefficients" for p in form.card.parameters)
     if needs == (coefficients is None):
@@ -241,10 +240,10 @@ def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid) -
     whole = f"{owner}: {_('solubility')} ({entry.crystal})"
     if entry.basis not in BASES:
         raise unknown_name(_("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole))
-    law = Correlation(_form(entry.form, whole), np.array(entry.coefficients), entry.factor, *entry.range, whole, entry.source)
+    law = Correlation(_form(entry.form, whole), tuple(entry.coefficients), entry.factor, *entry.range, whole, entry.source)
     heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass  # released when it crystallizes
     return Branch(crystal=solid(entry.crystal), solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
-                  stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat,
+                  stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat, heat_given=entry.heat_of_solution is not None,
                   law=law, basis=entry.basis, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass))  # fmt: skip
 
 
@@ -256,12 +255,15 @@ def _solute(key: str, _own: bool) -> SoluteSystem:
     dry = branches[-1].crystal
     density = viscosity = heat_capacity = None
     if entry.density:
-        density = LaliberteLaw(liquid_density_laliberte, np.array(entry.density))
+        density = LaliberteLaw(liquid_density_laliberte, tuple(entry.density))
     if entry.viscosity:
-        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, np.array(entry.viscosity))
+        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, tuple(entry.viscosity))
     if entry.heat_capacity:
-        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, np.array(entry.heat_capacity))
-    heat_capacity = heat_capacity or AdditiveHeats(solvent.liquid_heat_capacity, dry.heat_capacity)
+        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, tuple(entry.heat_capacity))
+    if heat_capacity is None:
+        parts = (solvent.liquid_heat_capacity, dry.heat_capacity)
+        gap = next((part for part in parts if isinstance(part, Missing)), None)
+        heat_capacity = NoLaw(gap) if gap is not None else AdditiveHeats(*parts)
     system = SoluteSystem(
         name=key.split(" in ")[0], french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass, solvent=solvent, branches=branches,
         density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
@@ -273,6 +275,9 @@ def _solute(key: str, _own: bool) -> SoluteSystem:
 
 def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:
     """The system with the constants that put solution and crystals on one enthalpy scale."""
+
+    if isinstance(system.heat_capacity_law, NoLaw):
+        return system
 
     def apparent() -> Any:
         ratio = system.solubility(REFERENCE)

@@ -101,6 +101,13 @@ class SoluteEntry(_Named):
     viscosity: list[float] | None = Field(default=None, min_length=6, max_length=6)
     heat_capacity: list[float] | None = Field(default=None, min_length=6, max_length=6)
 
+    @model_validator(mode="after")
+    def _one_after_another(self) -> SoluteEntry:
+        ends = [t for b in self.branches for t in b.stable]
+        if any(a >= b for a, b in zip(ends[::2], ends[1::2], strict=True)) or ends[1:-1:2] != ends[2::2]:
+            raise ValueError("the 'stable' ranges of the branches must follow one another without gap, in K")
+        return self
+
 
 class MaterialsFile(_Strict):
     """A whole file."""

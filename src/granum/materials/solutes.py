@@ -11,9 +11,10 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core.constants import ZERO_CELSIUS
-from granum.core.errors import unknown_name
+from granum.core.errors import ApplicabilityError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.materials.correlation import Correlation, Missing, as_solute_ratio, as_temperature
 from granum.materials.fluids import Fluid
@@ -70,6 +71,7 @@ class Branch(eqx.Module):
     stable_from: float = eqx.field(static=True)
     stable_to: float = eqx.field(static=True)
     heat_of_crystallization: float
+    heat_given: bool = eqx.field(static=True)
     law: Correlation
     basis: str = eqx.field(static=True)
     enthalpy_of_formation: float
@@ -136,7 +138,7 @@ class SoluteSystem(eqx.Module):
         out = None
         for i, b in enumerate(self.branches):
             low = -jnp.inf if i == 0 else b.stable_from
-            high = jnp.inf if i == len(self.branches) - 1 else b.stable_to
+            high = jnp.inf if i == len(self.branches) - 1 else self.branches[i + 1].stable_from
             here = (low <= T) & (high > T)
             inside = 0.5 * (b.stable_from + b.stable_to)
             value = pick(b, jnp.where(here, T, inside))
@@ -159,6 +161,7 @@ class SoluteSystem(eqx.Module):
         """
 
         def released(b: Branch, t: Any) -> Any:
+            self._need_heat(b)
             bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
             return self.solute_enthalpy(t) + bound - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
 
@@ -205,7 +208,16 @@ class SoluteSystem(eqx.Module):
     def crystal_enthalpy(self, temperature: Any, crystal: str | None = None) -> Any:
         """Enthalpy of a crystal, J per kg of crystal, on the scale of the solution: lower by the heat of crystallization."""
         b = self.branch(crystal)
+        self._need_heat(b)
         return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
+
+    def _need_heat(self, b: Branch) -> None:
+        if not b.heat_given:
+            raise ApplicabilityError(
+                _("The library has no heat of crystallization for {crystal}; give 'heat_of_solution' in a materials file.").format(
+                    crystal=b.crystal.label
+                )
+            )
 
     def __repr__(self) -> str:
         return _("solute {name} ({formula})").format(name=self.label, formula=self.formula)
@@ -215,11 +227,11 @@ class LaliberteLaw(eqx.Module):
     """A solution property by one of Laliberté's models."""
 
     form: Any = eqx.field(static=True)
-    coefficients: Any
+    coefficients: tuple[float, ...] = eqx.field(static=True)
     is_missing = False
 
     def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
-        return self.form(temperature, solute_mass_fraction, self.coefficients)
+        return self.form(temperature, solute_mass_fraction, np.asarray(self.coefficients))
 
 
 class AdditiveVolumes(eqx.Module):

@@ -157,6 +157,16 @@ def correlation_apelblat(temperature: Temperature, coefficients: Coefficients) -
     return jnp.exp(c[0] + c[1] / T + c[2] * jnp.log(T))
 
 
+@formula(source="mullin2001, ch. 3", equation=r"y = \exp\sum_i c_i (T - 273.15)^i", title="Exponential of a polynomial in degrees Celsius")
+def correlation_exponential_celsius(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Exponential of a polynomial in the temperature in degrees Celsius, lowest power first: always positive.
+
+    >>> round(correlation_exponential_celsius(temperature="10 degC", coefficients=[0.0, 0.1]), 5)
+    2.71828
+    """
+    return jnp.exp(_horner(jnp.asarray(coefficients), temperature - ZERO_CELSIUS))
+
+
 @formula(source="mullin2001, ch. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T}\right)", title="van 't Hoff form")
 def correlation_vant_hoff(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Van 't Hoff's form for solubilities: a constant enthalpy of solution.

