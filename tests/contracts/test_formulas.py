@@ -114,7 +114,7 @@ def test_gradient_equals_differences(key: str) -> None:
     gradient = jax.jit(jax.grad(total))(point)
     value = abs(float(total(point)))
     for name, x in point.items():
-        h = 1e-5 * max(abs(x), 1e-12)
+        h = 1e-5 * (abs(x) or 1e-12)
         ahead, behind = (float(total({**point, name: x + s * h})) for s in (1, -1))
         difference = (ahead - behind) / (2 * h)
         scale = max(abs(difference), value / max(abs(x), 1e-12) * 1e-3, 1e-300)

@@ -172,7 +172,7 @@ class Compressibility(LabTest):
 
     def _from_readings(self) -> Fit:
         pressures, cakes, media = self._singles()
-        eta, W, A = self.dynamic_viscosity, self.dry_cake_per_filtrate, self.area
+        eta, W, A = (float(x) for x in (self.dynamic_viscosity, self.dry_cake_per_filtrate, self.area) if x is not None)
         tests, options = self._tests(), self._options(pressures)
         names = [f"medium_resistance_{i + 1}" for i in range(len(tests))]
         start = self._start(pressures, cakes) | {

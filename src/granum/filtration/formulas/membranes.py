@@ -1,0 +1,94 @@
+"""Membrane filtration: resistances in series, concentration polarization, concentration in a batch."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+
+from granum.core import formula
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    DynamicViscosity,
+    Fraction,
+    MassTransferCoefficient,
+    MediumResistance,
+    PositiveNumber,
+    Pressure,
+    PressureDrop,
+    Speed,
+    VolumeFlow,
+)
+
+_MEMBRANE = {"medium_resistance": (1e11, 1e13), "pressure_drop": (5e4, 1e6), "osmotic_pressure": (0.0, 4e4)}
+
+
+@formula(
+    source="cheryan1998",
+    equation=r"J = \frac{\Delta p - \Delta\pi}{\eta\,(R_m + R_c + R_f)}",
+    typical=_MEMBRANE,
+    output="filtrate_flux",
+)
+def filtrate_flux_membrane(
+    pressure_drop: PressureDrop,
+    dynamic_viscosity: DynamicViscosity,
+    medium_resistance: MediumResistance,
+    cake_layer_resistance: MediumResistance = 0.0,
+    fouling_resistance: MediumResistance = 0.0,
+    osmotic_pressure: Pressure = 0.0,
+) -> Speed:
+    """Permeate flux of a membrane: transmembrane pressure less osmotic pressure over resistances in series.
+
+    >>> round(filtrate_flux_membrane("1 bar", "1 cP", medium_resistance=1e12, fouling_resistance=1e12) * 3.6e6, 6)
+    180.0
+    """
+    total = medium_resistance + cake_layer_resistance + fouling_resistance
+    return jnp.maximum(pressure_drop - osmotic_pressure, 0.0) / (dynamic_viscosity * total)
+
+
+@formula(
+    source="cheryan1998",
+    equation=r"J = k\,\ln\frac{c_g - c_p}{c_b - c_p}",
+    output="filtrate_flux",
+    typical={"concentration_gel": (200.0, 400.0), "concentration_bulk": (5.0, 100.0), "concentration_permeate": (0.0, 1.0),
+             "mass_transfer_coefficient": (1e-6, 1e-5)},
+)  # fmt: skip
+def filtrate_flux_limiting(
+    mass_transfer_coefficient: MassTransferCoefficient,
+    concentration_gel: Concentration,
+    concentration_bulk: Concentration,
+    concentration_permeate: Concentration = 0.0,
+) -> Speed:
+    """Limiting flux under concentration polarization, by the film model: no pressure gives more.
+
+    >>> round(filtrate_flux_limiting(1e-5, concentration_gel=300, concentration_bulk=30) * 1e5, 4)
+    2.3026
+    """
+    ratio = (concentration_gel - concentration_permeate) / jnp.maximum(concentration_bulk - concentration_permeate, 1e-300)
+    return mass_transfer_coefficient * jnp.log(jnp.maximum(ratio, 1.0))
+
+
+@formula(
+    source="cheryan1998",
+    equation=r"c = c_0\,\mathrm{VCF}^{R}",
+    output="concentration",
+    typical={"concentration_inlet": (1.0, 50.0), "rejection": (0.5, 1.0), "volume_concentration_factor": (1.5, 20.0)},
+)
+def concentration_retentate_batch(
+    concentration_inlet: Concentration, volume_concentration_factor: PositiveNumber, rejection: Fraction
+) -> Concentration:
+    """Retentate concentration of a batch reduced in volume by a factor, at constant rejection.
+
+    >>> round(concentration_retentate_batch(concentration_inlet=10, volume_concentration_factor=10, rejection=1.0), 6)
+    100.0
+    """
+    return concentration_inlet * volume_concentration_factor**rejection
+
+
+@formula(source="cheryan1998", equation=r"\Omega = \frac{Q_p}{J}", typical={"filtrate_flux": (5e-6, 5e-5)}, output="filtration_area")
+def filtration_area_membrane(filtrate_flow: VolumeFlow, filtrate_flux: Speed) -> Area:
+    """Membrane area for a permeate flow at a mean flux.
+
+    >>> round(filtration_area_membrane(filtrate_flow="1 m^3/hour", filtrate_flux=1e-5), 3)
+    27.778
+    """
+    return filtrate_flow / filtrate_flux
