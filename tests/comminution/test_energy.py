@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from granum.comminution.formulas import energy, machines, rowland, screening
-from granum.comminution.work_index import work_index, work_indices
+from granum.comminution.work_indices import work_index, work_indices
 from granum.core.errors import InputError
 
 KWH_T = 3600.0

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import runpy
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -123,3 +125,7 @@ def test_charts_are_straight_where_they_should_be() -> None:
     drawn = charts_sizes.partition_chart(LogisticPartition(1e-4, 3.0), particle_diameter=[5e-5, 2e-4], partition_number=[0.1, 0.9])
     assert len(drawn.data) == 2
     assert len(stack(law).chart().data) == 4
+
+
+def test_the_example_folder_holds_its_printed_numbers() -> None:
+    runpy.run_path(str(Path(__file__).parents[2] / "examples" / "size-analysis" / "size_analysis.py"))

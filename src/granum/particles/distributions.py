@@ -17,6 +17,7 @@ from granum.particles.in_class import InClassRule, UniformDensity
 Basis = Literal["number", "length", "surface", "volume", "mass"]
 ORDER = {"number": 0, "length": 1, "surface": 2, "volume": 3, "mass": 3}
 SUM_TOLERANCE = 5e-3
+_ROUNDING = 1e-12
 
 
 def order_of(basis: str) -> int:
@@ -238,7 +239,7 @@ def _checked_classes(edges: Any, amounts: Any) -> tuple[jax.Array, jax.Array]:
             )
     if not is_tracer(amounts):
         found = np.asarray(amounts)
-        if not np.all(np.isfinite(found)) or np.any(found < 0.0):
+        if not np.all(np.isfinite(found)) or np.any(found < -_ROUNDING * abs(found).max()):
             bad = int(np.argmin(np.where(np.isfinite(found), found, -np.inf).reshape(-1, found.shape[-1]).min(axis=0)))
             raise InputError(
                 _("Class {place} holds {value}: no class can hold less than nothing.").format(
@@ -246,7 +247,7 @@ def _checked_classes(edges: Any, amounts: Any) -> tuple[jax.Array, jax.Array]:
                 ),
                 name="class_fractions",
             )
-    return edges, amounts
+    return edges, jnp.where(amounts < 0.0, 0.0, amounts)
 
 
 def _wrong_sum(total: np.ndarray) -> InputError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import inf, log
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
@@ -27,6 +27,7 @@ class Recipe(NamedTuple):
 
     build: Callable[[dict[str, Any], str], SizeLaw]
     start: Callable[[SizeDistribution], dict[str, float]]
+    bounds: Mapping[str, tuple[float, float]] = {}
 
 
 def _percentile(d: SizeDistribution, part: float) -> float:
@@ -61,7 +62,9 @@ RECIPES: dict[str, Recipe] = {
     ),
     "gaudin_meloy": Recipe(
         lambda p, basis: GaudinMeloy(p["size_maximum"], p["distribution_exponent"], basis),
-        lambda d: {"size_maximum": 1.1 * _percentile(d, 1.0), "distribution_exponent": 2.0},
+        lambda d: {"size_maximum": 1.1 * _percentile(d, 1.0),
+                   "distribution_exponent": max(log(0.5) / log(1.0 - _percentile(d, 0.5) / (1.1 * _percentile(d, 1.0))), 1.1)},
+        {"distribution_exponent": (1.0, inf)},  # below 1 the density has a pole at the largest size
     ),
     "mixture": Recipe(
         _two_log_normals,
@@ -126,7 +129,7 @@ class SizeTest(LabTest):
         sizes, below = self.points()
         found = self.fitted(
             lambda p, x: recipe.build(p, measured.basis)(x), start, sizes, below,
-            bounds={n: _BOUNDS.get(n, (start[n] * 1e-6, inf)) for n in start}, flags=self.notices(),
+            bounds={n: {**_BOUNDS, **recipe.bounds}.get(n, (start[n] * 1e-6, inf)) for n in start}, flags=self.notices(),
         )  # fmt: skip
         table = self.summary()._asdict()
         figures = {n: Estimate(float(table[n]), "" if (k := kind_of(kind)) is None else k.unit) for n, kind in FIGURES.items()}
