@@ -60,7 +60,7 @@ def by_scipy(mass=0.5):
 def test_published_seeded_batch_agrees_with_the_moment_solution():
     exact, ratio = by_scipy()
     found = jax.jit(published)()
-    np.testing.assert_allclose(found.moments[-1], exact[:4], rtol=1e-4)
+    np.testing.assert_allclose(found.moments[-1], exact, rtol=1e-4)
     assert float(found.solute_per_solvent[-1]) == pytest.approx(ratio, abs=1e-7)
     packets = found.final
     np.testing.assert_allclose(packets.moments(), found.moments[-1], rtol=1e-12)
@@ -123,7 +123,7 @@ def test_dissolution_of_an_exponential_distribution():
         PolynomialSolubility([0.5]), Constant(0.0), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), dissolution=Constant(1e-6)
     )
     found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), start, 0.1, 1000.0, jnp.linspace(0, 200.0, 101))
-    np.testing.assert_allclose(found.moments[-1], np.exp(-2.0) * np.asarray(found.moments[0]), rtol=2e-4)
+    np.testing.assert_allclose(found.moments[-1], np.exp(-2.0) * np.asarray(found.moments[0]), rtol=3e-4)
     assert float(found.moments[-1, 3]) > 0
 
 

@@ -88,7 +88,7 @@ class Course(NamedTuple):
     """What a batch went through, at the times of its steps (the start included), shape (steps + 1,).
 
     time: s. temperature: K. solute_per_solvent, solubility_per_solvent: kg/kg. crystals: kg in the vessel.
-    moments: 0 to 3 of all crystals in the vessel, (steps + 1, 4). growth_rate: m/s. births: 1/s.
+    moments: 0 to 4 of all crystals in the vessel, (steps + 1, 5). growth_rate: m/s. births: 1/s.
     solvent: total, kg. path: growth path since the start, m. born: crystals born in each step, (steps,).
     residual: of the closure of each step, relative.
     """

@@ -1,7 +1,7 @@
 """Crystals as packets that move with the growth path: no grid, no numerical diffusion.
 
 A packet holds a number of crystals spread evenly between two sizes. Growth that does not depend on size shifts every packet
-by the same distance, so for growth and nucleation alone the first four moments are shifted exactly and the packets are
+by the same distance, so for growth and nucleation alone the first five moments are shifted exactly and the packets are
 rebuilt at the end (``ShiftedMoments``). Where crystals dissolve or growth depends on size, the packets themselves are carried
 (``Packets``). Both answer the same questions.
 """
@@ -9,6 +9,7 @@ rebuilt at the end (``ShiftedMoments``). Where crystals dissolve or growth depen
 from __future__ import annotations
 
 from abc import abstractmethod
+from math import comb
 from typing import Any
 
 import equinox as eqx
@@ -17,6 +18,8 @@ from jax import lax
 
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.smooth import safe_divide
+
+HIGHEST = 4  # order of the highest moment carried: D[4,3] over time
 
 
 def mean_power(low: Any, high: Any, order: int) -> Any:
@@ -29,7 +32,7 @@ class Population(eqx.Module):
 
     @abstractmethod
     def moments(self) -> Any:
-        """Numbers, lengths, squares and cubes: the moments 0 to 3, shape (4,)."""
+        """Numbers, lengths, squares and cubes: the moments 0 to 4, shape (5,)."""
 
     @abstractmethod
     def cubes_after(self, path: Any) -> Any:
@@ -45,7 +48,7 @@ class Population(eqx.Module):
 
 
 class ShiftedMoments(Population):
-    """The moments 0 to 3 of all crystals, shifted exactly by growth that does not depend on size."""
+    """The moments 0 to 4 of all crystals, shifted exactly by growth that does not depend on size."""
 
     values: Any
 
@@ -57,12 +60,9 @@ class ShiftedMoments(Population):
         return m[3] + d * (3.0 * m[2] + d * (3.0 * m[1] + d * m[0]))
 
     def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> ShiftedMoments:
-        m, d = self.values, path
-        shifted = jnp.stack(
-            [m[0], m[1] + d * m[0], m[2] + d * (2.0 * m[1] + d * m[0]), m[3] + d * (3.0 * m[2] + d * (3.0 * m[1] + d * m[0]))]
-        )
-        fresh = jnp.stack([jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k)) for k in range(4)])
-        return ShiftedMoments(shifted + born * fresh)
+        shifted = [sum(comb(k, j) * path ** (k - j) * self.values[j] for j in range(k + 1)) for k in range(HIGHEST + 1)]
+        fresh = [jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k)) for k in range(HIGHEST + 1)]
+        return ShiftedMoments(jnp.stack(shifted) + born * jnp.stack(fresh))
 
     def kept(self, share: Any) -> ShiftedMoments:
         return ShiftedMoments(self.values * share)
@@ -111,7 +111,7 @@ class Packets(Population):
 
     def moments(self) -> Any:
         low, high = self.sizes()
-        return jnp.stack([jnp.sum(self.number * mean_power(low, high, k)) for k in range(4)])
+        return jnp.stack([jnp.sum(self.number * mean_power(low, high, k)) for k in range(HIGHEST + 1)])
 
     def cubes_after(self, path: Any) -> Any:
         low, high, number = self._shifted(path)
@@ -124,6 +124,25 @@ class Packets(Population):
         low = lax.dynamic_update_index_in_dim(low, jnp.asarray(start, dtype=float), slot, 0)
         high = lax.dynamic_update_index_in_dim(high, start + jnp.maximum(path, 0.0), slot, 0)
         return Packets(low, high, lax.dynamic_update_index_in_dim(number, born, slot, 0), self.size_map)
+
+    def below(self, sizes: Any, order: int = 3) -> Any:
+        """Moment of the crystals smaller than given sizes, exact for packets spread evenly."""
+        low, high = self.sizes()
+        top = jnp.clip(jnp.asarray(sizes, dtype=float)[..., None], low, high)
+        share = safe_divide(top - low, high - low, jnp.where(jnp.asarray(sizes)[..., None] >= high, 1.0, 0.0))
+        return jnp.sum(self.number * share * mean_power(low, top, order), axis=-1)
+
+    def in_classes(self, edges: Any, order: int = 3) -> Any:
+        """Moment of the crystals in each size class; what lies beyond the last boundary joins the last class."""
+        low, high = self.sizes()
+        total = jnp.sum(self.number * mean_power(low, high, order))
+        return jnp.diff(jnp.append(self.below(jnp.asarray(edges)[:-1], order).at[0].set(0.0), total))
+
+    def mean_size(self, upper: int, lower: int) -> Any:
+        """Mean diameter D[p, q]; zero without crystals."""
+        low, high = self.sizes()
+        p, q = (jnp.sum(self.number * mean_power(low, high, k)) for k in (upper, lower))
+        return safe_divide(p, q) ** (1.0 / (upper - lower))
 
     def kept(self, share: Any) -> Packets:
         return Packets(self.low, self.high, self.number * share, self.size_map)
@@ -169,5 +188,5 @@ class Seeds(eqx.Module):
         return cls(jnp.zeros(1), jnp.zeros(1), jnp.zeros(1))
 
     def moments(self) -> Any:
-        """Moments 0 to 3."""
-        return jnp.stack([jnp.sum(self.number * mean_power(self.low, self.high, k)) for k in range(4)])
+        """Moments 0 to 4."""
+        return jnp.stack([jnp.sum(self.number * mean_power(self.low, self.high, k)) for k in range(HIGHEST + 1)])

@@ -1,0 +1,123 @@
+"""Solubility against temperature: Apelblat, van 't Hoff and polynomial fits, ready to use as laws."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import lab_test
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
+from granum.core.kinds import MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.crystallization.formulas.solubility_laws import ApelblatSolubility, PolynomialSolubility, VantHoffSolubility
+from granum.estimation import Fit, LabTest
+
+
+class _Solubility(LabTest):
+    """Mole fractions of the measured mass ratios, and the chart of all three fits."""
+
+    axes: ClassVar = {"temperature": Temperature, "solute_per_solvent": MassRatio}
+
+    def _mole_fractions(self) -> np.ndarray:
+        moles = np.asarray(self.solute_per_solvent) / self.molar_mass
+        return moles / (moles + 1.0 / self.solvent_molar_mass)
+
+    def law(self) -> Any:
+        """The fitted solubility as a law for simulations."""
+        raise NotImplementedError
+
+    def chart(self) -> Any:
+        """Solubility against temperature with the fitted line."""
+        from granum.core.charts import add_line, add_points, axis_title, figure
+        from granum.core.i18n import _
+
+        T = np.asarray(self.temperature)
+        grid = np.linspace(T.min(), T.max(), 100)
+        drawing = figure(axis_title("temperature", "degC"), axis_title("solute_per_solvent", "kg/kg"), title=type(self).card.title)
+        add_line(drawing, grid - ZERO_CELSIUS, np.asarray(self.law()(grid)), _("model"))
+        add_points(drawing, T - ZERO_CELSIUS, np.asarray(self.solute_per_solvent), _("data"))
+        return drawing
+
+
+@lab_test(
+    "solubility_apelblat", source="apelblat1999", title="Solubility fitted with Apelblat's equation", equation=r"\ln x = A + B/T + C\ln T"
+)
+class SolubilityApelblat(_Solubility):
+    """Apelblat coefficients from the solubility at several temperatures, fitted on the logarithm of the mole fraction."""
+
+    temperature: Annotated[Temperature, Series("points")]
+    solute_per_solvent: Annotated[MassRatio, Series("points")]
+    molar_mass: MolarMass
+    solvent_molar_mass: MolarMass = 0.0180153
+
+    least_points: ClassVar[int] = 4
+    estimates: ClassVar = {"apelblat_a": Number, "apelblat_b": Number, "apelblat_c": Number}
+
+    def fit(self) -> Fit:
+        """Coefficients with 95 % intervals and the enthalpy of dissolution at the mean temperature."""
+        T, y = np.asarray(self.temperature), np.log(self._mole_fractions())
+        a, b, c = np.linalg.lstsq(np.stack([np.ones_like(T), 1 / T, np.log(T)], 1), y, rcond=None)[0]
+        mean = float(T.mean())
+        return self.fitted(
+            lambda p, T: p["apelblat_a"] + p["apelblat_b"] / T + p["apelblat_c"] * jnp.log(T),
+            {"apelblat_a": float(a), "apelblat_b": float(b), "apelblat_c": float(c)}, T, y,
+            derived=lambda p: {"enthalpy_of_dissolution": GAS_CONSTANT * (p["apelblat_c"] * mean - p["apelblat_b"])},
+            kinds={"enthalpy_of_dissolution": MolarEnergy},
+        )  # fmt: skip
+
+    def law(self) -> ApelblatSolubility:
+        return ApelblatSolubility(**self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass)
+
+
+@lab_test("solubility_vant_hoff", source="mullin2001, sec. 3.6", title="Solubility fitted with the van 't Hoff equation",
+          equation=r"\ln x = -\frac{\Delta H}{RT} + \frac{\Delta S}{R}")  # fmt: skip
+class SolubilityVantHoff(_Solubility):
+    """Enthalpy and entropy of dissolution from the solubility at several temperatures."""
+
+    temperature: Annotated[Temperature, Series("points")]
+    solute_per_solvent: Annotated[MassRatio, Series("points")]
+    molar_mass: MolarMass
+    solvent_molar_mass: MolarMass = 0.0180153
+
+    estimates: ClassVar = {"enthalpy_of_dissolution": MolarEnergy, "entropy_of_dissolution": Number}
+
+    def fit(self) -> Fit:
+        """Enthalpy and entropy of dissolution with 95 % intervals."""
+        T, y = np.asarray(self.temperature), np.log(self._mole_fractions())
+        slope, level = np.polyfit(1 / T, y, 1)
+        return self.fitted(
+            lambda p, T: (p["entropy_of_dissolution"] - p["enthalpy_of_dissolution"] / T) / GAS_CONSTANT,
+            {"enthalpy_of_dissolution": float(-slope * GAS_CONSTANT), "entropy_of_dissolution": float(level * GAS_CONSTANT)}, T, y,
+        )  # fmt: skip
+
+    def law(self) -> VantHoffSolubility:
+        return VantHoffSolubility(**self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass)
+
+
+@lab_test(
+    "solubility_polynomial",
+    source="mullin2001, sec. 3.4",
+    title="Solubility fitted with a polynomial",
+    equation=r"C^* = a_0 + a_1\theta + a_2\theta^2",
+)
+class SolubilityPolynomial(_Solubility):
+    """Coefficients of a parabola in degrees Celsius from the solubility at several temperatures."""
+
+    temperature: Annotated[Temperature, Series("points")]
+    solute_per_solvent: Annotated[MassRatio, Series("points")]
+
+    least_points: ClassVar[int] = 4
+    estimates: ClassVar = {"constant_coefficient": Number, "linear_coefficient": Number, "quadratic_coefficient": Number}
+
+    def fit(self) -> Fit:
+        """Coefficients with 95 % intervals."""
+        theta, y = np.asarray(self.temperature) - ZERO_CELSIUS, np.asarray(self.solute_per_solvent)
+        c, b, a = np.polyfit(theta, y, 2)
+        return self.fitted(
+            lambda p, t: p["constant_coefficient"] + t * (p["linear_coefficient"] + t * p["quadratic_coefficient"]),
+            {"constant_coefficient": float(a), "linear_coefficient": float(b), "quadratic_coefficient": float(c)}, theta, y,
+        )  # fmt: skip
+
+    def law(self) -> PolynomialSolubility:
+        return PolynomialSolubility(list(self.fit().values.values()))
