@@ -1,4 +1,4 @@
-"""The library: ``fluid``, ``solid``, ``solute`` by name, ``names`` to list them, ``load`` to add one's own from a TOML file.
+"""The library: ``fluid``, ``solid``, ``solute``, ``salt`` by name, ``names`` to list them, ``load`` to add one's own from a TOML file.
 
 A materials file has tables ``[fluid.NAME]``, ``[solid.NAME]`` and ``[solute.NAME]``; the files of ``granum/materials/data`` are
 examples, ``granum.materials.schema`` is the full description. The smallest useful solid::
@@ -29,7 +29,8 @@ from granum.core.kinds import KINDS
 from granum.materials.correlation import Correlation, Missing
 from granum.materials.fluids import Fluid
 from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
-from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SolidEntry, SoluteEntry, read_materials
+from granum.materials.salts import Salt
+from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry, read_materials
 from granum.materials.solids import Solid
 from granum.materials.solutes import BASES, REFERENCE, AdditiveHeats, AdditiveVolumes, Branch, LaliberteLaw, NoLaw, SoluteSystem
 
@@ -50,13 +51,13 @@ _KIND_OF = {
 }
 _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
 _SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
-_LOADED: dict[str, dict[str, Any]] = {"fluid": {}, "solid": {}, "solute": {}}
-_SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute"}
+_SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
+_LOADED: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
 
 
 @cache
 def _shipped() -> dict[str, dict[str, Any]]:
-    found: dict[str, dict[str, Any]] = {"fluid": {}, "solid": {}, "solute": {}}
+    found: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
     for path in sorted((files("granum") / "materials" / "data").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
             _merge(found, tomllib.loads(path.read_text(encoding="utf-8")), path.name)
@@ -87,7 +88,7 @@ def _entry(sort: str, name: str) -> tuple[str, Any]:
 
 
 def names(sort: str = "") -> list[str]:
-    """Names of the materials of a sort, ``"fluid"``, ``"solid"`` or ``"solute"``; of all sorts by default.
+    """Names of the materials of a sort, ``"fluid"``, ``"solid"``, ``"solute"`` or ``"salt"``; of all sorts by default.
 
     >>> "ethanol" in names("fluid"), "quartz" in names("solid"), "potassium nitrate" in names("solute")
     (True, True, True)
@@ -125,6 +126,15 @@ def solute(name: str) -> SoluteSystem:
     return _solute(*_key("solute", name))
 
 
+def salt(name: str) -> Salt:
+    """A sparingly soluble salt by name, chemical formula or French name.
+
+    >>> salt("BaSO4").solubility_product
+    1.08e-10
+    """
+    return _salt(*_key("salt", name))
+
+
 def load(path: str | Path) -> list[str]:
     """Add the materials of a TOML file to the library for this session; returns their names."""
     path = Path(path)
@@ -141,7 +151,7 @@ def load(path: str | Path) -> list[str]:
     for sort in new:
         _LOADED[sort].update(new[sort])
     try:
-        for sort, build in (("fluid", fluid), ("solid", solid), ("solute", solute)):
+        for sort, build in (("fluid", fluid), ("solid", solid), ("solute", solute), ("salt", salt)):
             for word in new[sort]:
                 build(word)
     except InputError:
@@ -234,6 +244,15 @@ def _constant(function: Any, *values: Any) -> float:
         return nan
     with jax.ensure_compile_time_eval():
         return float(function(*values))
+
+
+@cache
+def _salt(key: str, _own: bool) -> Salt:
+    entry: SaltEntry = _entry("salt", key)[1]
+    cation, anion = entry.cation, entry.anion
+    return Salt(name=key, french=entry.fr, formula=entry.formula, cation=cation.name, anion=anion.name,
+                cation_count=float(cation.count), anion_count=float(anion.count), cation_charge=float(cation.charge),
+                anion_charge=float(anion.charge), solubility_product=entry.solubility_product, source=entry.source)  # fmt: skip
 
 
 def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid) -> Branch:

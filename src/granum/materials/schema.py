@@ -1,4 +1,4 @@
-"""What a materials file may contain: TOML tables ``[fluid.NAME]``, ``[solid.NAME]``, ``[solute.NAME]``, checked with Pydantic."""
+"""What a materials file may contain: TOML tables ``[fluid.NAME]``, ``[solid.NAME]``, ``[solute.NAME]``, ``[salt.NAME]``, checked with Pydantic."""
 
 from __future__ import annotations
 
@@ -109,12 +109,36 @@ class SoluteEntry(_Named):
         return self
 
 
+class IonEntry(_Strict):
+    """One ion of a salt: name, how many in the formula, signed charge number."""
+
+    name: str
+    count: int = Field(gt=0)
+    charge: int
+
+
+class SaltEntry(_Named):
+    """A sparingly soluble salt."""
+
+    cation: IonEntry
+    anion: IonEntry
+    solubility_product: float = Field(gt=0)
+    source: str
+
+    @model_validator(mode="after")
+    def _neutral(self) -> SaltEntry:
+        if self.cation.count * self.cation.charge + self.anion.count * self.anion.charge != 0:
+            raise ValueError("the charges of the ions must add up to zero")
+        return self
+
+
 class MaterialsFile(_Strict):
     """A whole file."""
 
     fluid: dict[str, FluidEntry] = {}
     solid: dict[str, SolidEntry] = {}
     solute: dict[str, SoluteEntry] = {}
+    salt: dict[str, SaltEntry] = {}
 
 
 def read_materials(content: dict[str, Any], where: str | Path) -> MaterialsFile:

@@ -1,0 +1,41 @@
+"""Sparingly soluble salts against textbook figures."""
+
+from __future__ import annotations
+
+import pytest
+
+from granum import materials as m
+from granum.core.errors import InputError
+from granum.core.sources import bibliography, keys_of
+
+
+def test_activity_coefficients() -> None:
+    """Harned and Owen: mean coefficient of NaCl 0.778 at 0.1 mol/kg and 25 °C; Debye–Hückel constant 0.509."""
+    assert m.activity_coefficient_davies(1.0, 0.1) == pytest.approx(0.778, rel=0.01)
+    assert m.activity_coefficient_davies(-2.0, 0.01) == pytest.approx(10 ** (-0.509 * 4 * (0.1 / 1.1 - 0.003)), rel=4e-3)
+    assert m.activity_coefficient_davies(3.0, 0.0) == pytest.approx(1.0, abs=1e-6)
+    assert m.activity_coefficient_davies(2.0, 0.1) < m.activity_coefficient_davies(1.0, 0.1) < 1.0
+
+
+def test_saturated_molalities() -> None:
+    """Barium sulfate 2.4 mg/L, silver chloride 1.9 mg/L (haynes2014); lead chloride from its product, ideal, 16 mmol/kg."""
+    assert m.salt("BaSO4").saturated_molality() * 233.39 * 1e3 == pytest.approx(2.4, rel=0.03)
+    assert m.salt("silver chloride").saturated_molality() * 143.32 * 1e3 == pytest.approx(1.9, rel=0.02)
+    lead = m.salt("lead chloride")
+    assert lead.saturated_molality() == pytest.approx((1.70e-5 / 4) ** (1 / 3))
+    assert float(lead.saturation_index(0.0162, 0.0324, 0.0)) == pytest.approx(0.0, abs=0.01)
+    # lead chloride dissolves 1.07 % by mass at 25 °C: more than its product allows ideally, because the ions shield each other
+    measured = m.solute("lead chloride").solubility("25 degC") / 0.2781
+    assert float(lead.saturation_index(measured, 2 * measured, 3 * measured)) == pytest.approx(0.0, abs=0.5)
+
+
+def test_every_salt_is_neutral_and_sourced() -> None:
+    assert len(m.names("salt")) >= 40
+    for name in m.names("salt"):
+        s = m.salt(name)
+        assert s.cation_count * s.cation_charge + s.anion_count * s.anion_charge == 0
+        assert all(key in bibliography() for key in keys_of(s.source))
+        assert 1e-40 < s.solubility_product < 1e-2
+    with pytest.raises(InputError, match="barium sulfate"):
+        m.salt_saturation(1e-4, 1e-4, 0.01, salt="barium sulfat")
+    assert m.salt_saturation(1e-4, 1e-4, 0.01).saturation_ratio > 1.0
