@@ -171,13 +171,10 @@ class SoluteSystem(eqx.Module):
         """Temperature at which a solution is saturated, K; NaN outside the range of the data. For rising solubilities."""
         ratio = jnp.asarray(as_solute_ratio(solute_per_solvent))
         branch = self.branch(crystal)
-        low, high = branch.law.low, branch.law.high
-        law = branch.value
-        if crystal is None:
-            high = self.branches[-1].law.high
+        low, high = branch.law.low, branch.law.high if crystal else self.branches[-1].law.high
 
-            def law(T: Any) -> Any:
-                return self._select(T, lambda b, t: b.value(t))
+        def law(T: Any) -> Any:
+            return branch.value(T) if crystal else self._select(T, lambda b, t: b.value(t))
 
         goal = jnp.log(jnp.maximum(ratio, 1e-300))
         return find_root(lambda T, y: jnp.log(law(T)) - y, low, high, goal).value
