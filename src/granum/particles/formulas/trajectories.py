@@ -121,8 +121,8 @@ def settling_distance_stokes(
     added_mass_coefficient: Ratio = 0.0,
 ) -> Settled:
     """Horizontal distance and time in which a particle settles (or rises) through a height in creeping flow.
-    NOT FOUND trajectory 0.155
-        With equal densities it never does: not a number, flagged.
+
+    With equal densities it never does: not a number, flagged.
 
     >>> found = settling_distance_stokes(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP",
     ...                                  height=2.0, stream_velocity=0.01, initial_horizontal_velocity=0.01)
