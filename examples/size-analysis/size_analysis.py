@@ -14,7 +14,7 @@ HERE = Path(__file__).parent
 quartz = gr.particles.SieveAnalysis.read(
     HERE / "crushed_quartz_mccabe2005.csv", pan_mass="0.75 g", sample_mass="100 g", in_class="midpoint"
 )
-without_pan = gr.particles.SieveAnalysis.read(HERE / "crushed_quartz_mccabe2005.csv", in_class="midpoint")
+without_pan = gr.particles.SieveAnalysis.read(HERE / "crushed_quartz_mccabe2005.csv", in_class=gr.particles.ArithmeticMidpoint())
 sieved = 1.0 - 0.0075
 sauter, mass_mean = (float(d) * 1e3 for d in (without_pan.distribution().mean(3, 2), without_pan.distribution().mean(4, 3)))
 print(f"Sauter mean {sauter:.3f} mm, mass mean {mass_mean:.3f} mm (sieved part)")
@@ -28,7 +28,7 @@ for flag in fit.flags:
 assert 2.2 < fit["distribution_exponent"].value < 2.8
 
 # The counted powder of the course notes: all six means, by class middles
-counted = gr.particles.ParticleCounter.read(HERE / "course_notes_table.csv", in_class="midpoint")
+counted = gr.particles.ParticleCounter.read(HERE / "course_notes_table.csv", in_class=gr.particles.ArithmeticMidpoint())
 table = counted.summary()
 names = ("X_NL", "X_NS", "X_NV", "X_SV", "X_LS", "X_LV")
 print({name: f"{float(value) * 1e6:.2f} um" for name, value in zip(names, table[:6], strict=True)})

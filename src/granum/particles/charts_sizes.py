@@ -18,7 +18,7 @@ from granum.particles.in_class import UniformDensity
 if TYPE_CHECKING:
     import plotly.graph_objects as go
 
-_TICKS = (0.001, 0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.632, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999)
+_TICKS = (0.001, 0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.632, 0.8, 0.9, 0.95, 0.99, 0.999)
 _UNIFORM = UniformDensity()
 OptionalSizeLaw = Annotated[Any, Law("size_distribution")] | None
 _Sizes = Annotated[Distance, Series("points")]
@@ -56,15 +56,15 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
     add_points(drawing, _shown(at, unit), 100.0 * np.asarray(distribution.cumulative(at)), _("class limits"), yaxis="y2")
     if law is not None:
         add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(law(grid)), _("law"), color="#6b46c1", dash="dash", yaxis="y2")
+    right = {
+        "overlaying": "y",
+        "side": "right",
+        "range": [0, 100],
+        "showgrid": False,
+        "title": axis_title("cumulative_fraction", "percent"),
+    }
     drawing.update_layout(
-        yaxis2={
-            "overlaying": "y",
-            "side": "right",
-            "range": [0, 100],
-            "showgrid": False,
-            "title": axis_title("cumulative_fraction", "percent"),
-        },
-        legend={"x": 0.02, "y": 0.98},
+        yaxis2={**right, "tickmode": "array", "tickvals": list(range(0, 101, 20)), "automargin": True}, legend={"x": 0.02, "y": 0.98}
     )
     return drawing
 

@@ -90,7 +90,7 @@ class SieveAnalysis(SizeTest):
         """Apertures and the mass fractions that pass them."""
         aperture, mass = self._sorted()
         below = self.pan_mass + np.concatenate([[0.0], np.cumsum(mass[:-1])])
-        return aperture, below / self.found_mass
+        return aperture, np.minimum(below / self.found_mass, 1.0)  # a sum may exceed the whole by its rounding
 
     def notices(self) -> list[dict[str, Any]]:
         """Pan without a lower limit, top class without an upper one, loss above what is allowed."""
