@@ -141,13 +141,13 @@ class Run:
 
     @property
     def streams(self) -> dict[str, Stream]:
-        """Every stream by name."""
-        return self.solution.streams
+        """Every stream by name, feeds first, then in the order of the case."""
+        return {k.name: self.solution.streams[k.name] for k in self.sheet.links}
 
     @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures and checks."""
-        return {name: self._report(name, note=False) for name in self.sheet.units}
+        return {name: self._report(name, note=False) for name in self.sheet.order}
 
     def _report(self, name: str, note: bool) -> UnitReport:
         unit = self.sheet.units[name]
@@ -165,7 +165,7 @@ class Run:
     @cached_property
     def notes(self) -> dict[str, tuple[Result, ...]]:
         """The formulas each unit evaluated, with their numbers: the calculation note."""
-        return {name: self._report(name, note=True).steps for name in self.sheet.units}
+        return {name: self._report(name, note=True).steps for name in self.sheet.order}
 
     @cached_property
     def audit(self) -> dict[str, Any]:

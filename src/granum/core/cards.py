@@ -109,13 +109,18 @@ def domain_of(module: str) -> str:
     return parts[1] if parts[0] == "granum" and len(parts) > 1 else "user"
 
 
+def key_of(thing: Any, name: str) -> str:
+    """``domain.name`` of a function or class."""
+    return f"{domain_of(thing.__module__)}.{name}"
+
+
 def make_card(
     thing: Callable[..., Any], name: str, sort: str, *, parameters: tuple[Parameter, ...], outputs: tuple[Parameter, ...],
     source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "",
 ) -> Card:  # fmt: skip
     """The card of a declared function or class."""
     return Card(
-        key=f"{domain_of(thing.__module__)}.{name}",
+        key=key_of(thing, name),
         sort=sort,
         parameters=parameters,
         outputs=outputs,

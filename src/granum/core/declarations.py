@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any, get_type_hints
 
-from granum.core.cards import Card, Ranges, make_card
+from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.parameters import REQUIRED, Binder, Parameter, outputs_of, parameter_of
 from granum.core.registry import register
 
@@ -62,7 +62,7 @@ def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted
     __init__.__doc__ = original.__doc__
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)
-    register(cls)
+    register(cls, key_of(cls, name), family)
     return cls
 
 

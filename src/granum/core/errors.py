@@ -63,7 +63,7 @@ def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") ->
     """The one error for a name that does not exist: it lists or suggests those that do."""
     known = sorted(known)
     close = nearest(name, known)
-    place = f" {where}" if where else ""
+    place = f" {where.strip()}" if where else ""
     message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
     if close:
         message += " " + _("Did you mean '{close}'?").format(close=close)

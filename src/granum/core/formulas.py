@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
-from granum.core.cards import Card, Ranges, make_card
+from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
@@ -51,22 +51,23 @@ class Formula:
     """
 
     def __init__(self, function: Callable[..., Any], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
-                 title: str, output: str, family: str, key: str = ""):  # fmt: skip
+                 title: str, output: str, family: str):  # fmt: skip
         self.function = function
         self.fitted = fitted
         self.source = source
         self._declared = {"equation": equation, "title": title, "family": family}
-        self._typical, self._output = typical, output
+        self._typical = typical
         self._compiled: dict[Any, Callable[..., Any]] = {}
         self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
-        register(self)
+        self.key = key_of(function, function.__name__)
+        self._result_name = output or quantity_in(function.__name__) or function.__name__
+        register(self, self.key, family or self._result_name)
 
     @functools.cached_property
     def card(self) -> Card:
         """The declaration as data, built on first use."""
-        name = self.function.__name__
-        output = self._output or quantity_in(name) or name
+        name, output = self.function.__name__, self._result_name
         hints = get_type_hints(self.function, include_extras=True)
         family = self._declared["family"] or output
         return make_card(
@@ -76,11 +77,6 @@ class Formula:
             source=self.source, equation=self._declared["equation"], fitted=self.fitted,
             family=family, title=self._declared["title"],
         )  # fmt: skip
-
-    @functools.cached_property
-    def key(self) -> str:
-        """``domain.name``."""
-        return self.card.key
 
     @functools.cached_property
     def _binder(self) -> Binder:

@@ -8,7 +8,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-from granum.core.cards import Card, Ranges, make_card
+from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.parameters import Binder, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -21,21 +21,17 @@ class Procedure:
         self.function, self._sort, self._title = function, sort, title
         self.source, self._typical = source, typical
         functools.update_wrapper(self, function)
-        register(self)
+        self.key = key_of(function, function.__name__)
+        register(self, self.key, "")
 
     @functools.cached_property
     def card(self) -> Card:
         """The declaration as data."""
         name = self.function.__name__
-        returned = get_type_hints(self.function, include_extras=True).get("return")
-        outputs = () if self._sort == "chart" else outputs_of(returned, name, {})
+        chart = self._sort == "chart"
+        outputs = () if chart else outputs_of(get_type_hints(self.function, include_extras=True).get("return"), name, {})
         return make_card(self.function, name, self._sort, parameters=parameters_of(self.function, {}, self._typical),
                          outputs=outputs, source=self.source, title=self._title)  # fmt: skip
-
-    @functools.cached_property
-    def key(self) -> str:
-        """``domain.name``."""
-        return self.card.key
 
     @functools.cached_property
     def _binder(self) -> Binder:

@@ -15,23 +15,18 @@ from granum.core.i18n import _
 DOMAINS = ("materials", "particles", "porous", "humid_gas", "streams", "comminution", "settling", "cyclones",
            "fluidization", "filtration", "centrifuges", "crystallization", "drying", "studies")  # fmt: skip
 _declared: dict[str, Any] = {}
-_pending: list[Any] = []
+_families: dict[str, dict[str, Any]] = {}
 _loaded: set[str] = set()
 
 
-def register(thing: Any) -> None:
-    """Called by the declaring decorators; the card itself is built when first asked for."""
-    _pending.append(thing)
-
-
-def _settle() -> None:
-    while _pending:
-        thing = _pending.pop()
-        key = thing.card.key
-        known = _declared.get(key)
-        if known is not None and known.card.module != thing.card.module:
-            raise ValueError(f"'{key}' is declared in {known.card.module} and again in {thing.card.module}")
-        _declared[key] = thing
+def register(thing: Any, key: str, family: str) -> None:
+    """Called by the declaring decorators with key and family; the card itself is built when first asked for."""
+    known = _declared.get(key)
+    if known is not None and known.__module__ != thing.__module__:
+        raise ValueError(f"'{key}' is declared in {known.__module__} and again in {thing.__module__}")
+    _declared[key] = thing
+    if family:
+        _families.setdefault(family, {})[key] = thing
 
 
 def load(domain: str) -> None:
@@ -48,7 +43,6 @@ def everything(domains: Iterable[str] = DOMAINS) -> dict[str, Any]:
     """All declared things of some domains (by default all) by key."""
     for domain in domains:
         load(domain)
-    _settle()
     return {key: thing for key, thing in sorted(_declared.items()) if key.split(".")[0] in domains}
 
 
@@ -61,7 +55,6 @@ def find(key: str) -> Any:
     domain, _dot, _name = key.partition(".")
     if domain in DOMAINS:
         load(domain)
-        _settle()
         if key in _declared:
             return _declared[key]
     raise unknown_name(_("Card"), key, everything())
@@ -69,19 +62,32 @@ def find(key: str) -> Any:
 
 def family(name: str) -> dict[str, Any]:
     """All laws of a family by key: what may be passed where ``Law(name)`` is expected."""
-    return {key: thing for key, thing in everything().items() if thing.card.family == name}
+    everything()
+    return dict(sorted(_families.get(name, {}).items()))
+
+
+def _short_names(family_name: str) -> dict[str, Any]:
+    """Members of a family known so far, by key, by name and by the author's part of the name."""
+    short: dict[str, Any] = {}
+    for key, thing in _families.get(family_name, {}).items():
+        own = key.split(".", 1)[1]
+        short |= {key: thing, own: thing, own.removeprefix(family_name).strip("_"): thing}
+    return short
 
 
 def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
-    """A law of a family by key, by name or by the author's part of the name; modules are built with ``options``."""
-    members = family(family_name)
-    short: dict[str, Any] = {}
-    for key, thing in members.items():
-        own = thing.card.name
-        short |= {key: thing, own: thing, own.removeprefix(family_name).strip("_"): thing}
-    found = short.get(name)
+    """A law of a family by key, by name or by the author's part of the name; modules are built with ``options``.
+
+    Domains are imported one after the other until the name is found, those already in use first.
+    """
+    found = None
+    for domain in sorted(DOMAINS, key=lambda d: d not in _loaded):
+        load(domain)
+        found = _short_names(family_name).get(name)
+        if found is not None:
+            break
     if found is None:
-        names = {thing.card.name.removeprefix(family_name).strip("_") or thing.card.name for thing in members.values()}
+        names = {own.removeprefix(family_name).strip("_") or own for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))}
         raise unknown_name(_("Law"), name, names, where)
     if isinstance(found, type):
         return found(**(options or {}))

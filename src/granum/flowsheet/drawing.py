@@ -27,7 +27,7 @@ def main_phase(stream: Any) -> str:
 def _columns(line: Flowsheet) -> dict[str, int]:
     torn = {name for block in line.blocks for name in block.tears}
     graph = nx.DiGraph()
-    graph.add_nodes_from(line.units)
+    graph.add_nodes_from(line.order)
     graph.add_edges_from((k.source_unit, k.target_unit) for k in line.links if k.origin and k.target and k.name not in torn)
     columns: dict[str, int] = {}
     for unit in nx.topological_sort(graph):
@@ -50,7 +50,7 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
     columns = _columns(line)
     rows: dict[str, int] = {}
     used: dict[int, int] = {}
-    for unit in line.units:
+    for unit in line.order:
         rows[unit] = used.get(columns[unit], 0)
         used[columns[unit]] = rows[unit] + 1
     spans = {k.name: columns[k.target_unit] - columns[k.source_unit] for k in line.links if k.origin and k.target}
@@ -59,7 +59,7 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
     top = MARGIN + LANE * len(above)
     height = top + ROW * max(used.values()) + LANE * len(below) + MARGIN // 2
     width = 2 * MARGIN + COLUMN * (max(columns.values()) + 1)
-    corner = {u: (MARGIN + 30 + COLUMN * columns[u], top + ROW * rows[u]) for u in line.units}
+    corner = {u: (MARGIN + 30 + COLUMN * columns[u], top + ROW * rows[u]) for u in line.order}
     bottom = top + ROW * max(used.values()) - (ROW - BOX) + 48
 
     def port(k: Link, end: str) -> tuple[float, float]:

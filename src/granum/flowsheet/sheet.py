@@ -22,11 +22,13 @@ class Flowsheet(eqx.Module):
     units: name → unit.
     feeds: stream name → stream entering from outside.
     links: every stream of the line, feeds and products included.
+    order: unit names as declared.
     """
 
     units: dict[str, Unit]
     feeds: dict[str, Stream]
     links: tuple[Link, ...] = eqx.field(static=True)
+    order: tuple[str, ...] = eqx.field(static=True)
 
     def __init__(self, units: Mapping[str, Unit], feeds: Mapping[str, Stream], links: Mapping[str, tuple[str, str]]):
         """``links`` maps a stream name to (origin, target), each ``unit.port``; a feed has origin ``""``.
@@ -35,6 +37,7 @@ class Flowsheet(eqx.Module):
         named ``unit.port``.
         """
         self.units, self.feeds = dict(units), dict(feeds)
+        self.order = tuple(units)  # dictionaries come out of compiled code sorted by key
         named = [Link(name, self._outlet(name, origin), self._inlet(name, target)) for name, (origin, target) in links.items()]
         taken = {k.origin for k in named}
         for unit, thing in self.units.items():
@@ -108,7 +111,7 @@ class Flowsheet(eqx.Module):
     @property
     def blocks(self) -> tuple[Block, ...]:
         """Units in order of calculation, loops with their torn streams."""
-        return plan(tuple(self.units), self.links)
+        return plan(self.order, self.links)
 
     @property
     def products(self) -> tuple[str, ...]:

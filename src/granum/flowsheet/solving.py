@@ -107,7 +107,7 @@ def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None) -> Solutio
                 made = _run_block(line, block, known | unpacked(vector)).streams
                 return jnp.stack([_pack(made[n], scale) for n in block.tears])
 
-            found = fixed_point(once, jnp.stack([_pack(guess[n], scale) for n in block.tears]), tolerance=TOLERANCE)
+            found = fixed_point(once, jnp.stack([_pack(guess[n], scale) for n in block.tears]), tolerance=TOLERANCE, scale=1.0)
             streams = streams | unpacked(found.state)
             converged = converged & found.converged
             steps.append(found.steps)
@@ -125,7 +125,7 @@ solve_compiled = eqx.filter_jit(solve)
 def unit_closures(line: Flowsheet, solution: Solution) -> dict[str, Closure]:
     """Mass and energy closure of every unit."""
     rows = {}
-    for unit in line.units:
+    for unit in line.order:
         out = [solution.streams[k.name] for k in line.links if k.source_unit == unit]
         power = sum(solution.powers[unit].values(), jnp.zeros(()))
         rows[unit] = closure(line.inlets_of(unit, solution.streams).values(), out, power)

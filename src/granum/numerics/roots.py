@@ -10,6 +10,8 @@ from jax import lax
 FAST_STEPS = 16
 GUARDED_STEPS = 56
 OPEN = 2
+LARGE = 4096
+"""From this many elements on, a lean first stage saves memory traffic; below, one loop saves half the compilation."""
 
 
 class Root(NamedTuple):
@@ -38,11 +40,11 @@ def find_root(
 ) -> Root:
     """Solve ``function(x, *args) = 0`` for each element, within ``[lower, upper]``.
 
-    Newton's method first. Elements where a step leaves the bracket, or is not half the one before,
-    go on with Newton's method in a shrinking bracket, bisecting instead of such steps. Those still
-    open after 56 passes are finished by halving the set of floating-point numbers between the
-    ends, which takes 66 passes at most: with the default ``max_steps`` a sign change is always
-    found, however nasty the function.
+    Newton's method first, its result confirmed by a change of sign around it. Elements where a step
+    leaves the bracket, or is not half the one before, go on with Newton's method in a shrinking
+    bracket, bisecting instead of such steps. Those still open after 56 passes are finished by
+    halving the set of floating-point numbers between the ends, which takes 66 passes at most: with
+    the default ``max_steps`` a sign change is always found, however nasty the function.
 
     Args:
         function: elementwise; ``function(x, *args)[i]`` may depend on ``x[i]`` only. It may close
@@ -51,8 +53,8 @@ def find_root(
             infinite there, and a root exactly at an end is found.
         *args: pytrees of arrays that broadcast with the ends.
         start: first guess; the middle of the bracket where it is not given or lies outside.
-        tolerance: on the last step, relative to ``|x|``; in a bracket that contains zero, relative
-            to its nearer end at least.
+        tolerance: the function changes sign within this distance of the root, relative to ``|x|``;
+            in a bracket that contains zero, relative to its nearer end at least.
         max_steps: most passes over the array.
 
     Returns:
@@ -82,11 +84,9 @@ def find_root(
     def search(f: Callable, initial: jax.Array) -> tuple[jax.Array, tuple]:
         return _search(f, lower, upper, initial, tolerance, max_steps)
 
-    value, (status, steps) = lax.custom_root(
-        equation, guess, search, _divide_by_slope, has_aux=True
-    )
+    value, (status, steps) = lax.custom_root(equation, guess, search, _divide_by_slope, has_aux=True)
     value = jnp.where(status >= 0, value, jnp.nan)
-    return Root(value, status > 0, steps.astype(int), equation(value))
+    return Root(value, status > 0, steps.astype(int), lax.stop_gradient(equation(value)))
 
 
 def _divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
@@ -95,11 +95,9 @@ def _divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
     return right / jnp.where(usable, slope, jnp.inf)
 
 
-def _search(
-    f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int
-) -> tuple[jax.Array, tuple]:
+def _search(f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int) -> tuple[jax.Array, tuple]:
     """Roots, with status 1 found, 0 kept but not found, -1 no root; and the number of passes."""
-    ends = f(jnp.broadcast_to(lower, guess.shape)), f(jnp.broadcast_to(upper, guess.shape))
+    ends = jax.vmap(f)(jnp.stack([jnp.broadcast_to(end, guess.shape) for end in (lower, upper)]))
     at_lower, at_upper = ends[0] == 0, ends[1] == 0
     # A product of the two would underflow to zero.
     crossing = jnp.where(ends[0] < 0, ends[1] > 0, (ends[0] > 0) & (ends[1] < 0))
@@ -109,22 +107,30 @@ def _search(
     x = jnp.where(at_lower, lower, jnp.where(at_upper, upper, x))
     floor = jnp.minimum(abs(lower), abs(upper))
 
-    def is_small(move: jax.Array, x: jax.Array) -> jax.Array:
-        return move <= tolerance * jnp.maximum(abs(x), floor)
+    def slack(x: jax.Array) -> jax.Array:
+        return tolerance * jnp.maximum(abs(x), floor)
 
-    x, failed, steps = _newton(f, lower, upper, x, crossing, is_small, min(FAST_STEPS, most))
+    status = jnp.where(at_lower | at_upper, 1, jnp.where(crossing, OPEN, -1)).astype(jnp.int8)
+    if x.size < LARGE:
+        x, status, steps = _safe(f, lower, upper, ends, x, status, jnp.zeros((), x.dtype), slack, most)
+        return x, (status.astype(x.dtype), steps)
+    x, lost, steps = _newton(f, lower, upper, x, crossing, slack, min(FAST_STEPS, most))
+    # A small step is no proof: the function may turn away within it.
+    low, high = jnp.minimum(lower, upper), jnp.maximum(lower, upper)
+    around = jnp.sign(jax.vmap(f)(jnp.clip(jnp.stack([x - slack(x), x + slack(x)]), low, high)))
+    failed = lost | (crossing & ~(around[0] * around[1] <= 0))
     status = jnp.where(at_lower | at_upper | crossing, 1, -1).astype(jnp.int8)
     status = jnp.where(failed, OPEN, status)
     x, status, steps = lax.cond(
         jnp.any(failed),
-        lambda x, status, steps: _safe(f, lower, upper, ends, x, status, steps, is_small, most),
+        lambda x, status, steps: _safe(f, lower, upper, ends, x, status, steps, slack, most),
         lambda *found: found,
         *(x, status, steps),
     )
     return x, (status.astype(x.dtype), steps)
 
 
-def _newton(f, lower, upper, x, wanted, is_small, most) -> tuple:
+def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
     """Newton's method while its steps halve and stay between the ends; which elements it lost.
 
     It carries only the unknown and its last step (0 when done, infinite when lost), because on
@@ -138,7 +144,7 @@ def _newton(f, lower, upper, x, wanted, is_small, most) -> tuple:
         step = abs(ahead - x)
         halved = (step <= 0.5 * size) & (abs(slope) < jnp.inf)
         good = halved & ((ahead - lower) * (ahead - upper) <= 0)
-        next_size = jnp.where(good, jnp.where(is_small(step, ahead), 0.0, step), jnp.inf)
+        next_size = jnp.where(good, jnp.where(step <= slack(ahead), 0.0, step), jnp.inf)
         moving = (size > 0) & (size < jnp.inf)
         return (
             jnp.where(moving & good, ahead, x),
@@ -155,8 +161,12 @@ def _newton(f, lower, upper, x, wanted, is_small, most) -> tuple:
     return x, size > 0, steps
 
 
-def _safe(f, lower, upper, ends, x, status, steps, is_small, most) -> tuple:
-    """Newton or bisection in a shrinking bracket, then bisection of the numbers themselves."""
+def _safe(f, lower, upper, ends, x, status, steps, slack, most) -> tuple:
+    """Newton or bisection in a shrinking bracket; in the end, bisection of the numbers themselves.
+
+    It ends only when the bracket itself is narrow. Newton's method comes from one side and would
+    leave the other end where it is, so its small steps go a little too far on purpose.
+    """
     below = jnp.where(ends[0] < 0, lower, upper)
     above = jnp.where(ends[0] < 0, upper, lower)
     ceiling = jnp.maximum(abs(ends[0]), abs(ends[1]))
@@ -167,50 +177,37 @@ def _safe(f, lower, upper, ends, x, status, steps, is_small, most) -> tuple:
         result = jnp.where(y == 0, 1, jnp.where(small, closed, OPEN))
         return jnp.where(jnp.isnan(y), -1, result).astype(jnp.int8)
 
-    def guarded(carry: tuple) -> tuple:
+    def advance(carry: tuple) -> tuple:
         x, below, above, size, status, steps = carry
         y, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
         low, high = jnp.where(y < 0, x, below), jnp.where(y > 0, x, above)
         ahead = x - y / slope
         within = ((ahead - low) * (ahead - high) <= 0) & (abs(slope) < jnp.inf)
-        fast = within & (abs(ahead - x) <= 0.5 * size)
-        following = jnp.where(fast, ahead, _middle(low, high))
-        move = abs(following - x)
-        result = judge(y, is_small(move, following))
+        late = steps >= GUARDED_STEPS
+        middle = jnp.where(late, _middle_number(low, high), _middle(low, high))
+        narrow = abs(high - low) <= 2.0 * slack(middle)
+        fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
+        step = ahead - x
+        beyond = ahead + jnp.sign(step) * 0.5 * slack(ahead)
+        overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
+        following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
+        exhausted = ~fast & ((middle == low) | (middle == high))
+        result = judge(y, narrow | exhausted)
         going = status == OPEN
         return (
             jnp.where(going & (y != 0), following, x),
             jnp.where(going, low, below),
             jnp.where(going, high, above),
-            move,
+            abs(following - x),
             jnp.where(going, result, status),
             steps + 1,
         )
 
-    def halve(carry: tuple) -> tuple:
-        x, below, above, size, status, steps = carry
-        middle = _middle_number(below, above)
-        y = f(middle)
-        low, high = jnp.where(y < 0, middle, below), jnp.where(y > 0, middle, above)
-        exhausted = (middle == below) | (middle == above)
-        result = judge(y, is_small(abs(high - low), middle) | exhausted)
-        going = status == OPEN
-        return (
-            jnp.where(going, middle, x),
-            jnp.where(going, low, below),
-            jnp.where(going, high, above),
-            size,
-            jnp.where(going, result, status),
-            steps + 1,
-        )
-
-    def unfinished(limit: int) -> Callable:
-        return lambda carry: jnp.any(carry[4] == OPEN) & (carry[5] < limit)
+    def unfinished(carry: tuple) -> jax.Array:
+        return jnp.any(carry[4] == OPEN) & (carry[5] < most)
 
     size = jnp.broadcast_to(abs(upper - lower), x.shape)
-    carry = (x, below, above, size, status, steps)
-    carry = lax.while_loop(unfinished(min(GUARDED_STEPS, most)), guarded, carry)
-    x, _, _, _, status, steps = lax.while_loop(unfinished(most), halve, carry)
+    x, _, _, _, status, steps = lax.while_loop(unfinished, advance, (x, below, above, size, status, steps))
     return x, jnp.where(status == OPEN, 0, status).astype(jnp.int8), steps
 
 
@@ -229,8 +226,6 @@ def _middle_number(first: jax.Array, second: jax.Array) -> jax.Array:
     """
     sign = jnp.where(first == 0, second, first)
     integer = jnp.int64 if first.dtype == jnp.float64 else jnp.int32
-    a, b = (
-        lax.bitcast_convert_type(jnp.copysign(end, sign), integer) for end in (first, second)
-    )
+    a, b = (lax.bitcast_convert_type(jnp.copysign(end, sign), integer) for end in (first, second))
     between = lax.bitcast_convert_type(a + (b - a) // 2, first.dtype)
     return jnp.where(jnp.sign(first) * jnp.sign(second) < 0, 0.0, between)

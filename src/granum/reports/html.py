@@ -80,9 +80,9 @@ def line_report(run: Any) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     case = run.line.case
-    units = [_unit_sheet(run, name) for name in run.sheet.units]
+    units = [_unit_sheet(run, name) for name in run.sheet.order]
     sizes = size_chart(run)
-    keys = {p for name in run.sheet.units for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
+    keys = {p for name in run.sheet.order for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
         (_("Project"), case.report.project if case else ""),

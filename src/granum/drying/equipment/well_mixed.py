@@ -10,13 +10,16 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
 from granum.humid_gas.pairs import AirWater
-from granum.humid_gas.relations import saturated_fraction, wet_bulb
+from granum.humid_gas.relations import saturated_fraction, wet_bulb_balance
 from granum.materials.library import fluid
 from granum.numerics import find_root, safe_divide
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
+
+
+COLDEST_FILM = 230.0  # K
 
 
 class Dried(NamedTuple):
@@ -74,7 +77,7 @@ class WellMixedDryer(Unit):
             bed = after(jnp.clip(evaporated, 0.0, water), T)
             y = pair.fraction(safe_divide(bed.gas[1], bed.gas[0]))
             saturated = jnp.minimum(saturated_fraction(pair, T, bed.pressure), 1.0)
-            Tw = wet_bulb(pair, T, bed.pressure, jnp.minimum(y, saturated), pair.lewis_factor())
+            Tw = self._surface_temperature(T, bed.pressure, jnp.minimum(y, saturated))
             latent = fluid("water").heat_of_vaporization.value(Tw)
             flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
             area = feed.by_size(6.0 / (feed.mixture.sizes * feed.solid_density)) * feed.solid / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
@@ -93,6 +96,13 @@ class WellMixedDryer(Unit):
         exhaust = bed.replace(solid=jnp.zeros_like(bed.solid), liquid=jnp.zeros_like(bed.liquid))
         return Dried(product, exhaust, -self.heat_loss)
 
+    @staticmethod
+    def _surface_temperature(T: Any, P: Any, y: Any) -> Any:
+        """Wet bulb over liquid. The general ``wet_bulb`` also knows ice and vast arrays; here its balance alone compiles much faster."""
+        pair = AirWater()
+        top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
+        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, T, P, y, False, None), COLDEST_FILM, top).value
+
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
         conductivity = bed.gas_conductivity
@@ -105,7 +115,7 @@ class WellMixedDryer(Unit):
     def _sizes(bed: Stream) -> Any:
         """Class sizes; an empty class takes the size of the fullest one, so that nothing is flagged for particles that are not there."""
         shares = bed.size_fractions
-        return jnp.where(shares > 1e-9, bed.mixture.sizes, bed.mixture.sizes[jnp.argmax(shares)])
+        return jnp.where(shares > 1e-9, bed.mixture.sizes, jnp.asarray(bed.mixture.sizes)[jnp.argmax(shares)])
 
     def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> WellMixedFigures:
         pair, exhaust = AirWater(), outlets.exhaust

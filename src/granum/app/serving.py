@@ -1,0 +1,45 @@
+"""Starting the server: loopback by default, a token elsewhere, the browser when wanted."""
+
+from __future__ import annotations
+
+import ipaddress
+import secrets
+import socket
+import threading
+import webbrowser
+from pathlib import Path
+
+import uvicorn
+
+from granum.app.server import create_app
+from granum.core.errors import InputError
+from granum.core.i18n import _
+
+
+def _loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
+    """Serve the app until interrupted."""
+    if workspace is not None and not workspace.is_dir():
+        raise InputError(_("'{path}' is not a folder.").format(path=workspace), path=str(workspace))
+    try:
+        listener = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
+    except OSError as problem:
+        raise InputError(
+            _("Address {host}, port {port} cannot be used: {reason}. Choose another with --port.").format(host=host, port=port, reason=problem.strerror)
+        ) from None
+    token = "" if _loopback(host) else secrets.token_urlsafe(24)
+    shown = f"[{host}]" if ":" in host else host
+    address = f"http://{shown}:{listener.getsockname()[1]}/" + (f"?token={token}" if token else "")
+    print(_("Granum runs at {address} (Ctrl+C stops it)").format(address=address), flush=True)
+    if browser:
+        threading.Timer(0.5, webbrowser.open, [address]).start()
+    config = uvicorn.Config(create_app(workspace, token), log_level="warning")
+    uvicorn.Server(config).run(sockets=[listener])
