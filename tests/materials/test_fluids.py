@@ -16,7 +16,7 @@ from granum.core.errors import ApplicabilityError, InputError
 from granum.core.sources import bibliography, keys_of
 
 ROWS = list(csv.DictReader((Path(__file__).parent / "solvents_haynes2014.csv").read_text(encoding="utf-8").splitlines()))
-# relative tolerances; the two handbooks differ by more for a few
+# relative tolerances, set to the spread seen between the two handbooks; a few pairs differ by more
 TOLERANCE = {"density": 0.006, "viscosity": 0.035, "heat": 0.025, "surface": 0.02, "conductivity": 0.025}
 LOOSER = {("acetonitrile", "viscosity"): 0.08, ("acetonitrile", "conductivity"): 0.09, ("acetonitrile", "surface"): 0.08,
           ("acetic acid", "viscosity"): 0.06, ("ethylene glycol", "viscosity"): 0.05, ("ethylene glycol", "heat"): 0.06}  # fmt: skip
