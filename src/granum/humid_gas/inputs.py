@@ -7,9 +7,9 @@ from typing import Any
 
 import jax.numpy as jnp
 
+import granum.humid_gas.relations as rel
 from granum.core.errors import InputError
 from granum.core.i18n import _
-import granum.humid_gas.relations as rel
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
 from granum.numerics.roots import find_root
@@ -102,7 +102,7 @@ class Solver:
         y = rel.fraction_at_enthalpy(pair, T, P, h)
         ys = self._ys(T)
         gas, possible = self._bounded(T, y)
-        foggy = (y > ys) & (ys < 1) & (T > pair.freezing_temperature)
+        foggy = (y > ys) & (ys < 1) & (pair.freezing_temperature < T)
         saturated = Gas(T, jnp.where(foggy, ys, 0.5), jnp.zeros_like(y))
         liquid = pair.condensate_molar_enthalpy(T, P, False) / pair.gas_molar_mass
         fog = (h - rel.enthalpy(pair, saturated, P)) / jnp.where(foggy, liquid, 1.0)
@@ -193,4 +193,4 @@ class Solver:
         return saturated * (1 - SLACK), dry * (1 + SLACK)
 
     def _root(self, balance: Callable[[Any], Any], lower: Any, upper: Any) -> Any:
-        return find_root(balance, lower, upper).value
+        return find_root(balance, lower, upper, tolerance=1e-13).value

@@ -72,7 +72,7 @@ class AbstractPair(eqx.Module):
 
     def is_frozen(self, T: Any) -> Any:
         """Whether the condensed phase at this temperature is the solid."""
-        return T < self.freezing_temperature
+        return self.freezing_temperature > T
 
 
 class AbstractIdealPair(AbstractPair):

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 
 from granum.humid_gas.blocks import blockwise
 from granum.humid_gas.pairs import SLACK, AbstractPair
-from granum.numerics.roots import find_root
+from granum.humid_gas.search import falling_root
 
 LARGE = 1000  # elements from which a second, ice-free copy of the search is worth compiling
 
@@ -84,19 +84,20 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     Tf = pair.freezing_temperature
     boiling = pair.boiling_temperature(P)
     top = jnp.minimum(T, boiling)
-    liquid = (T >= Tf) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), T, P, y, False, lewis) >= 0)
+    liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), T, P, y, False, lewis) >= 0)
     frozen = jax.lax.stop_gradient(~liquid)
     guess = _wet_bulb_guess(pair, T, P, y, boiling)
     lower = jnp.minimum(Tf, top) * (1 - SLACK)
 
     def over_liquid(T: Any, P: Any, y: Any) -> Any:
-        return find_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, False, lewis), lower, top * (1 + SLACK), T, P, y,
-                         start=guess).value  # fmt: skip
+        return falling_root(
+            lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, False, lewis), lower, top * (1 + SLACK), T, P, y, start=guess
+        )
 
     def over_either(T: Any, P: Any, y: Any) -> Any:
         low = jnp.where(frozen, pair.lowest_temperature, lower)
         high = jnp.where(frozen, jnp.minimum(top, Tf), top) * (1 + SLACK)
-        return find_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), low, high, T, P, y, start=guess).value
+        return falling_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), low, high, T, P, y, start=guess)
 
     if frozen.size < LARGE:
         return over_either(T, P, y)
@@ -135,9 +136,7 @@ def fraction_at_volume(pair: AbstractPair, T: Any, P: Any, v: Any) -> Any:
     """Vapor fraction of unsaturated gas of a specific volume."""
     y = jnp.zeros_like(T * P * v)
     for _pass in range(4):
-        value, slope = jax.jvp(
-            lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),)
-        )
+        value, slope = jax.jvp(lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),))
         y = y - value / slope
     return y
 
@@ -146,9 +145,7 @@ def fraction_at_enthalpy(pair: AbstractPair, T: Any, P: Any, h: Any) -> Any:
     """Vapor fraction of unsaturated gas of an enthalpy per kg dry gas."""
     y = jnp.zeros_like(T * P * h)
     for _pass in range(5):
-        value, slope = jax.jvp(
-            lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),)
-        )
+        value, slope = jax.jvp(lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),))
         y = y - value / slope
     return y
 
@@ -169,7 +166,7 @@ def _dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
     def balance(x: Any, P: Any, y: Any) -> Any:
         return jnp.log(pair.saturated_fraction(1.0 / x, P, frozen)) - jnp.log(y)
 
-    return 1.0 / find_root(balance, 1.0 / upper, 1.0 / (lower * (1 - SLACK)), P, y).value
+    return 1.0 / falling_root(balance, 1.0 / upper, 1.0 / (lower * (1 - SLACK)), P, y)
 
 
 def temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
@@ -189,7 +186,7 @@ def _temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
         return (pair.molar_enthalpy(T, P, ys) / (1.0 - ys) + liquid) / pair.gas_molar_mass
 
     def balance(T: Any, P: Any, y: Any, total: Any, frozen: Any, fogged: Any, h: Any) -> Any:
-        return at(T, P, y, total, frozen, fogged) - h
+        return h - at(T, P, y, total, frozen, fogged)
 
     fogged = h < at(dew, P, y, total, pair.is_frozen(dew), False)
     warm = dew > Tf
@@ -199,5 +196,6 @@ def _temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
     lower = jnp.where(fogged, jnp.where(frozen, pair.lowest_temperature, Tf), dew * (1 - SLACK))
     upper = jnp.where(fogged, jnp.where(frozen & warm, Tf, dew), pair.highest_temperature) * (1 + SLACK)
     fogged, frozen = jax.lax.stop_gradient((fogged, frozen))
-    T = find_root(balance, lower, upper, P, y, total, frozen, fogged, h).value
-    return jnp.where(fogged & warm & ~above & ~below, Tf, T)
+    T = falling_root(balance, lower, upper, P, y, total, frozen, fogged, h)
+    possible = (pair.lowest_temperature * (1 + 1e-8) < T) & (pair.highest_temperature * (1 - 1e-8) > T)
+    return jnp.where(fogged & warm & ~above & ~below, Tf, jnp.where(possible, T, jnp.nan))

@@ -8,7 +8,14 @@ import granum.humid_gas.relations as rel
 from granum.core import formula
 from granum.core.constants import STANDARD_ATMOSPHERE, ZERO_CELSIUS
 from granum.core.kinds import (
-    Density, HeatCapacity, HumidityRatio, PositiveNumber, Pressure, RelativeHumidity, SpecificEnergy, Temperature,
+    Density,
+    HeatCapacity,
+    HumidityRatio,
+    PositiveNumber,
+    Pressure,
+    RelativeHumidity,
+    SpecificEnergy,
+    Temperature,
 )  # fmt: skip
 from granum.humid_gas.formulas.state import RANGE, GasVaporPair
 from granum.humid_gas.kinds import SpecificVolume
@@ -129,7 +136,9 @@ def specific_volume(
     return rel.specific_volume(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
 
 
-@formula(source=_SOURCE, equation=r"\rho = \frac{1 + w}{v}", fitted=RANGE, typical=_WARM, output="gas_density", title="Density of a humid gas")
+@formula(
+    source=_SOURCE, equation=r"\rho = \frac{1 + w}{v}", fitted=RANGE, typical=_WARM, output="gas_density", title="Density of a humid gas"
+)
 def gas_density(
     temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
 ) -> Density:

@@ -6,12 +6,21 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
+import granum.humid_gas.relations as rel
 from granum.core import flags, formula
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
-    Density, HumidityRatio, Law, MassRatio, MoleFraction, PositiveNumber, Pressure, RelativeHumidity, SpecificEnergy, Temperature,
+    Density,
+    HumidityRatio,
+    Law,
+    MassRatio,
+    MoleFraction,
+    PositiveNumber,
+    Pressure,
+    RelativeHumidity,
+    SpecificEnergy,
+    Temperature,
 )  # fmt: skip
-import granum.humid_gas.relations as rel
 from granum.humid_gas.inputs import Solver
 from granum.humid_gas.kinds import SpecificVolume
 from granum.humid_gas.pairs import AIR_WATER

@@ -1,0 +1,1 @@
+"""Formulas of moist solids and drying kinetics."""

@@ -1,0 +1,1 @@
+"""Sorption isotherms: moisture against water activity, both ways, with temperature."""

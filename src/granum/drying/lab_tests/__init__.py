@@ -1,0 +1,1 @@
+"""Lab tests of drying: sorption isotherm, drying curve."""
