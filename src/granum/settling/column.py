@@ -81,7 +81,7 @@ class Suspension(eqx.Module):
         if self.compression is None:
             return jnp.max(speed), jnp.zeros(()), jnp.zeros(())
         bed = jnp.maximum(C, self.compression.critical_concentration)
-        slow = jnp.max(jnp.where(C == bed, jnp.maximum(speed, self.velocity(C)), self.velocity(bed)))
+        slow = jnp.max(jnp.where(bed == C, jnp.maximum(speed, self.velocity(C)), self.velocity(bed)))
         return jnp.max(speed), slow, jnp.max(self.velocity(bed) * self.stiffness(bed))
 
     def check(self) -> None:
@@ -243,9 +243,9 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
             change = change / count.compression
             b = jnp.maximum(C, critical)
             d = jnp.where(critical < C, v, at_critical) * suspension.stiffness(b)
-            gap = C[1:] - C[:-1]
-            level = gap == 0
-            part = jnp.where(level, C[1:] > critical, (b[1:] - b[:-1]) / jnp.where(level, 1.0, gap))
+            above = C > critical
+            mixed = above[1:] != above[:-1]
+            part = jnp.where(mixed, (b[1:] - b[:-1]) / jnp.where(mixed, C[1:] - C[:-1], 1.0), above[1:])
             spread = spreads * (d[1:] + d[:-1]) * part
 
             def compress(_j: Any, C: Any) -> Any:

@@ -1,0 +1,74 @@
+"""Hindrance and compression from one settling curve, by fitting the settling-compression column to it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import lab_test
+from granum.core.i18n import _
+from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time
+from granum.estimation import Fit, LabTest
+from granum.settling.column import Suspension, settle
+from granum.settling.compression import LogarithmicStress
+from granum.settling.lab_tests.batch_test import BatchTest
+from granum.settling.quantities import SpecificVolume
+from granum.settling.velocities import Vesilind
+
+
+@lab_test("compression_test", source="burger2011; declercq2008; diehl2015", title="Settling curve with compression")
+class CompressionTest(LabTest):
+    """Long settling curve into compression: the whole curve is fitted by the one-dimensional settling-compression model.
+
+    Estimates Vesilind's constants, the critical concentration and the scale of the logarithmic effective stress; its
+    concentration scale is given. First values come from Kynch's construction. The grid is that of ``cells``.
+    """
+
+    time: Annotated[Time, Series("points")]
+    interface_height: Annotated[Distance, Series("points")]
+    initial_concentration: Concentration
+    solid_density: Density
+    liquid_density: Density = 998.0
+    initial_height: Length | None = None
+    stress_concentration: Concentration = 4.0
+    cells: int = 60
+
+    estimates: ClassVar = {
+        "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume,
+        "critical_concentration": Concentration, "stress_scale": PressureDifference,
+    }  # fmt: skip
+    axes: ClassVar = {"time": Time, "interface_height": Distance}
+    least_points: ClassVar = 8
+
+    def model(self, p: Any, time: Any, start_height: Any) -> Any:
+        """Height of the interface at given times."""
+        stress = LogarithmicStress(p["critical_concentration"], p["stress_scale"], float(self.stress_concentration))
+        law = Vesilind(p["vesilind_velocity"], p["vesilind_coefficient"])
+        suspension = Suspension(law, stress, float(self.solid_density), float(self.liquid_density))
+        times = jnp.concatenate([jnp.zeros(1), jnp.asarray(time)])
+        course = settle(suspension, start_height, float(self.initial_concentration), times, cells=self.cells)
+        return course.interface_height(0.5 * float(self.initial_concentration))[1:]
+
+    def fit(self) -> Fit:
+        """Constants of hindrance and compression."""
+        before = BatchTest(
+            time=self.time, interface_height=self.interface_height,
+            initial_concentration=self.initial_concentration, initial_height=self.initial_height,
+        )  # fmt: skip
+        c = before.curve()
+        first = before.fit()
+        final = float(self.initial_concentration) * c.initial_height / float(c.height[-1])
+        critical = first.derived["compression_concentration"].value if c.compression else 0.7 * final
+        buoyant = 9.80665 * (1.0 - float(self.liquid_density) / float(self.solid_density))
+        weight = buoyant * float(self.initial_concentration) * c.initial_height
+        start = {**first.values, "critical_concentration": min(critical, 0.9 * final), "stress_scale": max(weight, 1e-6)}
+        later = c.time > 0
+        flags = [self.note(word, sentence) for word, sentence in c.said]
+        flags.append(self.note("grid", _("Fitted on {cells} cells: finer grids shift the front by less than a cell.").format(cells=self.cells)))
+        low = 1.01 * float(self.initial_concentration)
+        bounds = {name: (1e-9, np.inf) for name in start} | {"critical_concentration": (low, np.inf)}
+        return self.fitted(
+            lambda p, t: self.model(p, t, c.initial_height), start, c.time[later], c.height[later], bounds=bounds, flags=flags
+        )  # fmt: skip

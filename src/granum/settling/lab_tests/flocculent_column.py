@@ -1,0 +1,75 @@
+"""Flocculent settling column: removal against depth and time, iso-removal lines, removal of a basin."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import lab_test
+from granum.core.kinds import Distance, Fraction, PositiveNumber, Series, Speed, Time
+from granum.estimation import Fit, LabTest
+from granum.numerics import safe_power
+
+QUADRATURE = np.polynomial.legendre.leggauss(48)
+
+
+def removal_at(p: Any, time: Any, depth: Any) -> Any:
+    """Removal at a time and depth: one at the surface, and one half where the median floc has come to."""
+    reach = p["floc_velocity"] * p["floc_time"] * safe_power(time / p["floc_time"], p["floc_exponent"])
+    return 1.0 / (1.0 + safe_power(depth / reach, p["floc_sharpness"]))
+
+
+def removal_over(p: Any, time: Any, height: Any) -> Any:
+    """Removal over a whole depth: the mean of the removal at all depths, which the sum over iso-removal lines approximates."""
+    nodes, weights = QUADRATURE
+    share = (0.5 * (jnp.asarray(nodes) + 1.0)) ** 3  # nodes crowd where removal rises steeply to one, at the surface
+    jacobian = 3.0 * (0.5 * (jnp.asarray(nodes) + 1.0)) ** 2
+    values = removal_at(p, jnp.asarray(time)[..., None], share * jnp.asarray(height)[..., None])
+    return jnp.sum(0.5 * jnp.asarray(weights) * jacobian * values, axis=-1)
+
+
+@lab_test("flocculent_column", source="eckenfelder1961; davis2010, eq. 10-22", title="Flocculent settling column (iso-removal)")
+class FlocculentColumn(LabTest):
+    """Settling column of a flocculating suspension: share removed at several depths and times.
+
+    A surface with four constants is fitted to all readings in place of lines drawn by hand: the depth of half removal grows as
+    ``v τ (t/τ)ᵇ`` (b above one: flocs grow while they fall; one: discrete particles), and removal across it is
+    ``1/(1 + (z/z½)^c)``. ``iso_removal`` gives the lines, ``removal`` that of a basin, ``overflow_rate`` its loading.
+    """
+
+    time: Annotated[Time, Series("readings")]
+    depth: Annotated[Distance, Series("readings")]
+    removal_efficiency: Annotated[Fraction, Series("readings")]
+
+    estimates: ClassVar = {"floc_velocity": Speed, "floc_exponent": PositiveNumber, "floc_sharpness": PositiveNumber}
+    axes: ClassVar = {"time": Time, "removal_efficiency": Fraction}
+    least_points: ClassVar = 6
+
+    def fit(self) -> Fit:
+        """Constants of the removal surface."""
+        t, z = jnp.asarray(self.time, dtype=float), jnp.asarray(self.depth, dtype=float)
+        scale = float(np.exp(np.mean(np.log(np.maximum(np.asarray(t), 1e-9)))))
+        start = {"floc_velocity": float(np.mean(np.asarray(z))) / scale, "floc_exponent": 1.2, "floc_sharpness": 1.0}
+
+        def model(p: Any, times: Any) -> Any:
+            return removal_at({**p, "floc_time": scale}, times, z)
+
+        bounds = {"floc_velocity": (0.0, np.inf), "floc_exponent": (0.05, 5.0), "floc_sharpness": (0.05, 10.0)}
+        return self.fitted(model, start, t, self.removal_efficiency, bounds=bounds)
+
+    def constants(self, found: Fit | None = None) -> dict[str, float]:
+        """Fitted constants with the time scale they refer to."""
+        t = np.maximum(np.asarray(self.time, dtype=float), 1e-9)
+        return {**(found or self.fit()).values, "floc_time": float(np.exp(np.mean(np.log(t))))}
+
+    def removal(self, time: Any, height: Any) -> Any:
+        """Removal of a basin of a depth after a residence time."""
+        return removal_over(self.constants(), jnp.asarray(time, dtype=float), jnp.asarray(height, dtype=float))
+
+    def iso_removal(self, removal_efficiency: Any, time: Any) -> Any:
+        """Depth at which a share has been removed at given times: one iso-removal line."""
+        p, R = self.constants(), jnp.asarray(removal_efficiency)
+        reach = p["floc_velocity"] * p["floc_time"] * safe_power(jnp.asarray(time) / p["floc_time"], p["floc_exponent"])
+        return reach * ((1.0 - R) / R) ** (1.0 / p["floc_sharpness"])
