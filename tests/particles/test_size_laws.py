@@ -49,6 +49,7 @@ def test_moments_that_do_not_exist_are_infinite_not_numbers() -> None:
     assert float(size_laws.RosinRammler(1e-4, 0.9).moment(-1.0)) == np.inf
     assert float(size_laws.GatesGaudinSchuhmann(1e-4, 0.8).moment(-1.0)) == np.inf
     assert float(size_laws.GaudinMeloy(1e-4, 2.0).moment(-1.0)) == np.inf
+    assert np.isnan(float(size_laws.GaudinMeloy(1e-4, 2.0).mean(3, 2)))
 
 
 def test_classes_keep_the_tails_and_the_mean() -> None:

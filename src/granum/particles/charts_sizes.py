@@ -70,10 +70,10 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
 
 
 @chart(source="iso9276-1", title="Histogram and cumulative curve")
-def size_distribution_chart(class_edges: Edges, class_fractions: Fractions, basis: Basis = "volume", wanted_basis: Basis = "volume",
+def size_distribution_chart(class_edges: Edges, class_fractions: Fractions, basis: Basis = "volume", wanted_basis: Basis | None = None,
                             in_class: Rule = _UNIFORM, size_law: OptionalSizeLaw = None) -> Any:  # fmt: skip
     """Histogram per logarithm of size with the cumulative curve, on any basis, and a law to compare."""
-    return distribution_figure(SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis), size_law)
+    return distribution_figure(SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis), size_law)
 
 
 def _paper(sizes: Any, below: Any, size_law: Any, transform: Any, title: str) -> go.Figure:

@@ -43,9 +43,9 @@ def summary_of(distribution: SizeDistribution, basis: str | None = None, spheric
 
 
 @procedure(source="iso9276-2; astm_e799", title="Size summary of a class table")
-def size_summary(class_edges: Edges, class_fractions: Fractions, basis: Basis = "volume", wanted_basis: Basis = "volume",
+def size_summary(class_edges: Edges, class_fractions: Fractions, basis: Basis = "volume", wanted_basis: Basis | None = None,
                  in_class: Rule = _UNIFORM, sphericity: Sphericity = 1.0) -> SizeSummary:  # fmt: skip
-    """All means, the percentiles on a wanted basis, the span and the specific surface of a class table.
+    """All means, the percentiles on a wanted basis (by default that of the table), the span and the specific surface of a class table.
 
     The last figure is the fraction that lies in a first class starting at 0: percentiles inside it are interpolated, and where a
     mean has no finite value there that class counts at its middle.
@@ -70,24 +70,24 @@ def mean_diameter_classes(class_edges: Edges, class_fractions: Fractions, moment
 
 @procedure(source="iso9276-1", title="Percentile of a class table")
 def percentile_diameter(class_edges: Edges, class_fractions: Fractions, cumulative_fraction: Fraction = 0.5, basis: Basis = "volume",
-                        wanted_basis: Basis = "volume", in_class: Rule = _UNIFORM) -> Length:  # fmt: skip
-    """Size below which a fraction lies, on a wanted basis; it always exists.
+                        wanted_basis: Basis | None = None, in_class: Rule = _UNIFORM) -> Length:  # fmt: skip
+    """Size below which a fraction lies, on a wanted basis (by default that of the table); it always exists.
 
     >>> round(float(percentile_diameter("0, 100, 200 um", "25, 75 %") * 1e6), 2)
     133.33
     """
-    return SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis).percentile(cumulative_fraction)
+    return SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis).percentile(cumulative_fraction)
 
 
 @procedure(source="iso9276-1", title="Cumulative fraction of a class table")
 def cumulative_fraction_classes(class_edges: Edges, class_fractions: Fractions, particle_diameter: Distance, basis: Basis = "volume",
-                                wanted_basis: Basis = "volume", in_class: Rule = _UNIFORM) -> Fraction:  # fmt: skip
-    """Fraction below a size, on a wanted basis.
+                                wanted_basis: Basis | None = None, in_class: Rule = _UNIFORM) -> Fraction:  # fmt: skip
+    """Fraction below a size, on a wanted basis (by default that of the table).
 
     >>> round(float(cumulative_fraction_classes("0, 100, 200 um", "25, 75 %", "150 um")), 4)
     0.625
     """
-    return SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis).cumulative(particle_diameter)
+    return SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis).cumulative(particle_diameter)
 
 
 @procedure(source="iso9276-2", title="Class fractions on another basis")

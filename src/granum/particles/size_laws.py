@@ -45,9 +45,11 @@ class SizeLaw(eqx.Module):
         """Mean of ``x**power`` on the law's own basis; infinite where it does not exist."""
 
     def mean(self, p: float, q: float) -> Any:
-        """D[p,q] (``p != q``), m; whatever the basis of the law."""
+        """D[p,q] (``p != q``), m, whatever the basis of the law; not a number where a moment is infinite."""
         order = order_of(self.basis)
-        return (self.moment(p - order) / self.moment(q - order)) ** (1.0 / (p - q))
+        high, low = self.moment(p - order), self.moment(q - order)
+        exists = jnp.isfinite(high) & jnp.isfinite(low)
+        return jnp.where(exists, jnp.where(exists, high, 1.0) / jnp.where(exists, low, 1.0), jnp.nan) ** (1.0 / (p - q))
 
     def span(self) -> Any:
         """(d90 - d10) / d50."""
