@@ -243,7 +243,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
             change = change / count.compression
             b = jnp.maximum(C, critical)
             d = jnp.where(critical < C, v, at_critical) * suspension.stiffness(b)
-            above = C > critical
+            above = critical < C
             mixed = above[1:] != above[:-1]
             part = jnp.where(mixed, (b[1:] - b[:-1]) / jnp.where(mixed, C[1:] - C[:-1], 1.0), above[1:])
             spread = spreads * (d[1:] + d[:-1]) * part

@@ -66,9 +66,11 @@ class CompressionTest(LabTest):
         start = {**first.values, "critical_concentration": min(critical, 0.9 * final), "stress_scale": max(weight, 1e-6)}
         later = c.time > 0
         flags = [self.note(word, sentence) for word, sentence in c.said]
-        flags.append(self.note("grid", _("Fitted on {cells} cells: finer grids shift the front by less than a cell.").format(cells=self.cells)))
+        flags.append(
+            self.note("grid", _("Fitted on {cells} cells: finer grids shift the front by less than a cell.").format(cells=self.cells))
+        )
         low = 1.01 * float(self.initial_concentration)
-        bounds = {name: (1e-9, np.inf) for name in start} | {"critical_concentration": (low, np.inf)}
+        bounds = dict.fromkeys(start, (1e-09, np.inf)) | {"critical_concentration": (low, np.inf)}
         return self.fitted(
             lambda p, t: self.model(p, t, c.initial_height), start, c.time[later], c.height[later], bounds=bounds, flags=flags
         )  # fmt: skip
