@@ -21,6 +21,10 @@ print(f"Sauter mean {sauter:.3f} mm, mass mean {mass_mean:.3f} mm (sieved part)"
 assert abs(sauter / sieved - 1.207) < 2e-3  # printed: 1.207 mm, from sums over 99.25 % of the mass
 assert abs(mass_mean * sieved - 1.677) < 1e-3  # printed: 1.677 mm
 
+surface = 6.0 / (0.571 * 2650 * float(without_pan.distribution().mean(3, 2)))
+print(f"specific surface {surface:.3f} m2/kg at sphericity 0.571")
+assert abs(surface - 3.309) < 2e-3  # printed: 3.309 mm2/mg
+
 fit = quartz.fit()
 print("Rosin–Rammler:", {name: f"{e.value:.4g} ± {e.standard_error:.1g}" for name, e in fit.parameters.items()})
 for flag in fit.flags:

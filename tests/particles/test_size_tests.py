@@ -11,6 +11,7 @@ import pytest
 
 from granum.core.errors import InputError
 from granum.particles import charts_sizes
+from granum.particles.in_class import ArithmeticMidpoint
 from granum.particles.lab_tests.instruments import ImageAnalysis, LaserDiffraction, ParticleCounter
 from granum.particles.lab_tests.sieve_analysis import SieveAnalysis
 from granum.particles.partition import LogisticPartition
@@ -77,6 +78,21 @@ def test_a_file_with_units_is_read() -> None:
     test = SieveAnalysis.read(file, pan_mass="10 g", sample_mass="101 g")
     np.testing.assert_allclose(test.distribution().fractions, [0.1, 0.3, 0.6])
     assert test.loss_fraction == pytest.approx(1.0 / 101.0)
+
+
+def test_wet_sieving_counts_what_was_washed_away_as_fines() -> None:
+    wet = SieveAnalysis([5e-4, 2.5e-4, 1.25e-4], [0.0, 0.05, 0.03], sample_mass=0.1, washed=True)
+    np.testing.assert_allclose(wet.distribution().fractions, [0.2, 0.3, 0.5])
+    assert wet.loss_fraction == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(InputError, match="dry mass"):
+        SieveAnalysis([5e-4, 2.5e-4, 1.25e-4], [0.0, 0.05, 0.03], washed=True).distribution()
+
+
+def test_surface_of_crushed_quartz_as_printed() -> None:
+    # McCabe, Smith and Harriott, screen analysis of crushed quartz: 3.309 mm2/mg for the sieved part, sphericity 0.571, 2650 kg/m3
+    data = Path(__file__).parents[2] / "examples" / "size-analysis" / "crushed_quartz_mccabe2005.csv"
+    test = SieveAnalysis.read(data, in_class=ArithmeticMidpoint(), sphericity=0.571, solid_density=2650)
+    assert test.fit()["specific_surface_mass"].value == pytest.approx(3.309, abs=2e-3)
 
 
 def test_laser_curve_and_its_errors() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Fraction, Law, Length, Mass, Series, Within
+from granum.core.kinds import Density, Fraction, Law, Length, Mass, Series, Sphericity, Within
 from granum.core.units import format_number
 from granum.particles.distributions import SizeDistribution
 from granum.particles.in_class import UniformDensity
@@ -22,7 +22,8 @@ class SieveAnalysis(SizeTest):
 
     Sieves are given from coarse to fine or from fine to coarse. Material in the pan has no measured lower limit: give the smallest size,
     or it counts from 0 and is flagged. Material on the top sieve ends at the largest size; without one, the class above is taken
-    as wide as the one below it, by ratio, and flagged. The loss is the sample mass less all that was found.
+    as wide as the one below it, by ratio, and flagged. The loss is the sample mass less all that was found; in wet sieving
+    (``washed``) it went through the finest sieve and counts as pan.
 
     >>> test = SieveAnalysis([500e-6, 250e-6, 125e-6], [0.0, 0.06, 0.03], pan_mass=0.01)
     >>> [round(float(f), 3) for f in test.distribution().fractions]
@@ -35,6 +36,9 @@ class SieveAnalysis(SizeTest):
     sample_mass: Mass | None = None
     largest_size: Length | None = None
     smallest_size: Length | None = None
+    washed: bool = False
+    solid_density: Density | None = None
+    sphericity: Sphericity = 1.0
     loss_allowed: Annotated[Fraction, Within(0.0, 1.0)] = 0.02
     size_law: SizeLawName = "rosin_rammler"
     in_class: Annotated[Any, Law("in_class_rule")] = UniformDensity()
@@ -53,9 +57,18 @@ class SieveAnalysis(SizeTest):
         return aperture[order], mass[order]
 
     @property
+    def fine_mass(self) -> float:
+        """What passed the finest sieve, kg: the pan, and in wet sieving what was washed away."""
+        if not self.washed:
+            return self.pan_mass
+        if self.sample_mass is None:
+            raise InputError(_("Wet sieving needs the dry mass of the sample: what was washed away follows from it."), name="sample_mass")
+        return max(self.sample_mass - float(np.sum(self.retained_mass)), self.pan_mass)
+
+    @property
     def found_mass(self) -> float:
-        """All that was weighed after sieving, kg."""
-        return float(np.sum(self.retained_mass)) + self.pan_mass
+        """All that is accounted for after sieving, kg."""
+        return float(np.sum(self.retained_mass)) + self.fine_mass
 
     @property
     def loss_fraction(self) -> float:
@@ -66,9 +79,9 @@ class SieveAnalysis(SizeTest):
         """Classes between the sieves, with the pan below and the top class above where they hold material."""
         aperture, mass = self._sorted()
         edges, amounts = aperture, mass[:-1]
-        if self.pan_mass > 0.0:
+        if self.fine_mass > 0.0:
             edges = np.concatenate([[self._smallest(aperture[0])], edges])
-            amounts = np.concatenate([[self.pan_mass], amounts])
+            amounts = np.concatenate([[self.fine_mass], amounts])
         if mass[-1] > 0.0:
             edges, amounts = np.concatenate([edges, [self._largest(aperture)]]), np.concatenate([amounts, mass[-1:]])
         return SizeDistribution.from_amounts(edges, amounts, "mass", self.in_class)
@@ -89,15 +102,15 @@ class SieveAnalysis(SizeTest):
     def points(self) -> tuple[Any, Any]:
         """Apertures and the mass fractions that pass them."""
         aperture, mass = self._sorted()
-        below = self.pan_mass + np.concatenate([[0.0], np.cumsum(mass[:-1])])
+        below = self.fine_mass + np.concatenate([[0.0], np.cumsum(mass[:-1])])
         return aperture, np.minimum(below / self.found_mass, 1.0)  # a sum may exceed the whole by its rounding
 
     def notices(self) -> list[dict[str, Any]]:
         """Pan without a lower limit, top class without an upper one, loss above what is allowed."""
         found = []
         top = self._sorted()[1][-1]
-        if self.pan_mass > 0.0 and self.smallest_size is None:
-            share = format_number(100.0 * self.pan_mass / self.found_mass)
+        if self.fine_mass > 0.0 and self.smallest_size is None:
+            share = format_number(100.0 * self.fine_mass / self.found_mass)
             text = _("{share} % lies in the pan, whose smallest size was not measured: figures that depend on it are extrapolated.")
             found.append(self.note("extrapolated", text.format(share=share), "pan_mass"))
         if top > 0.0 and self.largest_size is None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
-from granum.core.kinds import Fraction, Length, PositiveNumber, Ratio, SpecificSurface, kind_of
+from granum.core.kinds import Fraction, Length, PositiveNumber, Ratio, SpecificSurface, SpecificSurfaceMass, kind_of
 from granum.estimation import Estimate, Fit, LabTest
 from granum.particles.class_means import SizeSummary, summary_of
 from granum.particles.distributions import SizeDistribution
@@ -92,12 +92,13 @@ class SizeTest(LabTest):
         "size_modulus": Length, "distribution_exponent": PositiveNumber, "median_diameter": Length, "geometric_standard_deviation": PositiveNumber,
         "mean_diameter": Length, "standard_deviation": Length, "size_maximum": Length, "median_diameter_fine": Length,
         "median_diameter_coarse": Length, "geometric_standard_deviation_fine": PositiveNumber,
-        "geometric_standard_deviation_coarse": PositiveNumber, "first_share": Fraction, **FIGURES,
+        "geometric_standard_deviation_coarse": PositiveNumber, "first_share": Fraction, "specific_surface_mass": SpecificSurfaceMass, **FIGURES,
     }  # fmt: skip
     axes: ClassVar = {"particle_diameter": Length, "cumulative_fraction": Fraction}
 
     if TYPE_CHECKING:
         size_law: str
+        solid_density: float
 
     @abstractmethod
     def distribution(self) -> SizeDistribution:
@@ -113,7 +114,7 @@ class SizeTest(LabTest):
 
     def summary(self) -> SizeSummary:
         """Means, percentiles, span and specific surface of the measured classes, no law assumed."""
-        return summary_of(self.distribution())
+        return summary_of(self.distribution(), sphericity=getattr(self, "sphericity", 1.0))
 
     def law(self, fit: Fit | None = None) -> SizeLaw:
         """The fitted law."""
@@ -133,6 +134,8 @@ class SizeTest(LabTest):
         )  # fmt: skip
         table = self.summary()._asdict()
         figures = {n: Estimate(float(table[n]), "" if (k := kind_of(kind)) is None else k.unit) for n, kind in FIGURES.items()}
+        if getattr(self, "solid_density", None) is not None:
+            figures["specific_surface_mass"] = Estimate(figures["specific_surface"].value / self.solid_density, "m^2/kg")
         return replace(found, derived={**figures, **found.derived})
 
     def chart(self) -> go.Figure:
