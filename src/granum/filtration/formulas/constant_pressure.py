@@ -26,7 +26,7 @@ _SMALL = {"area": (0.1, 2.0), "filtrate_volume": (0.01, 0.2), "cake_resistance":
 
 
 @formula(
-    source="ruth1935; geankoplis2003, eq. 14.2-17",
+    source="ruth1935; geankoplis2003, § 14.2",
     equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}V^2 + \frac{\eta\,R_s}{\Delta p\,\Omega}V",
     typical=_SMALL,
 )
@@ -140,7 +140,7 @@ def filtrate_flux(
 
 
 @formula(
-    source="geankoplis2003, eq. 14.2-20",
+    source="geankoplis2003, § 14.2",
     equation=r"q = \frac{f\,\Omega\,\Delta p}{\eta\,(\alpha W V/\Omega + R_s)}",
     typical=_SMALL,
 )

@@ -28,7 +28,7 @@ _SMALL = {"area": (0.5, 2.0), "filtrate_flow": (1e-5, 1e-4), "cake_resistance": 
 
 
 @formula(
-    source="carman1938; mccabe2005, eq. 29.30",
+    source="carman1938; mccabe2005, ch. 29",
     equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q",
     typical=_SMALL,
 )

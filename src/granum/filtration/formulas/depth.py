@@ -108,7 +108,7 @@ def filter_coefficient(
 
 
 @formula(
-    source="tufenkji2004, eq. 17",
+    source="tufenkji2004",
     equation=r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + 0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}",
     output="collector_efficiency",
     typical={"particle_diameter": (1e-7, 5e-6), "collector_diameter": (2e-4, 1e-3), "superficial_velocity": (1e-4, 3e-3),

@@ -42,7 +42,7 @@ def cake_permeability(cake_resistance: CakeResistance, void_fraction: VoidFracti
 
 
 @formula(
-    source="mccabe2005, eq. 29.24",
+    source="mccabe2005, ch. 29",
     equation=r"\bar\alpha = \alpha_0\left(\frac{\Delta p}{p_0}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
 )

@@ -1,0 +1,269 @@
+"""Clarifying centrifuges: Sigma of each machine, cut sizes, grade efficiency, liquid–liquid interface, wall stress."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+
+from granum.centrifuges.quantities import Stress
+from granum.core import formula
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import (
+    Angle,
+    Area,
+    Density,
+    Distance,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    PositiveNumber,
+    Pressure,
+    RotationSpeed,
+    Speed,
+    Volume,
+    VolumeFlow,
+)
+
+_BOWL = {"bowl_length": (0.3, 1.5), "radius_inner": (0.02, 0.1), "radius_outer": (0.12, 0.4), "rotation_speed": (100.0, 1500.0)}
+_MUD = {
+    "particle_density": (1500.0, 4000.0),
+    "fluid_density": (900.0, 1200.0),
+    "sigma_factor": (500.0, 50000.0),
+    "volume_flow": (1e-4, 1e-2),
+}
+
+
+@formula(
+    source="ambler1959; geankoplis2003, § 14.4",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{g\,\ln(r_2/r_1)}",
+    typical=_BOWL,
+    title="Sigma of a tubular bowl, full capture",
+)
+def sigma_factor_tubular(bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
+    """Area of the settling basin that would do the same as a tubular bowl, for the smallest particle caught completely.
+
+    With this convention Q = v_g Σ.
+
+    >>> round(sigma_factor_tubular(0.1970, 0.00716, 0.02225, 2408.6), 1)
+    143.3
+    """
+    r1, r2 = radius_inner, radius_outer
+    return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (STANDARD_GRAVITY * jnp.log(r2 / r1))
+
+
+@formula(
+    source="mccabe2005, ch. 29; geankoplis2003, § 14.4",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{2 g\,\ln[2 r_2/(r_1 + r_2)]}",
+    typical=_BOWL,
+    title="Sigma of a tubular bowl, cut at half the layer thickness",
+)
+def sigma_factor_tubular_half_thickness(
+    bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed
+) -> Area:
+    """Sigma of a tubular bowl for the particle that crosses half the thickness of the liquid layer.
+
+    With this convention Q = 2 v_g Σ, and the particle is the cut size of half the feed by thickness.
+
+    >>> round(sigma_factor_tubular_half_thickness(0.1970, 0.00716, 0.02225, 2408.6), 1)
+    196.2
+    """
+    r1, r2 = radius_inner, radius_outer
+    return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * r2 / (r1 + r2)))
+
+
+@formula(
+    source="ambler1959",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2\,(r_2^2 - r_1^2)}{g\,\ln[2 r_2^2/(r_1^2 + r_2^2)]}",
+    typical=_BOWL,
+    title="Sigma of a tubular bowl, cut at half the flow area",
+)
+def sigma_factor_tubular_half_area(bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
+    """Sigma of a tubular bowl for the particle of which half is caught when it enters evenly over the flow area.
+
+    With this convention Q = 2 v_g Σ.
+
+    >>> round(sigma_factor_tubular_half_area(1.0, 0.1, 0.2, 100.0), 1)
+    204.5
+    """
+    r1, r2 = radius_inner, radius_outer
+    return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (STANDARD_GRAVITY * jnp.log(2.0 * r2**2 / (r1**2 + r2**2)))
+
+
+@formula(
+    source="ambler1959; perry2008, § 18",
+    equation=r"\Sigma = \frac{2\pi\,n\,\omega^2\,(r_2^3 - r_1^3)}{3 g\,\tan\theta}",
+    typical={
+        "disc_number": (20, 150),
+        "radius_inner": (0.03, 0.08),
+        "radius_outer": (0.1, 0.3),
+        "rotation_speed": (400.0, 1000.0),
+        "disc_angle": (0.6, 0.8),
+    },
+    title="Sigma of a disc stack",
+)
+def sigma_factor_disc(
+    disc_number: PositiveNumber, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed, disc_angle: Angle
+) -> Area:
+    """Area of the settling basin that would do the same as a stack of conical discs; the angle is that between disc and axis.
+
+    The number counts the gaps between discs.
+
+    >>> round(sigma_factor_disc(100, 0.05, 0.15, 700, "40 degree"))
+    40533
+    """
+    r1, r2 = radius_inner, radius_outer
+    return 2.0 * jnp.pi * disc_number * rotation_speed**2 * (r2**3 - r1**3) / (3.0 * STANDARD_GRAVITY * jnp.tan(disc_angle))
+
+
+@formula(
+    source="ambler1959; records2001",
+    equation=r"\Sigma = \frac{2\pi\omega^2}{g}\left[L_1\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right) + L_2\,\frac{r_2^2 + 3 r_1 r_2 + 4 r_1^2}{8}\right]",
+    typical={**_BOWL, "beach_length": (0.1, 0.5)},
+    title="Sigma of a scroll decanter",
+)
+def sigma_factor_scroll(
+    bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed, beach_length: Distance = 0.0
+) -> Area:
+    """Area of the settling basin that would do the same as a scroll decanter: cylinder and flooded part of the beach.
+
+    >>> round(sigma_factor_scroll(1.0, 0.15, 0.2, 300))
+    2054
+    """
+    r1, r2 = radius_inner, radius_outer
+    cylinder = bowl_length * (0.75 * r2**2 + 0.25 * r1**2)
+    beach = beach_length * (r2**2 + 3.0 * r1 * r2 + 4.0 * r1**2) / 8.0
+    return 2.0 * jnp.pi * rotation_speed**2 / STANDARD_GRAVITY * (cylinder + beach)
+
+
+@formula(
+    source="ambler1959",
+    equation=r"\Sigma = \frac{V\,\omega^2}{2 g\,\ln[2 r_2/(r_1 + r_2)]}",
+    typical={**_BOWL, "volume": (1e-5, 1e-3)},
+    title="Sigma of a bottle centrifuge",
+)
+def sigma_factor_bottle(volume: Volume, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
+    """Sigma of a laboratory bottle centrifuge, to scale up from a spin test: Q/Σ is volume per time over this.
+
+    >>> round(sigma_factor_bottle("50 mL", 0.08, 0.12, 300), 2)
+    1.26
+    """
+    return volume * rotation_speed**2 / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * radius_outer / (radius_inner + radius_outer)))
+
+
+@formula(
+    source="ambler1959",
+    equation=r"d = \sqrt{\frac{18\,\eta\,Q}{j\,E\,\Sigma\,g\,(\rho_p - \rho_f)}}",
+    typical=_MUD,
+)
+def cut_size_centrifuge(
+    volume_flow: VolumeFlow,
+    sigma_factor: Area,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    flow_multiple: PositiveNumber = 1.0,
+    sigma_efficiency: PositiveNumber = 1.0,
+) -> Length:
+    """Cut size of a centrifuge from its flow and Sigma by Stokes' law.
+
+    The flow multiple goes with the convention of Sigma: 1 where Q = v_g Σ (the size caught completely), 2 where Q = 2 v_g Σ (half
+    caught). Real machines reach 0.9 to 1 (tubular), 0.45 to 0.6 (disc) or 0.5 to 0.7 (scroll) of their Sigma.
+
+    >>> round(cut_size_centrifuge(0.002832 / 3600, 196.3, 1461, 801, 0.1, flow_multiple=2.0) * 1e6, 3)
+    0.746
+    """
+    excess = particle_density - fluid_density
+    some = excess > 0
+    settled = flow_multiple * sigma_efficiency * sigma_factor * STANDARD_GRAVITY * jnp.where(some, excess, 1.0)
+    return jnp.where(some, jnp.sqrt(18.0 * dynamic_viscosity * volume_flow / settled), jnp.inf)
+
+
+@formula(
+    source="svarovsky2001",
+    equation=r"E = \min\left(1,\;\frac{1 - \exp(-2 v_g\omega^2\tau/g)}{1 - (r_1/r_2)^2}\right),\quad \tau = \frac{\pi L (r_2^2 - r_1^2)}{Q}",
+    typical={**_BOWL, "terminal_velocity": (1e-9, 1e-7), "volume_flow": (1e-4, 1e-2)},
+    output="grade_efficiency",
+)
+def grade_efficiency_tubular(
+    terminal_velocity: Speed,
+    volume_flow: VolumeFlow,
+    bowl_length: Length,
+    radius_inner: Length,
+    radius_outer: Length,
+    rotation_speed: RotationSpeed,
+) -> Fraction:
+    """Share of a size caught in a tubular bowl with plug flow, from its settling velocity under gravity.
+
+    >>> round(grade_efficiency_tubular(1e-8, 1e-3, 1.0, 0.1, 0.2, 1000.0), 4)
+    0.2332
+    """
+    r1, r2 = radius_inner, radius_outer
+    hold_up = jnp.pi * bowl_length * (r2**2 - r1**2) / volume_flow
+    swept = -jnp.expm1(-2.0 * terminal_velocity * rotation_speed**2 * hold_up / STANDARD_GRAVITY)
+    return jnp.minimum(swept / (1.0 - (r1 / r2) ** 2), 1.0)
+
+
+@formula(
+    source="svarovsky2001",
+    equation=r"E = \min(1,\; v_g\,\Sigma/Q)",
+    typical={"terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2), "sigma_factor": (500.0, 5000.0)},
+    output="grade_efficiency",
+)
+def grade_efficiency_thin_layer(terminal_velocity: Speed, volume_flow: VolumeFlow, sigma_factor: Area) -> Fraction:
+    """Share of a size caught where the liquid layer is thin against its radius: between discs, in shallow pools.
+
+    >>> round(grade_efficiency_thin_layer(1e-8, 1e-3, 20000), 6)
+    0.2
+    """
+    return jnp.minimum(terminal_velocity * sigma_factor / volume_flow, 1.0)
+
+
+_LIQUIDS = {"density_heavy": (1000.0, 1300.0), "density_light": (750.0, 950.0), "radius_heavy": (0.05, 0.06), "radius_light": (0.045, 0.0475),
+            "radius_interface": (0.055, 0.08)}  # fmt: skip
+
+
+@formula(
+    source="mccabe2005, ch. 29",
+    equation=r"r_i^2 = \frac{\rho_H r_H^2 - \rho_L r_L^2}{\rho_H - \rho_L}",
+    typical=_LIQUIDS,
+    title="Interface of two liquids in a bowl",
+)
+def radius_interface(radius_heavy: Length, radius_light: Length, density_heavy: Density, density_light: Density) -> Length:
+    """Radius of the neutral zone between two liquids, from the radii over which each leaves.
+
+    >>> round(radius_interface(radius_heavy=0.010414, radius_light=0.010160, density_heavy=919.5, density_light=865) * 1e3, 2)
+    13.83
+    """
+    square = (density_heavy * radius_heavy**2 - density_light * radius_light**2) / (density_heavy - density_light)
+    return jnp.sqrt(jnp.where(square > 0, square, jnp.nan))
+
+
+@formula(
+    source="mccabe2005, ch. 29",
+    equation=r"r_H^2 = r_i^2 - \frac{\rho_L}{\rho_H}\,(r_i^2 - r_L^2)",
+    typical=_LIQUIDS,
+    title="Radius of the ring dam for the heavy liquid",
+)
+def radius_heavy_dam(radius_interface: Length, radius_light: Length, density_heavy: Density, density_light: Density) -> Length:
+    """Radius of the overflow of the heavy liquid (ring dam, gravity disc) that puts the interface where it is wanted.
+
+    >>> round(radius_heavy_dam(radius_interface=0.08, radius_light=0.05, density_heavy=1000, density_light=900), 5)
+    0.05376
+    """
+    i2, l2 = radius_interface**2, radius_light**2
+    return jnp.sqrt(i2 - density_light / density_heavy * (i2 - l2))
+
+
+@formula(
+    source="perry2008, § 18",
+    equation=r"\sigma_\theta = \rho_m\,\omega^2 R^2 + \frac{p R}{s}",
+    typical={"bowl_radius": (0.1, 0.5), "wall_thickness": (5e-3, 3e-2), "rotation_speed": (100.0, 600.0), "pressure": (1e5, 5e6)},
+)
+def hoop_stress_bowl(
+    bowl_radius: Length, wall_thickness: Length, rotation_speed: RotationSpeed, pressure: Pressure, wall_density: Density = 7850.0
+) -> Stress:
+    """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
+
+    >>> round(hoop_stress_bowl(0.3, 0.01, 300, 1e6) / 1e6, 1)
+    93.6
+    """
+    return wall_density * (rotation_speed * bowl_radius) ** 2 + pressure * bowl_radius / wall_thickness
