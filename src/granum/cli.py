@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -37,6 +38,12 @@ def _options(lang: Annotated[str, typer.Option("--lang", help="Language of messa
         set_language(lang)
 
 
+class Unexpected(GranumError):
+    """A fault of the program itself, not of its input."""
+
+    exit_code = 1
+
+
 def _fail(problem: GranumError, as_json: bool) -> NoReturn:
     if as_json:
         print(json.dumps({"error": problem.as_json()}, ensure_ascii=False))
@@ -55,6 +62,12 @@ def _one_message(command: Callable[..., None]) -> Callable[..., None]:
             _fail(problem, bool(kwargs.get("as_json")))
         except KeyboardInterrupt:
             raise SystemExit(130) from None
+        except Exception as problem:
+            if os.environ.get("GRANUM_TRACEBACK"):
+                raise
+            place = f"{type(problem).__name__}: {str(problem).splitlines()[0] if str(problem) else ''}"
+            text = _("Granum failed where it should not have ({place}). Please report it with the output of GRANUM_TRACEBACK=1.")
+            _fail(Unexpected(text.format(place=place)), bool(kwargs.get("as_json")))
 
     return run
 

@@ -71,11 +71,12 @@ def _place(found: Any, bad: list[str]) -> dict[str, Any]:
 
 def _failure(found: Any, bad: list[str], targets: tuple[Target, ...]) -> str:
     place = _place(found, bad)
-    if bad:
+    unmet = any(not np.isfinite(float(v)) for v in found.values.values())
+    if bad and not unmet:
         return _(
             "Stream '{stream}' from unit '{unit}' is not a finite number: check the inputs of that unit and of those before it."
         ).format(**place)
-    if not bool(found.solution.converged):
+    if not bool(found.solution.converged) and not unmet:
         return _(
             "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
         ).format(stream=place["stream"], unit=place["unit"], residual=f"{place['residual']:.2g}")

@@ -88,7 +88,10 @@ def quantity(value: Any, kind: str, name: str, where: str) -> float:
 
 def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     """The line a validated case describes."""
-    mixture = _mixture(case.mixture, folder)
+    try:
+        mixture = _mixture(case.mixture, folder)
+    except GranumError as problem:
+        raise CaseError(problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}", **problem.details) from None
     feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
     units = {name: _unit(name, dict(table)) for name, table in case.units.items()}
     links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
@@ -229,7 +232,7 @@ def _unit(name: str, table: dict[str, Any]) -> Any:
             raise InputError(_("'{model}' is a {sort}, not equipment.").format(model=model, sort=_(thing.card.sort)))
         return thing(**table)
     except GranumError as problem:
-        raise CaseError(f"[units.{name}] {problem.message}", unit=name, **problem.details) from None
+        raise CaseError(f"[units.{name}] {problem.message}", **{**problem.details, "unit": name}) from None
 
 
 def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:

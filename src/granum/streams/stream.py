@@ -60,7 +60,7 @@ class Stream(eqx.Module):
     @property
     def solid_by_species(self) -> Any:
         """Solid summed over all particle axes, kg/s per species."""
-        return jnp.sum(self.solid.reshape(self.solid.shape[0], -1), axis=1)
+        return jnp.sum(self.solid, axis=tuple(range(1, self.solid.ndim)))
 
     @property
     def solid_by_size(self) -> Any:

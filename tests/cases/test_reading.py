@@ -1,0 +1,95 @@
+"""Case files: what is wrong is said with table, key and remedy; a right one solves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from granum.cases import read_text
+from granum.core.errors import CaseError, ConvergenceError, GranumError
+
+GOOD = """
+title = "Heater loop"
+[mixture]
+liquids = ["water"]
+[feeds.cold]
+to = "mix.cold"
+temperature = "20 degC"
+liquid_flow = "3600 kg/h"
+[units.mix]
+model = "streams.mixer"
+[units.heat]
+model = "streams.heater"
+temperature = "60 degC"
+[units.split]
+model = "streams.splitter"
+side_fraction = "50 %"
+[streams]
+mixed = ["mix", "heat"]
+hot = ["heat", "split"]
+back = ["split.side", "mix.back"]
+"""
+
+
+def test_a_right_case_solves_and_closes() -> None:
+    run = read_text(GOOD).solve()
+    assert run.figure("mix.mass_flow") == pytest.approx(2.0, rel=1e-10)
+    assert run.audit["mass_closure"] < 1e-12
+    assert run.audit["energy_closure"] < 1e-12
+    data = run.as_json()
+    assert data["units"]["heat"]["results"]["temperature"] == {"value": pytest.approx(333.15), "unit": "K"}
+    assert set(data["streams"]) == {"cold", "mixed", "hot", "back", "split.product"}
+
+
+def test_specification_in_a_case() -> None:
+    text = GOOD + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "14400 kg/h"\nlower = 0\nupper = "95 %"\n'
+    run = read_text(text).solve()
+    assert run.found["split.side_fraction"] == pytest.approx(0.75, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("liquid_flow", "liquid_flwo", "liquid_flwo.*Did you mean 'liquid_flow'"),
+        ('"60 degC"', '"60 m"', r"\[units.heat\].*temperature.*unit 'm' does not fit"),
+        ('"60 degC"', '"-300 degC"', r"\[units.heat\].*must be greater than"),
+        ("streams.heater", "streams.heatr", "Did you mean 'streams.heater'"),
+        ('side_fraction = "50 %"', 'side_fraction = "50"', "Did you mean 50 %"),
+        ('["water"]', '["watr"]', "watr.*Did you mean 'water'"),
+        ('model = "streams.mixer"', "", "needs 'model'"),
+        ('["heat", "split"]', '["heat", "split", "x"]', "write it as"),
+        ('"mix.cold"', '"nix.cold"', "nix"),
+        ('title = "Heater loop"', "", "'title' is missing"),
+        ("[mixture]", "[mixture", "not valid TOML"),
+    ],
+)
+def test_wrong_cases_say_what_to_do(old: str, new: str, message: str) -> None:
+    assert old in GOOD
+    with pytest.raises(CaseError, match=message):
+        read_text(GOOD.replace(old, new))
+
+
+def test_unconverged_names_stream_and_unit_and_keeps_the_last_iterate() -> None:
+    with pytest.raises(ConvergenceError, match="back.*split.*purge") as caught:
+        read_text(GOOD.replace('"50 %"', "1.0")).solve()
+    assert caught.value.last is not None
+    assert caught.value.exit_code == 3
+
+
+def test_infeasible_specification_says_which() -> None:
+    text = GOOD + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "0.1 kg/h"\nlower = 0\nupper = 0.9\n'
+    with pytest.raises(ConvergenceError, match=r"mix\.mass_flow"):
+        read_text(text).solve()
+
+
+def test_report_and_tables(tmp_path: Path) -> None:
+    run = read_text(GOOD).solve()
+    run.report(tmp_path / "out.html")
+    run.tables(tmp_path / "out.csv")
+    run.tables(tmp_path / "out.xlsx")
+    page = (tmp_path / "out.html").read_text(encoding="utf-8")
+    for word in ("Heater loop", "<svg", "60 °C", "Calculation note", "sha256"):
+        assert word in page
+    assert "mass_flow [kg/s]" in (tmp_path / "out.csv").read_text(encoding="utf-8")
+    with pytest.raises(GranumError, match=r"\.csv or \.xlsx"):
+        run.tables(tmp_path / "out.doc")

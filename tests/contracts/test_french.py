@@ -1,0 +1,38 @@
+"""Every message of the program has its French; every catalog belongs to something."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from string import Formatter
+
+import granum
+import pytest
+from babel.messages.extract import extract_from_dir
+from granum.core.glossary import glossary
+from granum.core.i18n import catalog
+from granum.core.kinds import KINDS
+
+SOURCE = Path(granum.__file__).parent
+MESSAGES = sorted({m for _f, _n, m, _c, _x in extract_from_dir(str(SOURCE), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=()) if isinstance(m, str)})
+
+
+def fields(text: str) -> set[str]:
+    return {name for _t, name, _s, _c in Formatter().parse(text) if name}
+
+
+@pytest.mark.parametrize("package", sorted(p.name for p in SOURCE.iterdir() if p.is_dir() and not p.name.startswith("__")))
+def test_messages_have_french(package: str) -> None:
+    found = extract_from_dir(str(SOURCE / package), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=())
+    messages = {m for _f, _n, m, _c, _x in found if isinstance(m, str)}
+    missing = sorted(m for m in messages if m not in catalog("fr"))
+    assert not missing, f"{len(missing)} messages without French: {missing}"
+
+
+def test_french_keeps_the_placeholders() -> None:
+    wrong = [m for m, french in catalog("fr").items() if "{" in m and m in MESSAGES and fields(m) != fields(french)]
+    assert not wrong
+
+
+def test_kinds_and_terms_have_french() -> None:
+    assert [k.name for k in KINDS.values() if k.name not in catalog("fr")] == []
+    assert [t.name for t in glossary().values() if not t.fr] == []
