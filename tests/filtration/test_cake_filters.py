@@ -93,7 +93,7 @@ def test_balances_close_and_figures_make_sense(name, washed):
         # plug displacement is the best that washing can do
         assert max(0.0, 1 - figures.wash_ratio) <= figures.solute_remaining < 1
         left = float(out.cake.liquid[1] / (feed.liquid[1] * figures.cake_saturation * unit.squeezed()))
-        assert left < float(unit.slurry(feed).liquid_share)
+        assert left < float(unit.slurry(feed).void_volume_flow / feed.liquid_volume_flow)
     else:
         assert float(out.washings.mass_flow) == 0.0
     assert all(check.source and check.name for check in unit.checks(inlets, out))

@@ -11,8 +11,9 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Length, Time, VoidFraction
-from granum.filtration.equipment.cake_filter import CakeFilter, Filtered, Plan, Slurry
+from granum.filtration.equipment.cake_filter import CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
+from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 

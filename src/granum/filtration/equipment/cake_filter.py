@@ -29,20 +29,13 @@ from granum.filtration.formulas.deliquoring import capillary_number_cake, irredu
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
 from granum.filtration.formulas.washing import axial_dispersion_cake, dispersion_number, solute_remaining_dispersion
 from granum.filtration.quantities import MassPerArea
-from granum.streams.stream import Stream, empty
+from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
+from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 _CAPACITY = "share of the filtration capacity in use"
 _WASH = "share of the washing capacity in use"
 _TOO_THICK = "solids in the feed over those of a packed cake"
-
-
-class Filtered(NamedTuple):
-    """Wet cake, mother filtrate, and the wash filtrate with what it displaced (empty without wash liquor)."""
-
-    cake: Stream
-    filtrate: Stream
-    washings: Stream
 
 
 class Plan(NamedTuple):
@@ -86,7 +79,6 @@ class Slurry(NamedTuple):
     dynamic_viscosity: Any
     dry_cake_per_filtrate: Any
     void_volume_flow: Any
-    liquid_share: Any
 
 
 class CakeFilter(Unit):
@@ -120,13 +112,10 @@ class CakeFilter(Unit):
 
     def slurry(self, feed: Stream) -> Slurry:
         """Flows and properties that the filtration equations need."""
-        solid = self.solids_recovery * feed.solid_flow
-        void = solid / feed.solid_density * self.void_fraction / (1.0 - self.void_fraction)
-        liquid = feed.liquid_volume_flow
-        kept = jnp.minimum(void, liquid)
-        filtrate = jnp.maximum(liquid - kept, 1e-12 * liquid + 1e-300)
-        share = kept / jnp.where(liquid > 0, liquid, 1.0)
-        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, solid / filtrate, void, share)
+        solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
+        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + 1e-300)
+        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, solid / filtrate, void)
 
     def wash_flux(self, loading: Any, feed: Stream, wash: Stream | None) -> Any:
         """Superficial velocity of wash liquor through a cake of that dry mass per area."""
@@ -174,27 +163,13 @@ class CakeFilter(Unit):
         )
 
     def _diameter(self, feed: Stream) -> Any:
-        if self.particle_diameter is not None:
-            return self.particle_diameter
-        share = feed.size_fractions
-        inverse = jnp.sum(share / feed.mixture.sizes)
-        return jnp.where(inverse > 0, 1.0 / jnp.where(inverse > 0, inverse, 1.0), 1e-4)
+        return solid_diameter(feed, self.particle_diameter)
 
     def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
-        plan, s = self.plan(feed, wash), self.slurry(feed)
+        plan = self.plan(feed, wash)
         wet = self.saturation(feed, plan) * self.squeezed()
-        kept = feed.part(solid=self.solids_recovery, liquid=s.liquid_share)
-        through = feed.part(solid=1.0 - self.solids_recovery, liquid=1.0 - s.liquid_share, gas=1.0)
-        if wash is None:
-            cake = kept.part(solid=1.0, liquid=wet)
-            return Filtered(cake, through.replace(liquid=feed.liquid - cake.liquid), empty(feed.mixture, feed.temperature, feed.pressure))
         left = self.solute_left(feed, wash, plan)
-        flow = wash.liquid_volume_flow
-        stays = (1.0 - left) * jnp.minimum(s.void_volume_flow, feed.liquid_volume_flow) / jnp.where(flow > 0, flow, 1.0)
-        joined = kept + wash
-        cake = joined.replace(liquid=wet * (left * kept.liquid + jnp.minimum(stays, 1.0) * wash.liquid), gas=0.0 * joined.gas)
-        washings = joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid)
-        return Filtered(cake, through, washings)
+        return part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=left)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> CakeFigures:
         feed, wash = inlets["feed"], inlets.get("wash")

@@ -10,8 +10,9 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Length, RotationSpeed, Speed
-from granum.filtration.equipment.cake_filter import CakeFilter, Filtered, Plan
+from granum.filtration.equipment.cake_filter import CakeFilter, Plan
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
+from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 

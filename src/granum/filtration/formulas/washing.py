@@ -3,19 +3,10 @@
 from __future__ import annotations
 
 import jax.numpy as jnp
-from jax.scipy.special import erfc, log_ndtr
 
 from granum.core import formula
 from granum.core.kinds import Diffusivity, Fraction, Length, PositiveNumber, Ratio, Speed
-
-
-def _terms(wash_ratio, dispersion_number):
-    """erfc((1−w)√Dn/2√w) and exp(Dn) erfc((1+w)√Dn/2√w), the second without overflow."""
-    w = jnp.where(wash_ratio > 0, wash_ratio, 1.0)
-    scale = 0.5 * jnp.sqrt(dispersion_number / w)
-    first = erfc((1.0 - w) * scale)
-    second = 2.0 * jnp.exp(dispersion_number + log_ndtr(-jnp.sqrt(2.0) * (1.0 + w) * scale))
-    return first, second
+from granum.porous import displacement
 
 
 @formula(
@@ -33,8 +24,7 @@ def wash_effluent_concentration(wash_ratio: Ratio, dispersion_number: PositiveNu
     >>> round(wash_effluent_concentration(wash_ratio=1.0, dispersion_number=1e3), 2)
     0.49
     """
-    first, second = _terms(wash_ratio, dispersion_number)
-    return jnp.where(wash_ratio > 0, 1.0 - 0.5 * (first + second), 1.0)
+    return displacement.effluent_concentration(wash_ratio, dispersion_number)
 
 
 @formula(
@@ -52,9 +42,7 @@ def solute_remaining_dispersion(wash_ratio: Ratio, dispersion_number: PositiveNu
     >>> round(solute_remaining_dispersion(wash_ratio=1.5, dispersion_number=10.0), 3)
     0.048
     """
-    first, second = _terms(wash_ratio, dispersion_number)
-    w = wash_ratio
-    return jnp.where(w > 0, jnp.maximum(1.0 - w + 0.5 * ((w - 1.0) * first + (w + 1.0) * second), 0.0), 1.0)
+    return displacement.remaining_fraction(wash_ratio, dispersion_number)
 
 
 @formula(
@@ -82,7 +70,7 @@ def axial_dispersion_cake(velocity: Speed, particle_diameter: Length, diffusivit
     >>> round(axial_dispersion_cake(velocity=1e-4, particle_diameter="50 um", diffusivity=1e-9) * 1e9, 3)
     9.457
     """
-    return diffusivity / jnp.sqrt(2.0) + 1.75 * velocity * particle_diameter
+    return displacement.axial_dispersion(velocity, particle_diameter, diffusivity)
 
 
 @formula(source="sherman1964", equation=r"D_n = \frac{v Z}{D_L}", typical={"velocity": (1e-5, 1e-3), "axial_dispersion": (1e-9, 1e-7)})
