@@ -84,7 +84,9 @@ def test_hydrate_takes_water_and_balances():
 
 
 def test_gradient_and_batch():
-    f = lambda T: vessel(temperature=T).relative_supersaturation
+    def f(T):
+        return vessel(temperature=T).relative_supersaturation
+
     difference = (f(293.16) - f(293.14)) / 0.02
     assert float(jax.jit(jax.grad(f))(293.15)) == pytest.approx(float(difference), rel=1e-5)
     many = jax.jit(jax.vmap(f))(jnp.array([285.0, 293.15]))

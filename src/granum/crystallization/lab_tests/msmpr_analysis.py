@@ -44,7 +44,7 @@ def population_densities(
 
     >>> n = population_densities(class_edges="[0.833, 1.168] mm", class_fractions=[0.044], magma_density=450, crystal_density=1335)
     >>> round(float(n[0]) / 1e6)
-    44215
+    44207
     """
     edges = jnp.asarray(class_edges)
     middle = 0.5 * (edges[1:] + edges[:-1])

@@ -1,0 +1,100 @@
+"""How much seed of which size."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from granum.core import formula
+from granum.core.kinds import Density, GrowthRate, Length, Mass, PositiveNumber, Ratio, SpecificSurfaceMass, Time
+
+
+@formula(
+    source="mullin2001, sec. 9.1.3",
+    equation=r"\frac{L_p}{L_s} = \left(\frac{M_p}{M_s}\right)^{1/3}",
+    output="product_size",
+    typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
+)
+def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mass) -> Length:
+    """Size of the product when everything that crystallizes grows on the seeds, none being born.
+
+    >>> round(product_size_from_seed(seed_size="100 um", seed_mass=1.0, product_mass=125.0) * 1e6, 6)
+    500.0
+    """
+    return seed_size * (product_mass / seed_mass) ** (1.0 / 3.0)
+
+
+@formula(
+    source="mullin2001, sec. 9.1.3",
+    equation=r"M_s = M_p \left(\frac{L_s}{L_p}\right)^3",
+    output="seed_mass",
+    typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "product_mass": (10.0, 100.0)},
+)
+def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass: Mass) -> Mass:
+    """Mass of seed of a given size for a product of a given size and mass, none being born.
+
+    >>> round(seed_mass_for_product(seed_size="100 um", product_size="500 um", product_mass=125.0), 6)
+    1.0
+    """
+    return product_mass * (seed_size / product_size) ** 3
+
+
+@formula(
+    source="kubota2001",
+    equation=r"C_s^* = 2.17\times10^{-6}\,L_s^2\ (L_s\ \mathrm{in\ \mu m})",
+    output="seed_loading",
+    typical={"seed_size": (3e-5, 5e-4)},
+)
+def seed_loading_critical(seed_size: Length) -> Ratio:
+    """Critical seed loading (mass of seed over the theoretical crop) above which secondary nucleation is practically suppressed.
+
+    An empirical line through several inorganic and organic systems with natural cooling, after Kubota, Doki and others: use it as a first guess.
+
+    >>> round(seed_loading_critical(seed_size="100 um"), 4)
+    0.0217
+    """
+    return 2.17e-6 * (seed_size * 1e6) ** 2
+
+
+class SeedChart(NamedTuple):
+    """Ideal growth ratio and seed numbers."""
+
+    growth_ratio: PositiveNumber
+    seeds_per_mass: PositiveNumber
+    seed_surface: SpecificSurfaceMass
+
+
+@formula(
+    source="kubota2001; mullin2001, sec. 9.1.3",
+    equation=r"\frac{L_p}{L_s} = \left(\frac{1 + C_s}{C_s}\right)^{1/3}",
+    title="Seeding: ideal growth line",
+    typical={"seed_loading": (0.005, 0.3)},
+)
+def seed_chart(
+    seed_loading: PositiveNumber, seed_size: Length, crystal_density: Density, volume_shape_factor: PositiveNumber = 1.0,
+    surface_shape_factor: PositiveNumber = 6.0,
+) -> SeedChart:  # fmt: skip
+    """Ideal growth line of the seed chart: product over seed size for a seed loading, with number and surface of the seeds.
+
+    The loading is the mass of seed over the theoretical crop (which does not include the seed).
+
+    >>> round(seed_chart(seed_loading=1 / 7, seed_size=1e-4, crystal_density=2000).growth_ratio, 6)
+    2.0
+    """
+    mass = crystal_density * volume_shape_factor * seed_size**3
+    ratio = ((1.0 + seed_loading) / seed_loading) ** (1.0 / 3.0)
+    return SeedChart(ratio, 1.0 / mass, surface_shape_factor * seed_size**2 / mass)
+
+
+@formula(
+    source="mullin2001, sec. 9.1.3; jones1974",
+    equation=r"G_{max} = \frac{L_p - L_s}{t_f}",
+    output="duration",
+    typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "growth_rate": (1e-8, 2e-7)},
+)
+def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: GrowthRate) -> Time:
+    """Time that seeds need to reach the product size at a constant growth rate in m/s.
+
+    >>> round(duration_for_growth(seed_size="100 um", product_size="500 um", growth_rate=1e-7))
+    4000
+    """
+    return (product_size - seed_size) / growth_rate

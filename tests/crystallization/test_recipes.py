@@ -1,0 +1,205 @@
+"""Recipes, choice, charts, moments and the formulas of kinetics: printed numbers, limits and agreement of engines."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from tests.crystallization.cases import DENSITY, DURATION, KB, KG, START, linear_cooling, model, seeds
+
+from granum.core.errors import ApplicabilityError, InputError
+from granum.crystallization.charts import size_distribution_chart, solubility_chart
+from granum.crystallization.equipment.batch import BatchCrystallizer
+from granum.crystallization.equipment.msmpr import Msmpr, VacuumCrystallizer
+from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
+from granum.crystallization.formulas.classified import population_density_classified, population_density_second_stage
+from granum.crystallization.formulas.film import film_growth
+from granum.crystallization.formulas.growth import PowerLawDissolution, growth_rate_birth_and_spread, growth_rate_spiral
+from granum.crystallization.formulas.msmpr import dominant_size_changed, population_density, population_density_size_dependent
+from granum.crystallization.formulas.nucleation import (
+    critical_radius,
+    heterogeneous_factor,
+    interfacial_energy_mersmann,
+    nucleation_rate_classical,
+)
+from granum.crystallization.formulas.programs import PowerCooling
+from granum.crystallization.formulas.ripening import supersaturation_ratio_gibbs_thomson
+from granum.crystallization.formulas.seeding import seed_chart
+from granum.crystallization.formulas.solubility_laws import LibrarySolubility
+from granum.crystallization.population.lagrangian import march
+from granum.crystallization.population.moment_equations import march_moments
+from granum.crystallization.population.operations import Programmed
+from granum.crystallization.recipes import choose, optimal_cooling
+from granum.crystallization.vessels.batch import batch
+from granum.streams.audit import closure
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import empty
+
+SOLUBILITY = {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}
+GROWTH = {"law": "power_law_growth", "growth_coefficient": KG, "growth_order": 1.32}
+NUCLEATION = {"law": "secondary_nucleation", "nucleation_coefficient": KB, "nucleation_order": 1.78}
+SEEDED = {
+    "solute_per_solvent": START, "solubility": SOLUBILITY, "growth": GROWTH, "nucleation": NUCLEATION, "duration": DURATION, "crystal_density": DENSITY,
+    "seed_mass_per_solvent": 5e-4, "seed_size": "100 um", "seed_width": "20 um",
+}  # fmt: skip
+
+
+def test_three_engines_agree():
+    times = jnp.linspace(0.0, DURATION, 801)
+    packets = march(model(), Programmed(linear_cooling), seeds(), START, 1.0, times)
+    moments = march_moments(model(), Programmed(linear_cooling), seeds(), START, 1.0, times[::100])
+    np.testing.assert_allclose(packets.moments[::100], moments, rtol=1e-4)
+
+
+def test_moment_equations_are_refused_where_they_are_not_closed():
+    with pytest.raises(ApplicabilityError, match="packet engine"):
+        march_moments(model(dissolution=PowerLawDissolution(1e-5)), Programmed(linear_cooling), seeds(), START, 1.0, jnp.array([0.0, 1.0]))
+
+
+def test_optimal_cooling_beats_linear_and_cubic_and_respects_the_limit():
+    best = optimal_cooling(**SEEDED, temperature_start=305.15, temperature_end=301.15, intervals=8, steps=160)
+    cubic = batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION, 3.0), steps=160)
+    assert best.nuclei_mass_fraction < 0.9 * best.nuclei_mass_fraction_linear
+    assert best.nuclei_mass_fraction <= cubic.nuclei_mass_fraction * 1.001
+    assert np.all(np.diff(best.temperature) <= 1e-9)
+    limited = optimal_cooling(**SEEDED, temperature_start=305.15, temperature_end=301.15, intervals=8, steps=160,
+                              relative_supersaturation_maximum=0.9 * best.relative_supersaturation_maximum)  # fmt: skip
+    assert limited.relative_supersaturation_maximum <= 0.9 * best.relative_supersaturation_maximum * (1 + 1e-4)
+
+
+def test_batch_errors_speak_plainly():
+    program = PowerCooling(305.15, 301.15, DURATION)
+    with pytest.raises(InputError, match="width"):
+        batch(**{**SEEDED, "seed_width": "300 um"}, temperature_program=program)
+    with pytest.raises(InputError, match="per kg of solvent"):
+        batch(**{**SEEDED, "solute_per_solvent": 49.3}, temperature_program=program)
+    with pytest.raises(InputError):
+        batch(**{**SEEDED, "solubility": {"law": "polynomial_solubility", "coefficients": [-1.0]}}, temperature_program=program)
+
+
+def test_batch_error_estimate_is_honest():
+    coarse, fine = (batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION), steps=n) for n in (100, 1600))
+    truth = abs(float(coarse.crystals_number[-1] / fine.crystals_number[-1]) - 1)
+    assert 0.5 * truth < coarse.step_error < 2.0 * truth
+
+
+def test_choice_follows_the_solubility_slope():
+    """Course notes, figure I.12: potassium nitrate by cooling, copper sulfate by vacuum, sodium chloride by evaporation."""
+    steep = choose(SOLUBILITY, 353.15, 293.15, 1.0)[0].name
+    flat = choose({"law": "polynomial_solubility", "coefficients": [0.356, 3e-4]}, 353.15, 293.15, 1.0)[0].name
+    small = choose(SOLUBILITY, 353.15, 293.15, 0.01)[0].name
+    assert "cooling through a wall" in steep
+    assert "continuous" in steep
+    assert "evaporation" in flat
+    assert "batch" in small
+
+
+def test_film_model_limits():
+    """Order 1: the resistances add. Fast integration: diffusion alone. Second order against its quadratic."""
+    flux = film_growth(110.0, 100.0, 2e-5, 3e-5, 1.0).growth_flux
+    assert flux == pytest.approx(10 / (1 / 2e-5 + 1 / 3e-5))
+    assert film_growth(110.0, 100.0, 1e-5, 10.0, 1.0).growth_flux == pytest.approx(1e-4, rel=1e-5)
+    kd, kr, d = 1e-5, 1e-6, 10.0
+    y = (-kd + np.sqrt(kd**2 + 4 * kr * kd * d)) / (2 * kr)
+    assert film_growth(100 + d, 100.0, kd, kr, 2.0).interface_concentration == pytest.approx(100 + y)
+    assert film_growth(90.0, 100.0, kd, kr, 2.0).growth_flux == 0.0
+
+
+def test_growth_laws_have_their_limits():
+    """BCF: parabola below, line above; birth and spread: nothing at saturation."""
+    assert growth_rate_spiral(1e-3, 1e-6, 1.0) == pytest.approx(1e-6 * 1e-6, rel=1e-6)
+    assert growth_rate_spiral(10.0, 1e-6, 1e-3) == pytest.approx(1e-6 * 10.0, rel=1e-3)
+    assert growth_rate_birth_and_spread(0.0, 1e-6, 0.1) == 0.0
+    gradient = jax.grad(lambda s: growth_rate_birth_and_spread(s, 1e-6, 0.1))(0.0)
+    assert np.isfinite(float(gradient))
+
+
+def test_classical_nucleation_of_water():
+    """Critical radius: r = 2 gamma v / (kT ln S), by hand; a complete wetting leaves no barrier; rates rise with supersaturation."""
+    v = 18.015e-3 / (997 * 6.02214076e23)
+    expected = 2 * 0.072 * v / (1.380649e-23 * 298.15 * np.log(4.0))
+    assert critical_radius(4.0, 0.072, 997.0, 18.015e-3) == pytest.approx(expected, rel=1e-9)
+    assert heterogeneous_factor(np.pi) == pytest.approx(1.0)
+    assert heterogeneous_factor(0.0) == pytest.approx(0.0)
+    rates = np.asarray(nucleation_rate_classical(np.array([1.0, 2.0, 4.0, 8.0]), 5e-3, 2000.0, 0.1, 1e30))
+    assert rates[0] == 0.0
+    assert np.all(np.diff(rates) > 0)
+
+
+def test_interfacial_energy_falls_with_solubility():
+    """Mersmann: barium sulfate, 1e-2 mol/m3 in 19.3e3 mol/m3, about 0.13 J/m2."""
+    assert interfacial_energy_mersmann(19300.0, 0.01) == pytest.approx(0.126, abs=0.01)
+    assert interfacial_energy_mersmann(19300.0, 100.0) < interfacial_energy_mersmann(19300.0, 1.0)
+
+
+def test_barium_sulfate_ripening_of_mullin():
+    """0.13 J/m2, 4500 kg/m3, two ions: 0.5, 6 and 72 % more soluble at 1, 0.1 and 0.01 um."""
+    for size, excess in ((1e-6, 0.005), (1e-7, 0.06), (1e-8, 0.72)):
+        ratio = supersaturation_ratio_gibbs_thomson(size, 0.13, 4500.0, 0.233, 298.15, 2.0)
+        assert ratio - 1 == pytest.approx(excess, rel=0.1)
+
+
+def test_brownian_kernel_of_equal_sizes():
+    assert agglomeration_coefficient_brownian(1e-6, 1e-6, 1e-3, 298.15) == pytest.approx(8 * 1.380649e-23 * 298.15 / 3e-3)
+
+
+def test_continuous_populations_have_their_limits():
+    L = np.linspace(0.0, 1e-3, 5)
+    plain = population_density(L, 1e12, 5e-8, 3600.0)
+    np.testing.assert_allclose(population_density_classified(L, 1e12, 5e-8, 3600.0, 1.0, 1e-4, 1.0, 5e-4), plain)
+    np.testing.assert_allclose(population_density_size_dependent(L, 1e12, 5e-8, 3600.0, 1e3, 1e-9), plain, rtol=1e-6)
+    # Equal stages: the limit of the difference quotient.
+    near = population_density_second_stage(L[1:], 1.0, 1e-4, 1e-4 * (1 - 1e-5))
+    np.testing.assert_allclose(population_density_second_stage(L[1:], 1.0, 1e-4, 1e-4), near, rtol=1e-3)
+    assert dominant_size_changed(5e-4, 4.0, 1.0, 1.0) == pytest.approx(5e-4)
+
+
+def test_seed_chart_is_the_cube_root_law():
+    assert seed_chart(1 / 26.0, 1e-4, 2000.0).growth_ratio == pytest.approx(3.0)
+
+
+def test_charts_draw():
+    assert (
+        len(solubility_chart(SOLUBILITY, 283.15, 323.15, path_temperature=[305.0, 301.0], path_solute_per_solvent=[0.49, 0.43]).data) == 3
+    )
+    drawing = size_distribution_chart(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION))
+    area = [float(np.sum(t.y) * (t.x[1] - t.x[0])) for t in drawing.data]
+    assert area[0] == pytest.approx(0.5, rel=1e-3)  # g of seed per kg
+    assert area[-1] > 50 * area[0]
+
+
+def mixture() -> Mixture:
+    edges = (0.0, *map(float, np.geomspace(2e-5, 2.5e-3, 40)))
+    return Mixture(
+        (Species("potassium nitrate", (("potassium nitrate", 1.0),), (2110.0,), (920.0,), -345e3),),
+        (Species("water", (("water", 1.0),), (998.0,), (4186.0,)), Species("potassium nitrate", (("potassium nitrate", 1.0),), (2500.0,), (900.0,))),
+        (Species("water", (("water", 1.0),), (), (1900.0,), 2.501e6, 0.018),), edges,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["msmpr", "evaporative", "vacuum", "batch"])
+def test_equipment_closes_its_balances(kind):
+    kinetics = {"solubility": SOLUBILITY, "growth": GROWTH, "nucleation": NUCLEATION}
+    unit = {
+        "msmpr": lambda: Msmpr(temperature=293.15, volume=5.0, **kinetics),
+        "evaporative": lambda: Msmpr(temperature=293.15, volume=5.0, evaporation=0.1, **kinetics),
+        "vacuum": lambda: VacuumCrystallizer(temperature=293.15, volume=5.0, **kinetics),
+        "batch": lambda: BatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, seed_mass_per_solvent=0.01, **kinetics),
+    }[kind]()
+    feed = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))
+    out = unit(feed=feed)
+    streams = [s for s in (out.product, getattr(out, "vapor", None)) if s is not None]
+    found = closure([feed], streams, out.heat_duty)
+    assert float(found.mass) < 1e-12
+    assert float(found.energy) < 1e-12
+    figures = unit.results({"feed": feed}, out)
+    assert 0.6 < float(figures.yield_fraction) < 0.85
+    assert all(check.ok for check in unit.checks({"feed": feed}, out) if "volume" not in check.name)
+    if kind == "vacuum":
+        assert float(out.heat_duty) == pytest.approx(0.0, abs=1e-3)
+        assert 0.15 < float(figures.evaporation) < 0.2
+
+
+def test_library_solubility_is_a_law():
+    assert float(LibrarySolubility("potassium nitrate")(293.15)) == pytest.approx(0.316, rel=0.03)
