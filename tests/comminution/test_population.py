@@ -109,6 +109,7 @@ def test_partition_test_gives_back_its_curve() -> None:
     assert fit["sharpness"].value == pytest.approx(2.8, rel=1e-6)
     assert fit["bypass_fraction"].value == pytest.approx(0.15, rel=1e-6)
     assert fit["sharpness_index"].value == pytest.approx(9 ** (-1 / 2.8), rel=1e-6)
+    assert len(PartitionTest(sizes, total * part, total * (1 - part), with_bypass=True).chart().data) == 2
     with pytest.raises(InputError, match="other side of 50"):
         PartitionTest([1e-4, 2e-4, 3e-4], [8.0, 9.0, 9.5], [1.0, 1.0, 0.5]).fit()
 

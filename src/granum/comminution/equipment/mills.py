@@ -14,7 +14,7 @@ from granum.comminution.population import TanksInSeries, fragments, rate_matrix
 from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time
+from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time, Within
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
@@ -51,7 +51,7 @@ class BallMill(Unit):
     breakage: Annotated[Any, Law("breakage_function")]
     holdup_mass: Mass
     mixing: Annotated[Any, Law("residence_time_law")] = TanksInSeries(1)
-    shaft_power: Power = 0.0
+    shaft_power: Annotated[Power, Within(0.0)] = 0.0
 
     def _residence_time(self, feed: Stream) -> Any:
         return self.holdup_mass / jnp.maximum(feed.solid_flow, _TINY)
@@ -84,7 +84,7 @@ class BondMill(Unit):
     The product keeps the shape of the feed's distribution; a self-similar product is what Bond's law assumes.
     """
 
-    shaft_power: Power
+    shaft_power: Annotated[Power, Within(0.0)]
     work_index: WorkIndex
     efficiency_factor: PositiveNumber = 1.0
 
@@ -130,7 +130,7 @@ class ConeCrusher(Unit):
     always_broken_size: Length
     breakage: Annotated[Any, Law("breakage_function")]
     classification_exponent: PositiveNumber = 2.3
-    shaft_power: Power = 0.0
+    shaft_power: Annotated[Power, Within(0.0)] = 0.0
 
     def __check_init__(self) -> None:
         low, high = self.always_passing_size, self.always_broken_size

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf
-from typing import Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from granum.particles.partition import (
     RosinRammlerPartition,
     WhitenPartition,
 )
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
 
 _CURVES = {
     "logistic": LogisticPartition,
@@ -87,3 +90,15 @@ class PartitionTest(LabTest):
             sigma=1.0 / np.sqrt(np.where(filled, total / total.max(), 1.0)),
             bounds={"cut_size": (sizes.min() * 1e-2, sizes.max() * 1e2), "sharpness": (1e-3, inf), "bypass_fraction": (0.0, 0.99)},
         )  # fmt: skip
+
+    def chart(self) -> go.Figure:
+        """Measured partition numbers and the fitted curve over the logarithm of size."""
+        from granum.particles.charts_sizes import partition_chart
+
+        numbers, total = self.partition_numbers()
+        filled = total > 0
+        return partition_chart(
+            separation=self.curve(self.fit().values),
+            particle_diameter=np.asarray(self.class_sizes)[filled],
+            partition_number=numbers[filled],
+        )
