@@ -160,3 +160,12 @@ def test_drainage_by_hand_and_limits():
     assert S[-1] == pytest.approx(0.1, abs=0.01)
     assert cl.hoop_stress_bowl(0.3, 0.01, 300.0, 0.0) == pytest.approx(7850 * 90**2)
     assert cl.sigma_factor_bottle(1e-4, 0.08, 0.12, 300.0) == pytest.approx(1e-4 * 9e4 / (2 * g * np.log(1.2)))
+
+
+def test_contact_liquid_by_hand():
+    # d_h = 2·0.42·2e-4/(3·0.58) = 9.655e-5 m, field 1050·167.5²·0.23 = 6.7756e6, N_c = 0.877, rise 4·0.072/(6.7756e6·9.655e-5·0.04)
+    S = sp.irreducible_saturation_leung(2e-4, 0.42, 0.04, 0.23, 167.5, 1050.0, 0.072)
+    rise = 0.288 / (6.77559e6 * 9.6552e-5 * 0.04)
+    assert pytest.approx(rise + 0.075 * (1 - rise), rel=1e-4) == S
+    coarse = sp.irreducible_saturation_leung(1e-3, 0.42, 0.04, 0.23, 167.5, 1050.0, 0.072)
+    assert coarse < S

@@ -1,0 +1,269 @@
+"""Filtering centrifuges in a line: batch basket (peeler) through its whole cycle, and pusher."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.centrifuges.formulas.field import centrifugal_effect
+from granum.centrifuges.formulas.spinning import (
+    cake_saturation_spinning,
+    filtrate_flow_basket,
+    filtrate_flow_critical,
+    loading_time_basket,
+    spin_off_time,
+)
+from granum.core import equipment
+from granum.core.kinds import (
+    CakeResistance,
+    Diffusivity,
+    Distance,
+    Fraction,
+    Length,
+    MediumResistance,
+    MoistureDryBasis,
+    PositiveNumber,
+    Power,
+    Ratio,
+    RotationSpeed,
+    SurfaceTension,
+    Time,
+    VoidFraction,
+)
+from granum.porous.displacement import axial_dispersion, remaining_fraction
+from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+RPM = 0.10471975511965977  # radian/s
+_USE = "share of the capacity in use"
+_FLOOD = "filtrate over the critical flow (flooding)"
+_COARSE = "particle diameter"
+_RICH = "solids in the feed by volume"
+_EFFECT = "centrifugal effect"
+_LAYER = "cake thickness"
+
+
+class Spin(NamedTuple):
+    """How one cake passes through the machine."""
+
+    loading_time: Any
+    wash_time: Any
+    spin_off_time: Any
+    drainage_time: Any
+    cycle_time: Any
+    capacity_use: Any
+    flooding: Any
+
+
+class SpinFigures(NamedTuple):
+    """Figures of a filtering centrifuge."""
+
+    capacity_use: Ratio
+    cake_thickness: Distance
+    loading_time: Time
+    wash_time: Time
+    spin_off_time: Time
+    drainage_time: Time
+    cycle_time: Time
+    centrifugal_effect: Ratio
+    wash_ratio: Ratio
+    solute_remaining: Fraction
+    cake_saturation: Fraction
+    moisture_dry_basis: MoistureDryBasis
+    shaft_power: Power
+
+
+class FilteringCentrifuge(Unit):
+    """Abstract filtering centrifuge: a cylindrical cake between the basket wall and ``cake_radius``.
+
+    The surface–volume diameter for washing and drainage is that of the solid in the feed unless given.
+    """
+
+    radius_outer: Length
+    cake_radius: Length
+    rotation_speed: RotationSpeed
+    cake_resistance: CakeResistance
+    void_fraction: VoidFraction
+    _: KW_ONLY
+    medium_resistance: MediumResistance = 0.0
+    solids_recovery: Fraction = 1.0
+    surface_tension: SurfaceTension = 0.072
+    diffusivity: Diffusivity = 1e-9
+    particle_diameter: Length | None = None
+
+    @abc.abstractmethod
+    def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
+        """Times and capacity at this feed."""
+
+    @property
+    @abc.abstractmethod
+    def height(self) -> Any:
+        """Length of the cake along the axis."""
+
+    @property
+    def cake_volume(self) -> Any:
+        """Volume of the cake ring."""
+        return jnp.pi * (self.radius_outer**2 - self.cake_radius**2) * self.height
+
+    @property
+    def thickness(self) -> Any:
+        """Cake thickness."""
+        return self.radius_outer - self.cake_radius
+
+    def permeability(self, feed: Stream) -> Any:
+        """Permeability of the cake from its specific resistance."""
+        return 1.0 / (self.cake_resistance * (1.0 - self.void_fraction) * feed.solid_density)
+
+    def case(self, feed: Stream) -> dict[str, Any]:
+        """What the spinning formulas need."""
+        return {
+            "radius_outer": self.radius_outer, "cake_radius": self.cake_radius, "rotation_speed": self.rotation_speed,
+            "liquid_density": feed.liquid_density, "dynamic_viscosity": feed.liquid_viscosity,
+            "cake_permeability": self.permeability(feed), "medium_resistance": self.medium_resistance,
+        }  # fmt: skip
+
+    def wash_ratio(self, feed: Stream, wash: Stream | None) -> Any:
+        """Wash liquor per void volume."""
+        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
+
+    def solute_left(self, feed: Stream, wash: Stream | None) -> Any:
+        """Fraction of the mother liquor that washing leaves, the wash liquor passing at the critical flow."""
+        if wash is None:
+            return jnp.ones(())
+        face = jnp.pi * (self.radius_outer + self.cake_radius) * self.height
+        velocity = filtrate_flow_critical(basket_height=self.height, **self.case(feed)) / face / self.void_fraction
+        spreading = axial_dispersion(velocity, solid_diameter(feed, self.particle_diameter), self.diffusivity)
+        return remaining_fraction(self.wash_ratio(feed, wash), velocity * self.thickness / spreading)
+
+    def saturation(self, feed: Stream, spin: Spin) -> Any:
+        """Saturation of the cake at discharge."""
+        d, middle = solid_diameter(feed, self.particle_diameter), 0.5 * (self.radius_outer + self.cake_radius)
+        lowest = irreducible_saturation_spinning(
+            d, self.void_fraction, middle, self.rotation_speed, feed.liquid_density, self.surface_tension
+        )
+        return cake_saturation_spinning(
+            spin.drainage_time,
+            d,
+            self.void_fraction,
+            self.thickness,
+            middle,
+            self.rotation_speed,
+            feed.liquid_density,
+            feed.liquid_viscosity,
+            lowest,
+        )
+
+    def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
+        return part_cake(
+            feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction,
+            saturation=self.saturation(feed, self.spin(feed, wash)), left=self.solute_left(feed, wash),
+        )  # fmt: skip
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> SpinFigures:
+        feed, wash = inlets["feed"], inlets.get("wash")
+        spin = self.spin(feed, wash)
+        return SpinFigures(
+            capacity_use=spin.capacity_use,
+            cake_thickness=jnp.asarray(self.thickness, dtype=float),
+            loading_time=spin.loading_time,
+            wash_time=spin.wash_time,
+            spin_off_time=spin.spin_off_time,
+            drainage_time=spin.drainage_time,
+            cycle_time=spin.cycle_time,
+            centrifugal_effect=centrifugal_effect(self.radius_outer, self.rotation_speed),
+            wash_ratio=self.wash_ratio(feed, wash),
+            solute_remaining=self.solute_left(feed, wash),
+            cake_saturation=self.saturation(feed, spin),
+            moisture_dry_basis=outlets.cake.moisture_dry_basis,
+            shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
+        )
+
+    def limits(self, feed: Stream, *, diameter: float, solids: tuple[float, float], effect: tuple[float, float], layer: tuple[float, float],
+               source: str) -> tuple[Check, ...]:  # fmt: skip
+        """Checks that every machine has, with its own ends."""
+        return (
+            Check(_COARSE, solid_diameter(feed, self.particle_diameter), diameter, 1e-2, "m", source),
+            Check(_RICH, feed.solids_volume_fraction, *solids, "dimensionless", source),
+            Check(_EFFECT, centrifugal_effect(self.radius_outer, self.rotation_speed), *effect, "dimensionless", source),
+            Check(_LAYER, self.thickness, *layer, "m", source),
+        )
+
+
+@equipment("peeler", source="grace1953; storrow1957; richardson2002, ch. 9", title="Basket (peeler) centrifuge",
+           equation=r"t_c = t_1 + t_w + t_2 + t_d + t_{mort}")  # fmt: skip
+class Peeler(FilteringCentrifuge):
+    """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun off, drained, plowed.
+
+    ``radius_inner`` is the free surface while loading and washing. Several baskets share the feed in turn.
+    """
+
+    basket_height: Length
+    radius_inner: Length
+    drainage_time: Time = 60.0
+    dead_time: Time = 60.0
+    basket_number: PositiveNumber = 1.0
+
+    @property
+    def height(self) -> Any:
+        return self.basket_height
+
+    def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
+        case = self.case(feed)
+        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        cake_flow = void / self.void_fraction
+        filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + 1e-300)
+        loading = loading_time_basket(radius_inner=self.radius_inner, cake_volume_per_filtrate=cake_flow / filtrate, **case)
+        washing_flow = filtrate_flow_basket(basket_height=self.basket_height, radius_inner=self.radius_inner, **case)
+        washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
+        falling = spin_off_time(radius_inner=self.radius_inner, **case)
+        cycle = loading + washing + falling + self.drainage_time + self.dead_time
+        use = cake_flow * cycle / (self.cake_volume * self.basket_number)
+        return Spin(loading, washing, falling, jnp.asarray(self.drainage_time, dtype=float), cycle, use, jnp.zeros(()))
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        return (
+            Check(_USE, self.spin(feed, inlets.get("wash")).capacity_use, 0.0, 1.0, "dimensionless", "grace1953"),
+            *self.limits(feed, diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2), source="perry2008, § 18"),
+        )
+
+
+@equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")
+class Pusher(FilteringCentrifuge):
+    """Continuous basket along which strokes push a cake of even thickness: it forms, is washed and drains on its way out.
+
+    The stay follows from the cake that the basket holds; the feed zone must let the mother liquor through (critical flow) or floods.
+    """
+
+    basket_length: Length
+    feed_share: Fraction = 0.25
+    wash_share: Fraction = 0.25
+
+    @property
+    def height(self) -> Any:
+        return self.basket_length
+
+    def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
+        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        cake_flow = jnp.maximum(void / self.void_fraction, 1e-300)
+        stay = self.cake_volume / cake_flow
+        critical = filtrate_flow_critical(basket_height=self.basket_length, **self.case(feed))
+        forming = (feed.liquid_volume_flow - void) / (self.feed_share * critical)
+        washing = 0.0 if wash is None else wash.liquid_volume_flow / (self.wash_share * critical)
+        drain = (1.0 - self.feed_share - (0.0 if wash is None else self.wash_share)) * stay
+        flooding = jnp.maximum(forming, washing)
+        wash_time = jnp.zeros(()) if wash is None else self.wash_share * stay
+        return Spin(self.feed_share * stay, wash_time, jnp.zeros(()), drain, stay, flooding, flooding)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        return (
+            Check(_FLOOD, self.spin(feed, inlets.get("wash")).flooding, 0.0, 1.0, "dimensionless", "storrow1957"),
+            *self.limits(feed, diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08), source="perry2008, § 18"),
+        )

@@ -1,0 +1,231 @@
+"""Settling centrifuges in a line: tubular bowl, disc stack, scroll decanter, solid basket. Each size class by its own grade efficiency."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.centrifuges.formulas.clarifying import (
+    cut_size_centrifuge,
+    grade_efficiency_thin_layer,
+    grade_efficiency_tubular,
+    sigma_factor_disc,
+    sigma_factor_scroll,
+    sigma_factor_tubular_half_area,
+)
+from granum.centrifuges.formulas.field import centrifugal_effect
+from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import (
+    Angle,
+    Area,
+    Distance,
+    Fraction,
+    Length,
+    MassFlow,
+    MoistureDryBasis,
+    OpenFraction,
+    PositiveNumber,
+    Power,
+    Ratio,
+    RotationSpeed,
+    Within,
+)
+from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+RPM = 0.10471975511965977  # radian/s
+HINDRANCE = 4.65  # Richardson and Zaki's exponent for slow settling
+_SLENDER = "bowl length over radius"
+_SOLIDS = "solids in the feed by volume"
+_FLOW = "feed flow"
+_EFFECT = "centrifugal effect"
+_SPEED = "rotation speed"
+_POND = "inner over outer radius"
+
+
+class Clarified(NamedTuple):
+    """Sediment with the liquid it holds, and the clarified liquid with the solid that escapes."""
+
+    sediment: Stream
+    overflow: Stream
+
+
+class ClarifierFigures(NamedTuple):
+    """Figures of a settling centrifuge."""
+
+    solids_recovery: Fraction
+    cut_size_centrifuge: Distance
+    sigma_factor: Area
+    centrifugal_effect: Ratio
+    shaft_power: Power
+    moisture_dry_basis: MoistureDryBasis
+    mass_flow_sediment: MassFlow
+
+
+class SettlingCentrifuge(Unit):
+    """Abstract settling centrifuge.
+
+    Particles settle as in Stokes' range at the centrifugal effect of the mean radius (with the drag of their true Reynolds number),
+    hindered by one another. ``sediment_solids_fraction`` is the volume fraction of solid in what is discharged: a property of the
+    sediment, from a spin test. ``sigma_efficiency`` derates the machine against its theory.
+    """
+
+    radius_inner: Length
+    radius_outer: Length
+    rotation_speed: RotationSpeed
+    _: KW_ONLY
+    sediment_solids_fraction: OpenFraction = 0.5
+    sigma_efficiency: PositiveNumber = 0.6
+
+    @abc.abstractmethod
+    def sigma(self) -> Any:
+        """Equivalent settling area; Q = ``flow_multiple`` · v_g Σ at the size that is caught by half."""
+
+    @property
+    def flow_multiple(self) -> Any:
+        """Convention of Sigma."""
+        return 2.0
+
+    def efficiency(self, velocity: Any, flow: Any) -> Any:
+        """Share of a size caught, from its settling velocity under gravity and the flow."""
+        return grade_efficiency_thin_layer(velocity, flow, self.sigma())
+
+    def grade(self, feed: Stream) -> Any:
+        """Share of each size class caught."""
+        effect = centrifugal_effect(0.5 * (self.radius_inner + self.radius_outer), self.rotation_speed)
+        velocity = jnp.maximum(
+            terminal_velocity(
+                jnp.asarray(feed.mixture.sizes), feed.solid_density, feed.liquid_density, feed.liquid_viscosity, effect * STANDARD_GRAVITY
+            ),
+            0.0,
+        )
+        hindered = velocity / effect * (1.0 - feed.solids_volume_fraction) ** HINDRANCE
+        return self.efficiency(self.sigma_efficiency * hindered, jnp.maximum(feed.slurry_volume_flow, 1e-300))
+
+    def __call__(self, feed: Stream) -> Clarified:
+        caught = feed.part(solid=feed.by_size(self.grade(feed)))
+        void = caught.solid_flow / feed.solid_density * (1.0 / self.sediment_solids_fraction - 1.0)
+        flow = feed.liquid_volume_flow
+        share = jnp.minimum(void, flow) / jnp.where(flow > 0, flow, 1.0)
+        sediment = caught.replace(liquid=share * feed.liquid)
+        overflow = feed.replace(solid=feed.solid - sediment.solid, liquid=feed.liquid - sediment.liquid)
+        return Clarified(sediment, overflow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Clarified) -> ClarifierFigures:
+        feed = inlets["feed"]
+        total = feed.solid_flow
+        return ClarifierFigures(
+            solids_recovery=outlets.sediment.solid_flow / jnp.where(total > 0, total, 1.0),
+            cut_size_centrifuge=cut_size_centrifuge(
+                feed.slurry_volume_flow, self.sigma(), feed.solid_density, feed.liquid_density, feed.liquid_viscosity, self.flow_multiple,
+                self.sigma_efficiency,
+            ),
+            sigma_factor=jnp.asarray(self.sigma(), dtype=float),
+            centrifugal_effect=centrifugal_effect(self.radius_outer, self.rotation_speed),
+            # what it takes to bring the feed to the speed of the bowl wall and let it go there
+            shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
+            moisture_dry_basis=outlets.sediment.moisture_dry_basis,
+            mass_flow_sediment=outlets.sediment.mass_flow,
+        )  # fmt: skip
+
+    def limits(
+        self, feed: Stream, *, solids: tuple[float, float], flow: tuple[float, float], effect: tuple[float, float], source: str
+    ) -> tuple[Check, ...]:
+        """Checks that every machine has, with its own ends."""
+        return (
+            Check(_SOLIDS, feed.solids_volume_fraction, *solids, "dimensionless", source),
+            Check(_FLOW, feed.slurry_volume_flow, *flow, "m^3/s", source),
+            Check(_EFFECT, centrifugal_effect(self.radius_outer, self.rotation_speed), *effect, "dimensionless", source),
+        )
+
+
+@equipment("tubular_bowl", source="ambler1959; svarovsky2001", title="Tubular bowl centrifuge",
+           equation=r"\Sigma = \frac{\pi L\,\omega^2 (r_2^2 - r_1^2)}{g \ln[2r_2^2/(r_1^2 + r_2^2)]}")  # fmt: skip
+class TubularBowl(SettlingCentrifuge):
+    """Slender bowl at very high speed: fine particles at low concentration, cleaned by hand when full."""
+
+    bowl_length: Length
+    _: KW_ONLY
+    sigma_efficiency: PositiveNumber = 0.9
+
+    def sigma(self) -> Any:
+        return sigma_factor_tubular_half_area(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+
+    def efficiency(self, velocity: Any, flow: Any) -> Any:
+        return grade_efficiency_tubular(velocity, flow, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
+        return (
+            *self.limits(inlets["feed"], solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"),
+            Check(_SLENDER, self.bowl_length / self.radius_outer, 8.0, 16.0, "dimensionless", "robatel1989"),
+        )
+
+
+@equipment("disc_stack", source="ambler1959; svarovsky2001", title="Disc stack centrifuge",
+           equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}")  # fmt: skip
+class DiscStack(SettlingCentrifuge):
+    """Stack of conical discs with narrow gaps: much settling area in a small bowl; for fine solids and emulsions."""
+
+    disc_number: PositiveNumber
+    disc_angle: Angle = 0.7
+    _: KW_ONLY
+    sigma_efficiency: PositiveNumber = 0.55
+
+    def sigma(self) -> Any:
+        return sigma_factor_disc(self.disc_number, self.radius_inner, self.radius_outer, self.rotation_speed, self.disc_angle)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
+        return (
+            *self.limits(inlets["feed"], solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"),
+            Check(_SPEED, self.rotation_speed, 0.0, 12000 * RPM, "radian/s", "robatel1989"),
+        )
+
+
+@equipment("scroll_decanter", source="ambler1959; records2001", title="Scroll decanter",
+           equation=r"\Sigma = \frac{2\pi L\,\omega^2}{g}\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right)")  # fmt: skip
+class ScrollDecanter(SettlingCentrifuge):
+    """Horizontal bowl from which a screw conveys the sediment up a beach: continuous, for concentrated slurries."""
+
+    bowl_length: Length
+    beach_length: Distance = 0.0
+
+    def sigma(self) -> Any:
+        return sigma_factor_scroll(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed, self.beach_length)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
+        return (
+            *self.limits(inlets["feed"], solids=(0.02, 0.5), flow=(0.0, 200.0 / 3600), effect=(300.0, 3000.0), source="robatel1989"),
+            Check(_SLENDER, self.bowl_length / self.radius_outer, 3.0, 7.0, "dimensionless", "robatel1989"),
+        )
+
+
+@equipment("solid_basket", source="ambler1959; svarovsky2001", title="Solid-basket centrifuge")
+class SolidBasket(SettlingCentrifuge):
+    """Wide unperforated basket that fills with sediment and is then skimmed and plowed; averaged over its cycle."""
+
+    bowl_length: Length
+    working_share: Annotated[Fraction, Within(0.01, 1.0)] = 0.8
+
+    @property
+    def flow_multiple(self) -> Any:
+        return 2.0 * self.working_share
+
+    def sigma(self) -> Any:
+        return sigma_factor_tubular_half_area(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+
+    def efficiency(self, velocity: Any, flow: Any) -> Any:
+        return grade_efficiency_tubular(
+            velocity, flow / self.working_share, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
+        return (
+            *self.limits(inlets["feed"], solids=(0.0, 0.1), flow=(0.0, 20.0 / 3600), effect=(300.0, 2000.0), source="perry2008, § 18"),
+            Check(_POND, self.radius_inner / self.radius_outer, 0.5, 0.95, "dimensionless", "perry2008, § 18"),
+        )
