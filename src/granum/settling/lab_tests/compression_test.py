@@ -33,7 +33,7 @@ class CompressionTest(LabTest):
     liquid_density: Density = 998.0
     initial_height: Length | None = None
     stress_concentration: Concentration = 4.0
-    cells: int = 60
+    cells: int = 100
 
     estimates: ClassVar = {
         "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume,

@@ -1,0 +1,121 @@
+"""Settling equipment in streams: conservation, grade efficiency, limits, simulations and charts."""
+
+from __future__ import annotations
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum.core.errors import InputError
+from granum.particles.formulas.terminal import terminal_velocity
+from granum.settling import charts
+from granum.settling.equipment.api_separator import ApiSeparator
+from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier, GritChamber, Lamella, RectangularClarifier
+from granum.settling.equipment.thickener import Thickener
+from granum.settling.simulations import batch_simulation, continuous_simulation
+from granum.settling.velocities import Vesilind
+from granum.streams.audit import closure
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import empty
+
+EDGES = tuple(np.geomspace(2e-6, 5e-4, 13))
+MIXTURE = Mixture(
+    solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)), Species("oil", (("oil", 1.0),), (880.0,), (2000.0,))),
+    liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+    gases=(),
+    size_edges=EDGES,
+    liquid_viscosity=lambda w, T: 1e-3,
+)
+
+
+def feed(water=100.0, sand=0.02, oil=0.001):
+    return empty(MIXTURE).replace(solid=jnp.stack([jnp.full(12, sand), jnp.full(12, oil)]), liquid=jnp.array([water]))
+
+
+UNITS = [
+    Clarifier(100.0, 100.0),
+    CircularClarifier(12.0, 3.0, 100.0),
+    RectangularClarifier(20.0, 4.0, 3.0, 100.0),
+    Lamella(60.0, 2.5, 1.25, 0.05, 50.0),
+    Lamella(60.0, 2.5, 1.25, 0.05, 50.0, flow_direction="crosscurrent"),
+    GritChamber(15.0, 0.5, 0.7),
+    Thickener(100.0, 30.0, Vesilind("5 m/hour", 0.2)),
+    ApiSeparator(18.0, 3.6, 1.1),
+]
+
+
+@pytest.mark.parametrize("unit", UNITS, ids=lambda u: type(u).__name__)
+def test_every_unit_conserves_mass_and_energy(unit):
+    stream = feed()
+    outlets = eqx.filter_jit(unit)(stream)
+    found = closure([stream], list(outlets))
+    assert float(found.mass) < 1e-12
+    assert float(found.energy) < 1e-12
+    for outlet in outlets:
+        assert float(jnp.min(outlet.solid)) >= 0.0
+        assert float(jnp.min(outlet.liquid)) >= 0.0
+    figures = unit.results({"feed": stream}, outlets)
+    assert all(np.isfinite(float(x)) for x in figures)
+    assert all(check.name and check.source for check in unit.checks({"feed": stream}, outlets))
+
+
+def test_clarifier_removes_each_class_in_the_ratio_of_its_velocity():
+    stream = feed(sand=1e-6, oil=0.0)  # too dilute to be hindered
+    unit = Clarifier(100.0, 100.0)
+    out = unit(stream)
+    removed = np.asarray(out.underflow.solid[0] / stream.solid[0])
+    v = np.asarray(terminal_velocity(MIXTURE.sizes, 2650.0, 1000.0, 1e-3))
+    np.testing.assert_allclose(removed, np.minimum(v / (0.1 / 100.0), 1.0), rtol=1e-4)
+
+
+def test_thickener_passes_the_limit_and_spills_the_rest():
+    sludge = Vesilind("5 m/hour", 0.5)
+    stream = empty(MIXTURE).replace(solid=jnp.zeros((2, 12)).at[0].set(0.05), liquid=jnp.array([240.0]))
+    unit = Thickener.size(0.6, 2.5, 10.0, sludge, safety_factor=1.0)
+    exact = unit(stream)
+    assert float(exact.underflow.solid_flow) == pytest.approx(0.6, rel=1e-2)
+    small = Thickener(0.5 * unit.area, 10.0, sludge)
+    out = small(stream)
+    assert float(out.underflow.solid_flow) == pytest.approx(0.3, rel=1e-2)
+    figures = small.results({"feed": stream}, out)
+    assert float(figures.loading_ratio) == pytest.approx(2.0, rel=1e-2)
+    assert float(out.underflow.solid_flow / out.underflow.slurry_volume_flow) == pytest.approx(10.0, rel=1e-9)
+    assert not unit.checks({"feed": stream}, exact)[0].ok or figures.limiting_flux > 0
+    # More area never gives less underflow, by the exact derivative.
+    slope = jax.grad(lambda a: Thickener(a, 10.0, sludge)(stream).underflow.solid_flow)(0.5 * unit.area)
+    assert float(slope) == pytest.approx(0.3 / (0.5 * float(unit.area)), rel=1e-6)
+
+
+def test_api_separator_skims_all_oil_of_the_design_globule():
+    unit = ApiSeparator.size(0.06, 1000.0, 880.0, 1e-3)
+    edges = (1.499e-4, 1.501e-4)
+    mixture = Mixture(MIXTURE.solids[1:], MIXTURE.liquids, (), edges, liquid_viscosity=lambda w, T: 1e-3)
+    stream = empty(mixture).replace(solid=jnp.full((1, 1), 1e-4), liquid=jnp.array([59.9]))
+    out = unit(stream)
+    assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(1.0, abs=0.1)  # Stokes in the design, full drag here
+    assert all(check.ok for check in unit.checks({"feed": stream}, out))
+
+
+def test_continuous_simulation_answers_bad_input():
+    sludge = Vesilind("5 m/hour", 0.5)
+    with pytest.raises(InputError, match="one value or one for each"):
+        continuous_simulation([0, 3600, 7200], [0.1, 0.1, 0.1], 2.5, 0.03, 1000, 4, sludge)
+    with pytest.raises(InputError, match="run dry"):
+        continuous_simulation([0, 3600], 0.1, 2.5, 0.2, 1000, 4, sludge)
+    with pytest.raises(InputError, match="must increase"):
+        batch_simulation(3.0, 0.4, [0, 300, 200], sludge)
+
+
+def test_charts_draw():
+    sludge = Vesilind("5 m/hour", 0.4)
+    times = np.linspace(0, 7200, 30)
+    course = batch_simulation(3.0, 0.4, times, sludge, cells=60)
+    assert course.mass_error < 1e-12
+    curve = charts.settling_curve_chart(times, course.interface_height, 3.0)
+    assert any("A–B" in (a.text or "") for a in curve.layout.annotations)
+    diagram = charts.flux_diagram(0.22, 2.5, 0.083, 1000.0, sludge)
+    assert len(diagram.data) == 5
+    moving = charts.settling_course_chart(3.0, 0.4, times[:6], sludge, cells=40)
+    assert len(moving.frames) == 6
