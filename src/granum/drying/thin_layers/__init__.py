@@ -1,0 +1,1 @@
+"""Thin-layer drying models: moisture ratio over time."""

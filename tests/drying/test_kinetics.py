@@ -1,0 +1,146 @@
+"""Drying times, diffusion, heat transfer and the lab tests against closed forms and printed numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from granum.core.errors import InputError
+from granum.drying.formulas import diffusion, heat, times
+from granum.drying.formulas.characteristic import HyperbolicCurve, PowerCurve
+from granum.drying.lab_tests.curve import DryingCurve
+from granum.drying.lab_tests.isotherm import IsothermTest
+from granum.drying.lab_tests.ranking import residual_runs
+from granum.drying.lab_tests.thin_layer import ThinLayerTest
+
+
+def test_times_of_both_periods() -> None:
+    # Geankoplis example 9.7 type with the notes' formula and the area put back: 1 h of constant rate, then a straight line
+    whole = times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.1, 0.4, 0.05)
+    assert whole.drying_time_constant_rate == pytest.approx(10 / (2 * 1e-3) * 0.6)
+    assert whole.drying_time_falling_rate == pytest.approx(10 / (2 * 1e-3) * 0.35 * np.log(0.35 / 0.05))
+    # either period may be absent
+    assert times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.5, 0.4, 0.05).drying_time_falling_rate == 0.0
+    short = times.drying_time(10.0, 2.0, 1e-3, 0.3, 0.1, 0.4, 0.05)
+    assert short.drying_time == pytest.approx(times.drying_time_falling_rate(10.0, 2.0, 1e-3, 0.3, 0.1, 0.4, 0.05))
+    # equilibrium is never reached
+    assert np.isnan(times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.05, 0.4, 0.05).drying_time)
+
+
+def test_characteristic_curves() -> None:
+    args = (10.0, 2.0, 1e-3, 1.0, 0.1, 0.4, 0.05)
+    assert times.drying_time_characteristic(*args) == pytest.approx(times.drying_time(*args).drying_time, rel=1e-12)
+    assert times.drying_time_characteristic(*args, HyperbolicCurve(1.0)) == pytest.approx(times.drying_time(*args).drying_time, rel=1e-12)
+    phi = 0.05 / 0.35
+    square = 10 / (2 * 1e-3) * (0.6 + 0.35 * (1 / phi - 1))  # ∫dΦ/Φ²
+    assert times.drying_time_characteristic(*args, PowerCurve(2.0)) == pytest.approx(square, rel=1e-10)
+    k = 3.5
+    hyperbola = 10 / (2 * 1e-3) * (0.6 + 0.35 * (-np.log(phi) / k + (k - 1) / k * (1 - phi)))
+    assert times.drying_time_characteristic(*args, HyperbolicCurve(k)) == pytest.approx(hyperbola, rel=1e-10)
+
+
+def test_rea_vanishes_at_equilibrium() -> None:
+    # with ΔE = −R T ln φ the surface is in equilibrium with the gas it dries in
+    E = times.evaporation_activation_energy(0.05, 0.05, 350.0, 0.2, rea_factor=1.0)
+    assert times.drying_flux_rea(0.02, 0.25, 0.2 * 0.25, 350.0, E) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_diffusion_against_direct_sums() -> None:
+    from scipy.special import jn_zeros
+
+    n, roots = np.arange(1, 20001), jn_zeros(0, 500)
+    for fo in (0.001, 0.02, 0.049, 0.051, 0.2, 1.0):
+        odd = (2 * n - 1) * np.pi
+        plate = np.sum(8 / odd**2 * np.exp(-(odd**2) * fo / 4))
+        sphere = np.sum(6 / (np.pi * n) ** 2 * np.exp(-((np.pi * n) ** 2) * fo))
+        cylinder = np.sum(4 / roots**2 * np.exp(-(roots**2) * fo))
+        assert float(diffusion.plate(fo)) == pytest.approx(float(plate), rel=2e-7)
+        assert float(diffusion.sphere(fo)) == pytest.approx(float(sphere), rel=2e-6)
+        assert float(diffusion.cylinder(fo)) == pytest.approx(float(cylinder), rel=2e-4 if fo < 0.002 else 2e-6)
+    assert diffusion.moisture_ratio_plate(0.0, 1e-3, 1e-10) == 1.0
+
+
+def test_heat_transfer_numbers() -> None:
+    # Geankoplis ex. 9.6-3: air at 65.6 °C and 6.1 m/s, G = 22 770 kg/(m² h): h = 62.45 W/(m² K); T_w = 28.9 °C, λ = 2433 kJ/kg
+    h = heat.heat_transfer_coefficient_parallel(22770 / 3600)
+    assert h == pytest.approx(62.45, rel=1e-3)
+    rate = times.drying_rate_constant(h, 65.6 + 273.15, 28.9 + 273.15, 2433e3)
+    assert rate * 3600 == pytest.approx(3.39, rel=2e-3)  # printed kg/(m² h)
+    # D II.5 with the misprint put right, and its limit of a small body in a large enclosure
+    small = heat.heat_duty_radiation(900.0, 300.0, 1.0, 1e9, 0.8, 0.3)
+    assert small == pytest.approx(0.8 * 5.670374419e-8 * (900.0**4 - 300.0**4), rel=1e-6)
+
+
+def _truth(t: np.ndarray) -> np.ndarray:
+    Xc, Xe, k, X0 = 0.35, 0.05, 2e-4, 1.0
+    tc = (X0 - Xc) / k
+    return np.where(t < tc, X0 - k * t, Xe + (Xc - Xe) * np.exp(-k * np.maximum(t - tc, 0) / (Xc - Xe)))
+
+
+def test_drying_curve_recovers_its_periods() -> None:
+    rng = np.random.default_rng(7)
+    t = np.sort(np.append(rng.uniform(0, 9000, 79), 0.0))
+    X = _truth(t) + rng.normal(0, 0.005, 80)
+    found = DryingCurve(time=t, mass=0.5 * (1 + X), dry_solid_mass=0.5, area=0.1).fit()
+    for name, true in (("critical_moisture", 0.35), ("rate_per_dry_mass", 2e-4), ("initial_moisture", 1.0), ("equilibrium_moisture", 0.05)):
+        low, high = found[name].interval_95
+        assert low <= true <= high
+        assert high - low < 0.2 * true + 0.02
+    assert found["drying_rate_constant"].value == pytest.approx(2e-4 * 0.5 / 0.1, rel=0.03)
+    rates = DryingCurve(time=t, moisture_dry_basis=X).rate_curve()
+    middle = (t > 600) & (t < 2400)
+    assert np.abs(rates.rate[middle] / 2e-4 - 1).mean() < 0.05
+
+
+def test_drying_curve_without_one_period() -> None:
+    t = np.linspace(0, 9000, 30)
+    falling = 0.05 + 0.5 * np.exp(-t / 3000)
+    found = DryingCurve(time=t, moisture_dry_basis=falling + 0.001 * np.sin(37 * t)).fit()
+    assert any(f["flag"] == "no constant-rate period" for f in found.flags)
+    constant = DryingCurve(time=t, moisture_dry_basis=1.0 - 1e-4 * t + 0.001 * np.sin(37 * t), equilibrium_moisture=0.0).fit()
+    assert constant["rate_per_dry_mass"].value == pytest.approx(1e-4, rel=0.01)
+    assert any(f["flag"] == "no falling-rate period" for f in constant.flags)
+    with pytest.raises(InputError):
+        DryingCurve(time=t, mass=falling).fit()
+    with pytest.raises(InputError):
+        DryingCurve(time=t[::-1].copy(), moisture_dry_basis=falling).fit()
+
+
+def test_thin_layer_ranking_knows_equal_curves() -> None:
+    # Page's constants of the survey's apple slices at 50 °C: k = 9.46e-4 min⁻ⁿ, n = 1.328
+    t = np.linspace(0, 300, 25) * 60
+    rng = np.random.default_rng(3)
+    MR = np.clip(np.exp(-9.46e-4 * (t / 60) ** 1.328) + rng.normal(0, 0.003, t.size), 0, None)
+    test = ThinLayerTest(time=t, moisture_ratio=MR)
+    for name in ("page", "page_modified", "weibull"):
+        found = ThinLayerTest(time=t, moisture_ratio=MR, model=name).fit()
+        assert found["time_exponent"].value == pytest.approx(1.328, rel=0.02)
+    page = ThinLayerTest(time=t, moisture_ratio=MR, model="page").fit()
+    assert page["rate_constant"].value == pytest.approx(9.46e-4 / 60**1.328, rel=0.15)
+    ranked, _failed = test.ranking()
+    assert ranked[0].name in ("page", "page_modified", "weibull")
+    same = {r.name: r.same_curve_as for r in ranked}
+    family = {"page", "page_modified", "weibull"}
+    assert sum(same[n] is None for n in family) == 1
+    assert {same[n] for n in family if same[n]} <= family
+    assert sum(r.weight for r in ranked) == pytest.approx(1.0)
+
+
+def test_isotherm_test_recovers_gab() -> None:
+    from granum.drying.isotherms.adsorption import Gab
+
+    a = np.array([0.11, 0.22, 0.33, 0.43, 0.53, 0.65, 0.75, 0.84, 0.93])
+    rng = np.random.default_rng(2)
+    X = np.asarray(Gab(0.07, 12.0, 0.85).moisture(a, 298.15)) * (1 + rng.normal(0, 0.01, a.size))
+    test = IsothermTest(water_activity=a, moisture_dry_basis=X)
+    found = test.fit()
+    assert found.flags[-1]["name"] == "gab"
+    for name, true in (("monolayer_moisture", 0.07), ("multilayer_constant", 0.85)):
+        low, high = found[name].interval_95
+        assert low <= true <= high
+    assert float(test.law()(0.5)) == pytest.approx(float(Gab(0.07, 12.0, 0.85)(0.5)), rel=0.02)
+
+
+def test_residual_runs() -> None:
+    assert residual_runs(np.array([1.0, 1, 1, 1, 1, -1, -1, -1, -1, -1])) < 0.01
+    assert residual_runs(np.array([1.0, -1, 1, -1, 1, -1, 1, -1])) > 0.9
