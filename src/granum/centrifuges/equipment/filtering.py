@@ -14,6 +14,7 @@ from granum.centrifuges.formulas.spinning import (
     cake_saturation_spinning,
     filtrate_flow_basket,
     filtrate_flow_critical,
+    irreducible_saturation_leung,
     loading_time_basket,
     spin_off_time,
 )
@@ -144,8 +145,8 @@ class FilteringCentrifuge(Unit):
     def saturation(self, feed: Stream, spin: Spin) -> Any:
         """Saturation of the cake at discharge."""
         d, middle = solid_diameter(feed, self.particle_diameter), 0.5 * (self.radius_outer + self.cake_radius)
-        lowest = irreducible_saturation_spinning(
-            d, self.void_fraction, middle, self.rotation_speed, feed.liquid_density, self.surface_tension
+        lowest = irreducible_saturation_leung(
+            d, self.void_fraction, self.thickness, middle, self.rotation_speed, feed.liquid_density, self.surface_tension
         )
         return cake_saturation_spinning(
             spin.drainage_time,
