@@ -54,10 +54,16 @@ class CrystallizerFigures(NamedTuple):
     growth_rate: GrowthRate
     nucleation_rate: NucleationRate
     residence_time: Time
-    dominant_size: Distance
+    growth_length: Distance
     mass_median_size: Distance
     evaporation: MassFlow
     heat_duty: Power
+
+
+def _median(masses: Any, edges: Any) -> Any:
+    """Size that halves the mass of the classes, straight inside a class; zero without crystals."""
+    below = jnp.append(0.0, jnp.cumsum(masses))
+    return jnp.where(below[-1] > 0, jnp.interp(0.5 * below[-1], below, jnp.asarray(edges)), 0.0)
 
 
 class _Continuous(Unit):
@@ -96,7 +102,7 @@ class _Continuous(Unit):
         return CrystallizerFigures(
             crystals, found.solute_fraction * crystals / fed, state.magma_density, state.relative_supersaturation,
             state.growth_rate, state.nucleation_rate, state.residence_time,
-            3.0 * state.length, 3.672060748850897 * state.length, jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
+            state.length, _median(state.crystals, inlets["feed"].mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
         )  # fmt: skip
 
     def checks(self, inlets: Mapping[str, Stream], outlets: Crystallized) -> tuple[Check, ...]:
