@@ -23,6 +23,7 @@ from granum.settling.formulas.api import (
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
+ROUNDING = 1e-9
 SECTION_LIMIT = 160 * 0.3048**2  # m²: 160 ft² a channel
 
 
@@ -111,8 +112,8 @@ class ApiSeparator(Unit):
             Check("length over the length needed", self.length / figures.basin_length, 1.0, float("inf"), "dimensionless", "api421"),
             Check("residence time", time / 60.0, 0.0, 60.0, "min", "api421"),
             Check("cross-section of a channel", section, 0.0, 15.0, "m^2", "api421"),
-            Check("depth over width", self.height / self.width, 0.3, 0.5, "dimensionless", "api421"),
-            Check("length over width", self.length / self.width, 5.0, float("inf"), "dimensionless", "api421"),
+            Check("depth over width", self.height / self.width, 0.3 - ROUNDING, 0.5 + ROUNDING, "dimensionless", "api421"),
+            Check("length over width", self.length / self.width, 5.0 - ROUNDING, float("inf"), "dimensionless", "api421"),
             Check("depth", self.height, 3 * 0.3048, 8 * 0.3048, "m", "api421"),
             Check("width", self.width, 6 * 0.3048, 20 * 0.3048, "m", "api421"),
         )
