@@ -71,7 +71,7 @@ def wet_to_dry_mass_ratio(void_fraction: VoidFraction, liquid_density: Density, 
     equation=r"W = \frac{\rho_l\,s}{1 - m\,s}",
     typical={"solids_mass_fraction": (0.01, 0.3), "wet_to_dry_mass_ratio": (1.1, 2.5)},
 )
-def dry_cake_per_filtrate(solids_mass_fraction: MassFraction, liquid_density: Density, wet_to_dry_mass_ratio: Ratio = 0.0) -> Number:
+def dry_cake_per_filtrate(solids_mass_fraction: MassFraction, liquid_density: Density, wet_to_dry_mass_ratio: Ratio = 0.0) -> Concentration:
     """Dry cake deposited per volume of filtrate, from the solids of the slurry and the moisture of the cake.
 
     With the default ratio of zero the liquid left in the cake is neglected (W = ρ s), which a dilute slurry allows.
