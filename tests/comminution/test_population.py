@@ -10,6 +10,7 @@ import pytest
 from granum.comminution import population
 from granum.comminution.breakage import AustinBreakage, AustinSelection, BroadbentCallcottBreakage, WhitenClassification
 from granum.comminution.lab_tests.batch_grinding import BatchGrinding
+from granum.comminution.lab_tests.grinding_kinetics import GrindingKinetics
 from granum.comminution.lab_tests.partition_test import PartitionTest
 from granum.core.errors import InputError
 from granum.particles.partition import LogisticPartition
@@ -119,3 +120,25 @@ def test_batch_grinding_rate() -> None:
     fit = BatchGrinding(t, 0.96 * np.exp(-0.008 * t)).fit()
     assert fit["selection_function"].value == pytest.approx(0.008, rel=1e-9)
     assert fit["remaining_fraction_start"].value == pytest.approx(0.96, rel=1e-9)
+
+
+def test_grinding_kinetics_find_the_functions_that_made_noisy_data() -> None:
+    sizes = 4e-3 * 2.0 ** (-0.5 * np.arange(12))[::-1]
+    edges = np.concatenate([[0.0], sizes])
+    a = np.asarray(population.rate_matrix(edges, AustinSelection(0.01, 0.9), AustinBreakage(0.55, 0.75, 4.2)))
+    feed = np.zeros(12)
+    feed[-2] = 1.0
+    times = np.array([0.0, 30.0, 90.0, 240.0])
+    # the data come from Reid's closed solution, the fit from the matrix exponential
+    curves = np.array([np.cumsum(np.asarray(population.reid_solution(a, feed, t))) for t in times])
+    rng = np.random.default_rng(2)
+    noisy = np.clip(curves + rng.normal(0.0, 0.002, curves.shape) * (curves > 1e-6) * (curves < 1 - 1e-6), 0.0, 1.0)
+    noisy = np.maximum.accumulate(noisy, axis=1)
+    rows = [np.repeat(times, 12), np.tile(sizes, 4)]
+    truth = {"selection_rate": 0.01, "selection_exponent": 0.9, "fines_share": 0.55, "fines_exponent": 0.75, "coarse_exponent": 4.2}
+    fit = GrindingKinetics(*rows, noisy.ravel()).fit()
+    for name, value in truth.items():
+        assert abs(fit[name].value - value) < 4.0 * fit[name].standard_error
+    assert len(GrindingKinetics(*rows, noisy.ravel()).chart().data) == 8
+    with pytest.raises(InputError, match="same sieves"):
+        GrindingKinetics(rows[0][:-1], rows[1][:-1], noisy.ravel()[:-1]).fit()

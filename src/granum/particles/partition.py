@@ -59,6 +59,11 @@ class LogisticPartition(PartitionCurve):
         inside, t = _ratio(particle_diameter, self.cut_size)
         return jnp.where(inside, 1.0 / (1.0 + t ** (-self.sharpness)), 0.0)
 
+    def size_at(self, part: Any) -> Any:
+        """Size of which a part reports to the coarse product, m."""
+        part = jnp.asarray(part, dtype=float)
+        return self.cut_size * (part / (1.0 - part)) ** (1.0 / self.sharpness)
+
     @classmethod
     def from_sharpness_index(cls, cut_size: Any, sharpness_index: Any) -> LogisticPartition:
         """From d25/d75."""
@@ -81,6 +86,10 @@ class RosinRammlerPartition(PartitionCurve):
         """Part of a size that reports to the coarse product."""
         inside, t = _ratio(particle_diameter, self.cut_size)
         return jnp.where(inside, -jnp.expm1(-_LN2 * t**self.sharpness), 0.0)
+
+    def size_at(self, part: Any) -> Any:
+        """Size of which a part reports to the coarse product, m."""
+        return self.cut_size * (-jnp.log1p(-jnp.asarray(part, dtype=float)) / _LN2) ** (1.0 / self.sharpness)
 
 
 @law("partition_curve", name="whiten", source="napiermunn1996", title="Whiten partition curve",
