@@ -1,43 +1,156 @@
-"""What a request may cost: size, time and how many at once."""
+"""What a request may cost: who may ask, how large, how long and how many at once."""
 
 from __future__ import annotations
 
 import asyncio
+import contextvars
+import secrets
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from http.cookies import CookieError, SimpleCookie
 from typing import Any
+from urllib.parse import parse_qs
+
+from fastapi import Request
+from fastapi.responses import JSONResponse
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from granum.core.errors import GranumError
-from granum.core.i18n import _
+from granum.core.i18n import LANGUAGES, _, set_language
 
 LARGEST_BODY = 5_000_000  # bytes
-LONGEST = 60.0  # seconds for one request
-WAITING = 400  # requests that may wait for a worker before newcomers are told to come back
+POLICY = (
+    "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+HEADERS = {"content-security-policy": POLICY, "x-content-type-options": "nosniff", "referrer-policy": "no-referrer"}
+COOKIE = "granum_token"
 
 
 class Busy(GranumError):
-    """More requests than can be served."""
+    """More requests than can be served, or one that takes too long."""
 
 
 class Workers:
-    """A small pool for the computing part of requests, with a bounded queue."""
+    """A pool for the computing part of requests, with a bounded queue and a time limit.
 
-    def __init__(self, count: int = 4):
+    Parameters
+    ----------
+    count: calculations at the same time.
+    waiting: requests that may wait or run before newcomers are told to come back.
+    longest: seconds after which a request is given up.
+    """
+
+    def __init__(self, count: int, waiting: int, longest: float):
         self._pool = ThreadPoolExecutor(count, thread_name_prefix="granum")
-        self._waiting = 0
+        self._waiting, self._longest = waiting, longest
+        self._now = 0
 
-    async def run(self, work: Callable[[], Any]) -> Any:
-        """Run work in the pool; raises ``Busy`` when the queue is full or the work takes too long."""
-        import contextvars
-
-        if self._waiting >= WAITING:
+    async def run(self, work: Callable[[], Any], request: Request | None = None) -> Any:
+        """Run work in the pool; work still queued when its client leaves is dropped."""
+        if self._now >= self._waiting:
             raise Busy(_("The server is busy. Try again in a moment."))
-        self._waiting += 1
-        context = contextvars.copy_context()
-        try:
-            task = asyncio.get_running_loop().run_in_executor(self._pool, context.run, work)
-            return await asyncio.wait_for(task, LONGEST)
-        except TimeoutError:
-            raise Busy(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(LONGEST))) from None
-        finally:
-            self._waiting -= 1
+        self._now += 1
+        job = self._pool.submit(contextvars.copy_context().run, work)
+        job.add_done_callback(lambda _job, loop=asyncio.get_running_loop(): _quietly(loop, self._left))
+        future = asyncio.wrap_future(job)
+        deadline = asyncio.get_running_loop().time() + self._longest
+        while True:
+            done, _pending = await asyncio.wait([future], timeout=min(self._longest, 1.0))
+            if done:
+                return future.result()
+            if asyncio.get_running_loop().time() > deadline:
+                job.cancel()
+                raise Busy(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(self._longest)))
+            if request is not None and await request.is_disconnected():
+                job.cancel()
+                raise Busy(_("The calculation was cancelled."))
+
+    def _left(self) -> None:
+        self._now -= 1
+
+
+def _quietly(loop: asyncio.AbstractEventLoop, call: Callable[[], None]) -> None:
+    """Call in the loop; at shutdown there is none left to tell."""
+    if not loop.is_closed():
+        loop.call_soon_threadsafe(call)
+
+
+def problem(status: int, message: str) -> JSONResponse:
+    """A refusal in the shape of every error."""
+    return JSONResponse({"error": {"type": "RequestError", "message": message}}, status_code=status, headers=HEADERS)
+
+
+class Guard:
+    """Outermost layer: language of the request, token, size of the body (announced or not), headers of the answer."""
+
+    def __init__(self, app: ASGIApp, token: str = ""):
+        self._app, self._token = app, token
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        headers, query = Headers(scope=scope), parse_qs(scope["query_string"].decode("latin-1"))
+        asked = query.get("lang", [headers.get("x-language") or headers.get("accept-language", "")[:2]])[-1]
+        set_language(asked if asked in LANGUAGES else "en")
+        given = query.get("token", [""])[-1]
+        if self._token and not self._known(given or _cookie(headers.get("cookie", ""))):
+            await problem(401, _("This server needs the token that was printed when it started."))(scope, receive, send)
+            return
+        announced = headers.get("content-length", "0")
+        body = None if announced.isdigit() and int(announced) > LARGEST_BODY else await _read(receive)
+        if body is None:
+            message = _("The request is larger than {limit} MB.").format(limit=LARGEST_BODY // 1_000_000)
+            await problem(413, message)(scope, receive, send)
+            return
+
+        async def answer(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                out = MutableHeaders(scope=message)
+                out.update(HEADERS)
+                if self._token and given:
+                    out.append("set-cookie", f"{COOKIE}={given}; HttpOnly; SameSite=Strict; Path=/")
+            await send(message)
+
+        await self._app(scope, _replay(body, receive), answer)
+
+    def _known(self, given: str) -> bool:
+        return secrets.compare_digest(given.encode(), self._token.encode())
+
+
+def _cookie(text: str) -> str:
+    try:
+        found = SimpleCookie(text).get(COOKIE)
+    except CookieError:
+        return ""
+    return found.value if found else ""
+
+
+async def _read(receive: Receive) -> bytes | None:
+    """The whole body, or None as soon as it is larger than allowed."""
+    body = bytearray()
+    while True:
+        message = await receive()
+        if message["type"] != "http.request":
+            return bytes(body)
+        body += message.get("body", b"")
+        if len(body) > LARGEST_BODY:
+            return None
+        if not message.get("more_body", False):
+            return bytes(body)
+
+
+def _replay(body: bytes, receive: Receive) -> Receive:
+    """The body again for the application, then what the client does next (it leaves)."""
+    sent = False
+
+    async def again() -> Message:
+        nonlocal sent
+        if not sent:
+            sent = True
+            return {"type": "http.request", "body": body, "more_body": False}
+        return await receive()
+
+    return again

@@ -4,26 +4,37 @@ from __future__ import annotations
 
 import io
 import json
-import secrets
-from collections.abc import Awaitable, Callable
+import logging
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
 
 from fastapi import Body, FastAPI, File, Form, Request, UploadFile
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
 
 import granum
-from granum.app.limits import LARGEST_BODY, Busy, Workers
-from granum.app.texts import bounds_text, described
+from granum.app import exercises
+from granum.app.forms import card_form
+from granum.app.limits import LARGEST_BODY, Busy, Guard, Workers, problem
+from granum.app.spread import spread
+from granum.app.texts import described, plain_data
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
-from granum.core.i18n import LANGUAGES, _, set_language
+from granum.core.i18n import _, current_language
 
 STATIC = Path(str(files("granum") / "app" / "static"))
-POLICY = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; frame-ancestors 'none'"
+Inputs = Annotated[dict[str, Any], Body()]
+
+
+class Answer(JSONResponse):
+    """JSON of whatever the package returns."""
+
+    def render(self, content: Any) -> bytes:
+        return json.dumps(plain_data(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
 
 def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
@@ -35,123 +46,142 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     token: when set, every request must carry it (as ``?token=`` once, then as a cookie).
     """
     app = FastAPI(title="Granum", version=granum.__version__, docs_url=None, redoc_url=None)
-    workers = Workers()
-
-    @app.middleware("http")
-    async def guard(request: Request, call: Callable[[Request], Awaitable[Response]]) -> Response:
-        asked = request.query_params.get("lang") or request.headers.get("x-language") or request.headers.get("accept-language", "")[:2]
-        set_language(asked if asked in LANGUAGES else "en")
-        if token:
-            given = request.query_params.get("token") or request.cookies.get("granum_token", "")
-            if not secrets.compare_digest(given.encode(), token.encode()):
-                return _problem(401, _("This server needs the token that was printed when it started."))
-        if int(request.headers.get("content-length") or 0) > LARGEST_BODY:
-            return _problem(413, _("The request is larger than {limit} MB.").format(limit=LARGEST_BODY // 1_000_000))
-        response = await call(request)
-        response.headers["content-security-policy"] = POLICY
-        response.headers["x-content-type-options"] = "nosniff"
-        response.headers["referrer-policy"] = "no-referrer"
-        if token and request.query_params.get("token"):
-            response.set_cookie("granum_token", token, httponly=True, samesite="strict")
-        return response
-
-    @app.exception_handler(GranumError)
-    async def refused(_request: Request, problem: GranumError) -> JSONResponse:
-        status = 429 if isinstance(problem, Busy) else (422 if problem.exit_code == 2 else 409)
-        return JSONResponse({"error": problem.as_json()}, status_code=status)
-
-    @app.get("/api/cards")
-    async def cards(word: str = "", sort: str = "") -> dict[str, Any]:
-        """All cards, short."""
-        found = await workers.run(_cards)
-        needle = word.lower()
-        return {
-            "cards": [
-                c for c in found if (not sort or c["sort"] == sort) and needle in f"{c['card']} {c['title']} {c['summary']}".lower()
-            ]
-        }
-
-    @app.get("/api/cards/{key}")
-    async def card(key: str) -> dict[str, Any]:
-        """One card with everything a form needs."""
-        return await workers.run(lambda: _card(key))
-
-    @app.post("/api/calc/{key}")
-    async def calc(key: str, inputs: Annotated[dict[str, Any], Body()]) -> dict[str, Any]:
-        """Evaluate a card."""
-        return await workers.run(lambda: _calc(key, inputs))
-
-    @app.post("/api/chart/{key}")
-    async def chart(key: str, inputs: Annotated[dict[str, Any], Body()]) -> Response:
-        """Draw a chart: Plotly JSON."""
-        text = await workers.run(lambda: _chart(key, inputs))
-        return Response(text, media_type="application/json")
-
-    @app.post("/api/fit/{key}")
-    async def fit(key: str, file: Annotated[UploadFile, File()], conditions: Annotated[str, Form()] = "{}") -> dict[str, Any]:
-        """Fit a lab test to an uploaded table."""
-        content = await file.read(LARGEST_BODY + 1)
-        name = Path(file.filename or "data.csv").name
-        return await workers.run(lambda: _fit(key, content, name, conditions))
-
-    @app.post("/api/run")
-    async def run(case: Annotated[str, Body(embed=True)]) -> dict[str, Any]:
-        """Solve the text of a case file."""
-        return await workers.run(lambda: _run(case))
-
-    @app.post("/api/report", response_class=HTMLResponse)
-    async def report(case: Annotated[str, Body(embed=True)]) -> HTMLResponse:
-        """The report of a case file."""
-        return HTMLResponse(await workers.run(lambda: _report(case)))
-
-    @app.get("/api/workspace")
-    async def listing() -> dict[str, Any]:
-        """Case files of the workspace."""
-        if workspace is None:
-            return {"files": None}
-        return {"files": sorted(str(p.relative_to(workspace)) for p in workspace.rglob("*.toml") if p.is_file())}
-
-    @app.get("/api/workspace/{path:path}")
-    async def opened(path: str) -> dict[str, Any]:
-        """The text of one case file."""
-        place = _inside(workspace, path)
-        if not place.is_file():
-            raise InputError(_("There is no file '{path}' in the workspace.").format(path=path))
-        return {"path": path, "text": place.read_text(encoding="utf-8")}
-
-    @app.put("/api/workspace/{path:path}")
-    async def saved(path: str, text: Annotated[str, Body(embed=True)]) -> dict[str, Any]:
-        """Save a case file atomically."""
-        from granum.core.files import write_atomic
-
-        place = _inside(workspace, path)
-        place.parent.mkdir(parents=True, exist_ok=True)
-        write_atomic(place, text)
-        return {"path": path}
-
-    @app.get("/api/examples")
-    async def examples() -> dict[str, Any]:
-        """Case files shipped with the package."""
-        return {"files": sorted(_examples())}
-
-    @app.get("/api/examples/{name:path}")
-    async def example(name: str) -> dict[str, Any]:
-        """The text of a shipped case file."""
-        if name not in _examples():
-            raise unknown_name(_("Example"), name, _examples())
-        return {"path": name, "text": _examples()[name].read_text(encoding="utf-8")}
-
-    @app.get("/vendor/plotly.js")
-    async def plotly() -> FileResponse:
-        """Plotly, as the installed Python package ships it."""
-        return FileResponse(str(files("plotly") / "package_data" / "plotly.min.js"), media_type="text/javascript")
-
+    app.add_middleware(Guard, token=token)
+    quick = Workers(count=4, waiting=400, longest=60.0)
+    patient = Workers(count=2, waiting=24, longest=300.0)
+    _refusals(app)
+    _calculations(app, quick, patient)
+    _files(app, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
 
 
-def _problem(status: int, message: str) -> JSONResponse:
-    return JSONResponse({"error": {"type": "RequestError", "message": message}}, status_code=status)
+def _refusals(app: FastAPI) -> None:
+    """Every error as ``{"error": {"type", "message"}}`` in the language of the request."""
+
+    @app.exception_handler(GranumError)
+    async def refused(_request: Request, fault: GranumError) -> JSONResponse:
+        status = 429 if isinstance(fault, Busy) else (422 if fault.exit_code == 2 else 409)
+        return Answer({"error": fault.as_json()}, status_code=status)
+
+    @app.exception_handler(RequestValidationError)
+    async def misread(_request: Request, fault: RequestValidationError) -> JSONResponse:
+        places = ", ".join(".".join(map(str, e["loc"])) for e in fault.errors()[:3])
+        return problem(422, _("The request is not understood; look at: {places}.").format(places=places))
+
+    @app.exception_handler(HTTPException)
+    async def absent(_request: Request, fault: HTTPException) -> JSONResponse:
+        return problem(fault.status_code, _("There is nothing at this address.") if fault.status_code == 404 else str(fault.detail))
+
+    @app.exception_handler(Exception)
+    async def broken(request: Request, fault: Exception) -> JSONResponse:
+        logging.getLogger("granum").error("%s %s", request.method, request.url.path, exc_info=fault)
+        return problem(500, _("Granum has a fault here: {reason}. Please report it.").format(reason=type(fault).__name__))
+
+
+def _calculations(app: FastAPI, quick: Workers, patient: Workers) -> None:
+    """Cards, calculations, fits and lines."""
+
+    @app.get("/api/cards")
+    async def cards(word: str = "", sort: str = "") -> Response:
+        """All cards, short."""
+        if not word and not sort:
+            return Response(await quick.run(_cards_text), media_type="application/json")
+        needle = word.lower()
+        found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
+        return Answer({"cards": [c for c in found if needle in f"{c['card']} {c['title']} {c['summary']}".lower()]})
+
+    @app.get("/api/cards/{key}")
+    async def card(key: str) -> Response:
+        """One card with everything a form needs."""
+        return Answer(await quick.run(lambda: card_form(key)))
+
+    @app.post("/api/calc/{key}")
+    async def calc(request: Request, key: str, inputs: Inputs) -> Response:
+        """Evaluate a card."""
+        return Answer(await quick.run(lambda: _calc(key, inputs), request))
+
+    @app.post("/api/spread/{key}")
+    async def others(request: Request, key: str, inputs: Inputs) -> Response:
+        """The same inputs by the other laws that could be used."""
+        return Answer({"rows": await patient.run(lambda: spread(_evaluable(key, ("formula",)), _given(inputs)), request)})
+
+    @app.post("/api/chart/{key}")
+    async def chart(request: Request, key: str, inputs: Inputs) -> Response:
+        """Draw a chart: Plotly JSON."""
+        return Response(await patient.run(lambda: _chart(key, inputs), request), media_type="application/json")
+
+    @app.post("/api/fit/{key}")
+    async def fit(request: Request, key: str, file: Annotated[UploadFile, File()], conditions: Annotated[str, Form()] = "{}") -> Response:
+        """Fit a lab test to an uploaded table."""
+        content = await file.read(LARGEST_BODY + 1)
+        name = Path(file.filename or "data.csv").name
+        return Answer(await patient.run(lambda: _fit(key, content, name, conditions), request))
+
+    @app.post("/api/run")
+    async def run(request: Request, case: Annotated[str, Body(embed=True)]) -> Response:
+        """Solve the text of a case file."""
+        return Answer(await patient.run(lambda: _run(case), request))
+
+    @app.post("/api/report", response_class=HTMLResponse)
+    async def report(request: Request, case: Annotated[str, Body(embed=True)]) -> HTMLResponse:
+        """The report of a case file."""
+        return HTMLResponse(await patient.run(lambda: _report(case), request))
+
+    @app.get("/api/exercises")
+    async def exercise_list() -> Response:
+        """Worked examples and quizzes of the course notes."""
+        return Answer(await quick.run(exercises.listing))
+
+
+def _files(app: FastAPI, workspace: Path | None) -> None:
+    """Case files: the workspace and the shipped examples; Plotly."""
+
+    @app.get("/api/workspace")
+    async def listing() -> Response:
+        """Case files of the workspace."""
+        if workspace is None:
+            return Answer({"files": None})
+        return Answer({"files": sorted(str(p.relative_to(workspace)) for p in workspace.rglob("*.toml") if p.is_file())})
+
+    @app.get("/api/workspace/{path:path}")
+    async def opened(path: str) -> Response:
+        """The text of one case file."""
+        place = _inside(workspace, path)
+        if not place.is_file():
+            raise InputError(_("There is no file '{path}' in the workspace.").format(path=path))
+        return Answer({"path": path, "text": place.read_text(encoding="utf-8", errors="replace")})
+
+    @app.put("/api/workspace/{path:path}")
+    async def saved(path: str, text: Annotated[str, Body(embed=True)]) -> Response:
+        """Save a case file atomically."""
+        from granum.core.files import write_atomic
+
+        place = _inside(workspace, path)
+        try:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            write_atomic(place, text)
+        except (OSError, UnicodeError) as fault:
+            raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=fault)) from None
+        return Answer({"path": path})
+
+    @app.get("/api/examples")
+    async def examples() -> Response:
+        """Case files shipped with the package."""
+        return Answer({"files": sorted(_examples())})
+
+    @app.get("/api/examples/{name:path}")
+    async def example(name: str) -> Response:
+        """The text of a shipped case file."""
+        if name not in _examples():
+            raise unknown_name(_("Example"), name, _examples())
+        return Answer({"path": name, "text": _examples()[name].read_text(encoding="utf-8")})
+
+    @app.get("/vendor/plotly.js")
+    async def plotly() -> FileResponse:
+        """Plotly, as the installed Python package ships it."""
+        place = files("plotly") / "package_data" / "plotly.min.js"
+        return FileResponse(str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"})
 
 
 @cache
@@ -166,37 +196,30 @@ def _inside(workspace: Path | None, path: str) -> Path:
     if workspace is None:
         raise InputError(_("No workspace: start the app with --workspace FOLDER to open and save files."))
     root = workspace.resolve()
-    place = (root / path).resolve()
+    try:
+        place = (root / path).resolve()
+    except (OSError, ValueError):  # a name the file system cannot hold, such as one with a zero byte
+        place = root
     if not place.is_relative_to(root) or place.suffix != ".toml":
         raise InputError(_("'{path}' is not a case file (.toml) of the workspace.").format(path=path))
     return place
 
 
-def _cards() -> list[dict[str, Any]]:
-    from granum.core.i18n import current_language
-
-    return _cards_in(current_language())
-
-
 @cache
-def _cards_in(_language: str) -> list[dict[str, Any]]:
-    things = registry.everything().values()
-    return [{"card": c.key, "sort": c.sort, "domain": c.domain, "title": c.title, "summary": c.summary} for c in (t.card for t in things)]
+def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
+    found = [
+        {"card": c.key, "sort": c.sort, "domain": c.domain, "title": c.title, "summary": c.summary}
+        for c in (t.card for t in registry.everything().values())
+    ]
+    return found, Answer({"cards": found}).body
 
 
-def _card(key: str) -> dict[str, Any]:
-    from granum.reports.mathml import mathml
+def _cards() -> list[dict[str, Any]]:
+    return _cards_in(current_language())[0]
 
-    found = registry.find(key).card
-    data = found.as_json() | {"equation_shown": mathml(found.equation, display=True)}
-    for row, p in zip(data["parameters"], found.parameters, strict=True):
-        row["allowed"] = bounds_text(p)
-        row["symbol_shown"] = mathml(p.term.symbol) if p.term else ""
-        if p.law:
-            row["choices"] = sorted(
-                thing.card.name for thing in registry.family(p.law).values() if not any(q.required for q in thing.card.parameters) or thing.card.sort != "law"
-            )
-    return data
+
+def _cards_text() -> bytes:
+    return _cards_in(current_language())[1]
 
 
 def _evaluable(key: str, sorts: tuple[str, ...]) -> Any:
@@ -260,5 +283,3 @@ def _report(case: str) -> str:
     from granum.reports.html import line_report
 
     return line_report(read_text(case).solve())
-
-

@@ -46,13 +46,11 @@ def cite(source: str) -> str:
         if entry is None:
             raise unknown_name("source", key.strip(), bibliography())
         authors = entry.get("author", entry.get("organization", entry.get("editor", ""))).replace("\n", " ").replace(" and ", "; ")
+        authors = authors.replace("{", "").replace("}", "")
         host = entry.get("journal") or entry.get("booktitle") or entry.get("publisher") or entry.get("institution", "")
-        bits = [authors, f"({entry.get('year', 's.d.')})", entry.get("title", "").replace("{", "").replace("}", ""), host]
+        title = entry.get("title", "").replace("{", "").replace("}", "")
         if entry.get("volume"):
-            bits.append(entry["volume"] + (f", {entry['pages']}" if entry.get("pages") else ""))
-        if entry.get("doi"):
-            bits.append("doi:" + entry["doi"])
-        if place.strip():
-            bits.append("– " + place.strip())
-        written.append(" ".join(b for b in bits if b))
+            host += f" {entry['volume']}" + (f", {entry['pages'].replace('--', '–')}" if entry.get("pages") else "")
+        bits = [f"{authors} ({entry.get('year', 's.d.')})", title, host, f"doi:{entry['doi']}" if entry.get("doi") else ""]
+        written.append(". ".join(b for b in bits if b) + (f" – {place.strip()}" if place.strip() else ""))
     return " · ".join(written)

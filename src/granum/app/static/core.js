@@ -5,10 +5,11 @@ import { english, french } from './strings.fr.js';
 export { h, html, render, useState, useEffect, useRef, useMemo, useCallback };
 
 // ---- state in the link: #/page/key?name=value&… ----------------------------------------------------
+let links = 0;
 export function readLink() {
   const [path, query = ''] = location.hash.replace(/^#\/?/, '').split('?');
   const [page = 'calculate', ...rest] = path.split('/').map(decodeURIComponent);
-  return { page: page || 'calculate', key: rest.join('/'), values: Object.fromEntries(new URLSearchParams(query)) };
+  return { page: page || 'calculate', key: rest.join('/'), values: Object.fromEntries(new URLSearchParams(query)), visit: ++links };
 }
 
 export function link(page, key = '', values = {}) {
@@ -102,14 +103,23 @@ export function loadPlotly() {
   return plotly;
 }
 
+/** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
+function fitted(layout, width) {
+  const narrow = width < 560;
+  const margin = { ...layout.margin, t: 36, ...(narrow ? { l: 56, r: 12 } : {}) };
+  const legend = narrow ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.22, yanchor: 'top', font: { size: 11 } } : layout.legend;
+  return { ...layout, title: undefined, autosize: true, margin, legend };
+}
+
 export function Plot({ figure, label }) {
   const place = useRef(null);
   useEffect(() => {
     let alive = true;
     loadPlotly().then((Plotly) => {
       if (alive && place.current && figure) {
-        Plotly.react(place.current, figure.data, { ...figure.layout, autosize: true }, {
-          responsive: true, displaylogo: false, toImageButtonOptions: { format: 'svg', filename: 'granum' },
+        Plotly.react(place.current, figure.data, fitted(figure.layout, place.current.clientWidth), {
+          responsive: true, displaylogo: false, displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
+          toImageButtonOptions: { format: 'svg', filename: 'granum' },
         });
       }
     });

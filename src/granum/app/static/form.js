@@ -1,56 +1,62 @@
-// A form made from a card: one field per parameter, with units, limits and source of the default beside it.
-import { html, t, number } from './core.js';
+// A form made from a card: one field per parameter, with units, limits and range of the source beside it.
+import { html, t, settings } from './core.js';
 
-const inUnit = (value, unit) => (typeof value === 'number' ? `${Number(value.toPrecision(6))} ${unit}`.trim() : value);
+const NUMBER = /^\s*([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)$/;
+const joined = ({ number, unit }) => `${number} ${unit}`.trim();
+const inLanguage = (text) => (settings.language === 'fr' ? text.replace('.', ',') : text);
 
-/** What a field holds: text with its unit, such as "85 um"; number and unit are split for display. */
-export function split(text, parameter) {
-  const found = /^\s*([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)$/.exec(text || '');
-  const units = (parameter.units || []).map((u) => u.unit);
-  if (!found) return { number: text || '', unit: units[0] || '' };
-  return { number: found[1], unit: found[2] || parameter.unit || '' };
+/** What a field holds is text with its unit, such as "85 um"; number and unit are split for display. */
+function split(text, p) {
+  const usual = p.default_shown?.unit || p.example?.unit || p.units?.[0]?.unit || '';
+  const found = NUMBER.exec(text || '');
+  return found ? { number: found[1], unit: found[2] || p.unit || '' } : { number: text || '', unit: usual };
 }
 
 export function Field({ parameter: p, text, onChange, problem }) {
   const id = `field-${p.name}`;
   const note = `${id}-note`;
-  const label = html`<label for=${id}>${p.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} /></label>`;
-  let entry;
-  if (p.choices) {
-    const shown = text || (p.required ? '' : String(p.default ?? ''));
-    entry = html`<select id=${id} class="alone" value=${shown} onChange=${(e) => onChange(e.target.value)}>
-      ${(p.required || p.default === null) && html`<option value="">—</option>`}
-      ${p.choices.map((c) => html`<option value=${c} selected=${c === shown}>${String(c).replaceAll('_', ' ')}</option>`)}</select>`;
-  } else if (p.kind) {
-    const parts = split(text, p);
-    const units = p.units || [];
-    const known = units.some((u) => u.unit === parts.unit);
-    const hint = p.required || p.default === null || p.default === undefined ? '' : Array.isArray(p.default) ? p.default.join(' ') : number(p.default, 6);
-    entry = html`<input id=${id} type="text" inputmode="decimal" autocomplete="off" value=${parts.number} placeholder=${hint}
-        aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'}
-        onInput=${(e) => onChange(/[a-zA-Zµ°%]/.test(e.target.value.replace(/[eE][-+]?\d+/, '')) ? e.target.value : e.target.value.trim() === '' ? '' : `${e.target.value} ${parts.unit}`.trim())} />
-      ${units.length > 0 && !(units.length === 1 && units[0].label === '') && html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${parts.unit}
-        onChange=${(e) => parts.number !== '' && onChange(`${parts.number} ${e.target.value}`)}>
-        ${!known && parts.unit && html`<option value=${parts.unit} selected>${parts.unit}</option>`}
-        ${units.map((u) => html`<option value=${u.unit} selected=${u.unit === parts.unit}>${u.label || '1'}</option>`)}</select>`}`;
-  } else {
-    entry = html`<input id=${id} type="text" value=${text || ''} placeholder=${p.required ? '' : String(p.default ?? '')} onInput=${(e) => onChange(e.target.value)} aria-describedby=${note} />`;
-  }
-  return html`<div class="field">${label}<div class="entry">${entry}</div>
-    <div class="note small dim" id=${note}>${p.allowed && html`<span>${p.allowed}</span>`}${p.fitted && html`<span> · ${t('source covers')} ${p.fitted.map((x) => (x === null ? '∞' : number(x))).join(' … ')}</span>`}
+  const Entry = p.options?.length ? Choice : p.kind && p.series ? Series : p.kind ? Quantity : Text;
+  return html`<div class="field"><label for=${id}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
+    <div class="entry"><${Entry} p=${p} id=${id} note=${note} text=${text} onChange=${onChange} problem=${problem} /></div>
+    <div class="note small dim" id=${note}>${[p.allowed, p.source_range && `${t('source covers')} ${p.source_range}`].filter(Boolean).join(' · ')}
     ${problem && html`<div class="out">${problem}</div>`}</div></div>`;
 }
 
-/** Ordinary values for the required fields, so that a card shows a result when it is opened. */
+function Choice({ p, id, note, text, onChange }) {
+  const shown = text || (p.required ? '' : (p.default_shown?.number ?? ''));
+  const open = p.required || p.default === null;
+  const known = shown === '' || p.options.some((o) => o.value === shown);
+  return html`<select id=${id} class="alone" value=${shown} aria-describedby=${note} onChange=${(e) => onChange(e.target.value)}>
+    ${(open || shown === '') && html`<option value="">—</option>`}${!known && html`<option value=${shown} selected>${shown.replaceAll('_', ' ')}</option>`}
+    ${p.options.map((o) => html`<option value=${o.value} selected=${o.value === shown}>${o.label}</option>`)}</select>`;
+}
+
+function Quantity({ p, id, note, text, onChange, problem }) {
+  const parts = split(text, p);
+  const units = p.units || [];
+  const type = (typed) => {
+    const clean = typed.trim().replace(/^([-+]?\d*),(\d*)/, '$1.$2');
+    const found = NUMBER.exec(clean);
+    onChange(clean === '' ? '' : found && found[2] ? clean : joined({ number: clean, unit: parts.unit }));
+  };
+  const bare = units.length === 0 || (units.length === 1 && units[0].label === '');
+  return html`<input id=${id} type="text" inputmode="decimal" autocomplete="off" value=${inLanguage(parts.number)} placeholder=${p.default_shown ? inLanguage(p.default_shown.number) : ''}
+      aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onInput=${(e) => type(e.target.value)} />
+    ${!bare && html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${parts.unit} onChange=${(e) => parts.number !== '' && onChange(joined({ number: parts.number, unit: e.target.value }))}>
+      ${parts.unit && !units.some((u) => u.unit === parts.unit) && html`<option value=${parts.unit} selected>${parts.unit}</option>`}
+      ${units.map((u) => { const unit = u.unit === 'dimensionless' ? '' : u.unit; return html`<option value=${unit} selected=${unit === parts.unit}>${u.label || '1'}</option>`; })}</select>`}`;
+}
+
+function Series({ p, id, note, text, onChange, problem }) {
+  const hint = p.example ? joined(p.example) : `1 2 3 ${p.units?.[0]?.unit === 'dimensionless' ? '' : p.units?.[0]?.unit || ''}`.trim();
+  return html`<input id=${id} type="text" autocomplete="off" value=${text || ''} placeholder=${p.default_shown ? joined(p.default_shown) : hint} aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onInput=${(e) => onChange(e.target.value)} />`;
+}
+
+function Text({ p, id, note, text, onChange, problem }) {
+  return html`<input id=${id} type="text" value=${text || ''} placeholder=${p.default_shown?.number ?? ''} aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onInput=${(e) => onChange(e.target.value)} />`;
+}
+
+/** The card's own example, so that it shows a result when it is opened. */
 export function ordinary(card) {
-  const values = {};
-  for (const p of card.parameters) {
-    if (!p.required || !p.kind) continue;
-    if (p.series) continue;
-    const [low, high] = p.typical;
-    const middle = low > 0 ? Math.sqrt(low * high) : (low + high) / 2;
-    const power = middle === 0 ? 1 : 10 ** Math.floor(Math.log10(Math.abs(middle)) - 1);
-    values[p.name] = inUnit(Math.round(middle / power) * power, p.unit === 'dimensionless' ? '' : p.unit);
-  }
-  return values;
+  return Object.fromEntries(card.parameters.filter((p) => p.example).map((p) => [p.name, joined(p.example)]));
 }

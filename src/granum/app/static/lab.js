@@ -4,7 +4,7 @@ import { Field, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 
 export function Lab({ state }) {
-  const cards = useCards(['lab test']);
+  const cards = useCards((c) => c.sort === 'lab test');
   const key = state.key || (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
   const { data: card } = useAnswer((signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language], 0);
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
@@ -50,7 +50,7 @@ function Fitted({ data }) {
     Object.assign(document.createElement('a'), { href: place, download: `${data.card}.json` }).click();
     URL.revokeObjectURL(place);
   };
-  return html`<div class="wide"><table><thead><tr><th>${t('parameter')}</th><th class="n">${t('value')}</th><th class="n">${t('standard error')}</th><th class="n">${t('95 % interval')}</th><th>${t('unit')}</th></tr></thead>
+  return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th><th scope="col">${t('unit')}</th></tr></thead>
     <tbody>${Object.entries(data.parameters).map(([name, row]) => html`<tr data-parameter=${name}><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n"><strong>${number(row.value)}</strong></td><td class="n">${number(row.standard_error, 3)}</td><td class="n">${number(row.interval_95[0])} … ${number(row.interval_95[1])}</td><td>${row.unit}</td></tr>`)}
     ${Object.entries(data.derived || {}).map(([name, row]) => html`<tr class="dim"><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n">${number(row.value)}</td><td /><td /><td>${row.unit}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}

@@ -1,5 +1,5 @@
 // Lines: open or write a case file, solve it, click through units and streams, report.
-import { html, t, ask, number, useState, useEffect, useRef, Plot } from './core.js';
+import { html, t, ask, number, useState, useEffect, useRef, replaceLink, Plot } from './core.js';
 
 export function Lines({ state }) {
   const [list, setList] = useState(null);
@@ -13,12 +13,14 @@ export function Lines({ state }) {
   const [kept, setKept] = useState([]);
   const stop = useRef(null);
   useEffect(() => { Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files })); }, []);
+  useEffect(() => { if (state.key.includes(':')) open(state.key); }, [state.visit]);
   const open = async (place) => {
     if (!place) return;
     const [sort, ...rest] = place.split(':');
     try {
-      const found = await ask(`/api/${sort}/${rest.join(':')}`);
+      const found = await ask(`/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`);
       setPast([...past, text]); setText(found.text); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null);
+      replaceLink('lines', place, {});
       solve(found.text);
     } catch (problem) { setError(problem); }
   };
@@ -43,23 +45,24 @@ export function Lines({ state }) {
       URL.revokeObjectURL(place);
     } catch (problem) { setError(problem); } finally { setBusy(false); }
   };
-  return html`<main class="page" id="main"><h1>${t('Lines')}</h1>
-    <p class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="">${t('Open…')}</option>
+  return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
+    <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="">${t('Open…')}</option>
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f}>${f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
       <button class="button main" disabled=${!text || busy} onClick=${() => solve(text)}>${t('Solve')}</button>
-      ${busy && html`<button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button> <span class="dim" role="status">${t('Working…')}</span>`}
-      <button class="button" disabled=${!past.length} onClick=${() => { setText(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
-      <button class="button" disabled=${!outcome || busy} onClick=${report}>${t('Report')}</button>
-      <button class="button" disabled=${!outcome || kept.length >= 2} onClick=${() => setKept([...kept, outcome])}>${t('Keep to compare')}</button>
-      ${list?.own && html`<input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button> <span role="status">${told}</span>`}</p>
+      <button class="button" disabled=${!past.length} onClick=${() => { setText(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button></div>
+    <label class="small dim" for="case">${t('Case file')}</label>
+    <textarea id="case" rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${() => setPast([...past, text])} onInput=${(e) => setText(e.target.value)}></textarea>
+    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button> <span role="status">${told}</span></div>`}</section>
+    <section aria-label=${t('Believe')}>
+    ${busy && html`<div class="row" aria-busy="true"><span role="status">${t('Working… a new line takes a little while the first time.')}</span> <button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button></div>`}
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
-    ${outcome && html`<div class=${busy ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} /></div>`}
-    <h2><label for="case">${t('Case file')}</label></h2>
-    <textarea id="case" rows="24" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${() => setPast([...past, text])} onInput=${(e) => setText(e.target.value)}></textarea></main>`;
+    ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${f.replace(/\/[^/]*$/, '').replaceAll('-', ' ')}<span class="small dim">${f}</span></button>`)}</div>`}
+    ${outcome && html`<div class=${busy ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
+      <button class="button" disabled=${kept.length >= 2} onClick=${() => setKept([...kept, outcome])}>${t('Keep to compare')}</button>`} /></div>`}</section></main>`;
 }
 
-function Outcome({ data, kept }) {
+function Outcome({ data, kept, tools }) {
   const [chosen, choose] = useState({ sort: '', name: '' });
   const pick = (event) => {
     if (event.type === 'keydown' && event.key !== 'Enter' && event.key !== ' ') return;
@@ -70,13 +73,13 @@ function Outcome({ data, kept }) {
   };
   const closes = Math.max(data.audit.mass_closure, data.audit.energy_closure) <= 1e-9;
   const cases = [...kept, data];
-  return html`<h2>${data.title}</h2>
+  return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
     <p class=${closes ? 'ok' : 'out'}>${closes ? '● ' : '▲ '}${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>
     <div class="diagram" onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
     ${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card"><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
     ${chosen.sort === 'unit' && data.units[chosen.name] && html`<div class="card"><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>`}
-    <h2>${t('Streams')}</h2><div class="wide"><table><thead><tr><th>${t('stream')}</th><th class="n">${t('solid')} kg/h</th><th class="n">${t('liquid')} kg/h</th><th class="n">${t('gas')} kg/h</th><th class="n"><i>T</i> °C</th><th class="n"><i>d</i><sub>50</sub> µm</th></tr></thead>
+    <h2>${t('Streams')}</h2><div class="wide"><table><thead><tr><th scope="col">${t('stream')}</th><th class="n" scope="col">${t('solid')} kg/h</th><th class="n" scope="col">${t('liquid')} kg/h</th><th class="n" scope="col">${t('gas')} kg/h</th><th class="n" scope="col"><i>T</i> °C</th><th class="n" scope="col"><i>d</i><sub>50</sub> µm</th></tr></thead>
       <tbody>${Object.entries(data.stream_rows).map(([name, row]) => html`<tr><td>${name}</td>${['solid', 'liquid', 'gas', 'temperature', 'median'].map((k) => html`<td class="n">${row[k] === null ? '' : number(row[k])}</td>`)}</tr>`)}</tbody></table></div>
     <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div>`;
 }

@@ -1,0 +1,118 @@
+"""What a page needs to make a form of a card: choices with labels, ranges and values in the units people write."""
+
+from __future__ import annotations
+
+import ast
+import doctest
+import math
+from typing import Any
+
+import numpy as np
+
+from granum.core import registry
+from granum.core.cards import Card
+from granum.core.i18n import _
+from granum.core.kinds import Kind
+from granum.core.parameters import Parameter
+from granum.core.units import best_unit, format_number, from_si, show
+from granum.reports.mathml import mathml
+
+
+def card_form(key: str) -> dict[str, Any]:
+    """One card with everything a form needs."""
+    card = registry.find(key).card
+    data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
+    examples = docstring_values(card)
+    for row, p in zip(data["parameters"], card.parameters, strict=True):
+        row["symbol_shown"] = mathml(p.term.symbol) if p.term and p.term.symbol else ""
+        row["allowed"] = bounds_text(p)
+        row["source_range"] = range_text(p, p.fitted) if p.fitted else ""
+        row["options"] = options(p)
+        row["default_shown"] = None if p.required or p.default is None else entry(p, p.default)
+        row["example"] = example(p, examples)
+    return data
+
+
+def usual_unit(p: Parameter, value: float) -> str:
+    """The unit a value of a parameter is written in: the glossary's when it suits the size, else the best one."""
+    assert p.kind is not None
+    usual = p.term.unit if p.term else None
+    if usual and (value == 0.0 or 0.05 <= abs(from_si(value, usual, p.kind)) < 1e4):
+        return usual
+    return best_unit(value, p.kind)
+
+
+def entry(p: Parameter, value: Any) -> dict[str, str]:
+    """A value as a form holds it: number and unit, both text; words and laws without unit."""
+    if p.kind is None or isinstance(value, str):
+        return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
+    array = np.atleast_1d(np.asarray(value, dtype=float))
+    unit = usual_unit(p, float(np.median(np.abs(array))) if array.size else 0.0)
+    shown = (f"{float(x):.6g}" for x in np.atleast_1d(from_si(array, unit, p.kind)))
+    return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
+
+
+def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
+    """The value of the docstring's example, else the middle of the ordinary range; None for what may stay empty."""
+    if p.name in given:
+        return entry(p, given[p.name])
+    if given or not p.required or p.kind is None or p.series:
+        return None
+    low, high = p.ordinary()
+    middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
+    unit = usual_unit(p, middle)
+    number = float(from_si(middle, unit, p.kind))
+    return {"number": f"{float(f'{number:.2g}'):.6g}", "unit": "" if unit == "dimensionless" else unit}
+
+
+def docstring_values(card: Card) -> dict[str, Any]:
+    """Keyword arguments of the call in the docstring's example, as far as they are literals; empty when one is not."""
+    for item in doctest.DocTestParser().get_examples(card.doc):
+        for node in ast.walk(ast.parse(item.source)):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == card.name and node.keywords and not node.args:
+                try:
+                    return {str(word.arg): ast.literal_eval(word.value) for word in node.keywords if word.arg}
+                except ValueError:
+                    break
+    return {}
+
+
+def options(p: Parameter) -> list[dict[str, str]]:
+    """Words or laws that may be chosen, with labels."""
+    if p.choices:
+        return [{"value": str(word), "label": _(str(word).replace("_", " "))} for word in p.choices]
+    if p.sort is bool:
+        return [{"value": "yes", "label": _("yes")}, {"value": "no", "label": _("no")}]
+    if not p.law:
+        return []
+    ready = [t.card for t in registry.family(p.law).values() if t.card.sort != "law" or not any(q.required for q in t.card.parameters)]
+    return sorted(({"value": c.name, "label": law_label(c)} for c in ready), key=lambda o: o["label"])
+
+
+def law_label(card: Card) -> str:
+    """A law among others of its family: its author alone when the title is the family's name with the author."""
+    _head, bracket, author = card.title.partition(" (")
+    return author.removesuffix(")") if bracket and card.sort == "formula" and card.name.startswith(card.family) else card.title
+
+
+def _edge(value: float, kind: Kind) -> str:
+    return "0" if value == 0.0 and kind.unit != "K" else show(value, kind)
+
+
+def bounds_text(p: Parameter) -> str:
+    """The allowed range of a parameter as people read it."""
+    kind = p.kind
+    if kind is None or (kind.lower == -math.inf and kind.upper == math.inf):
+        return ""
+    if kind.upper == math.inf:
+        return f"{'>' if kind.open_lower else '≥'} {_edge(kind.lower, kind)}"
+    if kind.lower == -math.inf:
+        return f"{'<' if kind.open_upper else '≤'} {_edge(kind.upper, kind)}"
+    return f"{_edge(kind.lower, kind)} … {_edge(kind.upper, kind)}"
+
+
+def range_text(p: Parameter, limits: tuple[float, float]) -> str:
+    """A range in one unit: ``10 … 800 µm``."""
+    if p.kind is None:
+        return " … ".join("∞" if abs(x) == math.inf else format_number(x) for x in limits)
+    return " … ".join(("−∞" if x < 0 else "∞") if abs(x) == math.inf else _edge(x, p.kind) for x in limits)
