@@ -141,9 +141,9 @@ def test_power_laws_reproduce_the_courses_equations():
 
 
 def test_criteria_and_their_limits():
-    assert (criteria.X_STOKES, criteria.X_NEWTON) == pytest.approx((4.8, 110_000.0))
-    assert criteria.Y_STOKES == pytest.approx(1.66e-3, rel=5e-3)
-    assert criteria.Y_NEWTON == pytest.approx(1136, rel=1e-3)
+    assert pytest.approx((4.8, 110_000.0)) == (criteria.X_STOKES, criteria.X_NEWTON)
+    assert pytest.approx(1.66e-3, rel=5e-3) == criteria.Y_STOKES
+    assert pytest.approx(1136, rel=1e-3) == criteria.Y_NEWTON
     for X, law, Re in ((4.8, drag.drag_coefficient_stokes, 0.2), (110_000.0, drag.drag_coefficient_newton, 500.0)):
         assert criteria.reynolds_number_from_velocity_criterion(X, law) == pytest.approx(Re)
     for Y, law, Re in ((0.2**2 / 24, drag.drag_coefficient_stokes, 0.2), (500 / 0.44, drag.drag_coefficient_newton, 500.0)):
@@ -155,7 +155,9 @@ def test_criteria_and_their_limits():
     for v in (1e-4, 5e-2, 1.0):
         d = criteria.terminal_diameter_by_regime(velocity=v, **quartz).terminal_diameter
         assert criteria.terminal_velocity_by_regime(particle_diameter=d, **quartz).terminal_velocity == pytest.approx(v, rel=1e-9)
-    cork = criteria.terminal_velocity_by_regime(particle_diameter=1e-3, particle_density=200.0, fluid_density=1000.0, dynamic_viscosity=1e-3)
+    cork = criteria.terminal_velocity_by_regime(
+        particle_diameter=1e-3, particle_density=200.0, fluid_density=1000.0, dynamic_viscosity=1e-3
+    )
     assert cork.terminal_velocity < 0
 
 

@@ -5,11 +5,15 @@ import numpy as np
 import pytest
 
 from granum.core.errors import InputError
-from granum.core.registry import family
+from granum.core.registry import everything
 from granum.porous.formulas import inverse, packed_beds
 from granum.porous.formulas.gas import mass_flux_gas_bed, pressure_outlet_gas_bed
 
-LAWS = {k.split("pressure_gradient_")[-1]: f for k, f in family("pressure_gradient").items() if f.card.sort == "formula"}
+LAWS = {
+    f.card.name.removeprefix("pressure_gradient_"): f
+    for f in everything(("porous",)).values()
+    if f.card.family == "pressure_gradient" and f.card.sort == "formula"
+}
 PEERS = {"ergun": "Ergun", "tallmadge": "Tallmadge", "erdim": "Erdim_Akgiray_Demir", "kta": "KTA", "brauer": "Brauer"}
 BED = {"particle_diameter": 2e-3, "void_fraction": 0.4, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
 

@@ -28,7 +28,7 @@ def test_intervals_cover_the_truth():
     for _ in range(20):
         drop = 0.2 * (1e-3 / B * U + beta * 1000 * U**2) * (1 + 0.02 * rng.standard_normal(12))
         found = Permeametry(superficial_velocity=U, pressure_drop=drop, **CONDITIONS).fit()["permeability"]
-        inside += found.low <= B <= found.high
+        inside += found.interval_95[0] <= B <= found.interval_95[1]
     assert 16 <= inside <= 20
 
 

@@ -13,21 +13,11 @@ from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Leng
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.particles.formulas.trajectories import trajectory, trajectory_stokes
-from granum.particles.ranking import measured_drag
+from granum.particles.ranking import measured_drag, sphere_laws
 
 Drag = Annotated[Any, Law("drag_coefficient")]
 NAMED = ("stokes", "allen", "newton", "fair_geyer")
 """Laws that get a color of their own beside the chosen one."""
-
-
-def _sphere_laws() -> dict[str, Any]:
-    from granum.core.registry import family
-
-    return {
-        key.split(".")[1].removeprefix("drag_coefficient_"): law
-        for key, law in family("drag_coefficient").items()
-        if law.card.sort == "formula" and not law.card.name.endswith("_chien")
-    }
 
 
 def _title(name: str) -> str:
@@ -61,7 +51,7 @@ def drag_chart(
     Re = np.geomspace(1e-3, 1e6, 271)
     colors = dict(zip(NAMED, (SOLID, LIQUID, HEAT, CAUTION), strict=True))
     chosen = drag.card.name.removeprefix("drag_coefficient_") if hasattr(drag, "card") else ""
-    for name, law in _sphere_laws().items():
+    for name, law in sphere_laws().items():
         x = _inside(law, Re)
         if name == chosen or not x.size:
             continue
@@ -106,7 +96,7 @@ def drag_deviation_chart(deviation_largest: Ratio = 0.25) -> Any:
         axis_title("reynolds"), _("deviation from measured drag") + " / %", title=_("Drag laws against measured drag"), x_log=True
     )
     Re, measured = measured_drag("morsi1972")
-    for i, (name, law) in enumerate(_sphere_laws().items()):
+    for i, (name, law) in enumerate(sphere_laws().items()):
         x = _inside(law, Re)
         if x.size < 3:
             continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from functools import cache
 from importlib.resources import files
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,17 @@ def measured_drag(name: str) -> tuple[np.ndarray, np.ndarray]:
     text = (files("granum") / "particles" / "data" / f"drag_{name}.csv").read_text(encoding="utf-8")
     rows = np.array([[float(cell) for cell in row] for row in list(csv.reader(text.splitlines()))[1:]])
     return rows[:, 0], rows[:, 1]
+
+
+def sphere_laws() -> dict[str, Any]:
+    """The drag laws of a sphere by the author's part of their name; parametrised laws need a shape and stay out."""
+    from granum.core.registry import everything
+
+    return {
+        law.card.name.removeprefix("drag_coefficient_"): law
+        for law in everything(("particles",)).values()
+        if law.card.family == "drag_coefficient" and law.card.sort == "formula"
+    }
 
 
 class DragRanking(NamedTuple):
@@ -50,8 +61,6 @@ def drag_ranking(
     >>> "stokes" in drag_ranking(reynolds_lowest=1.0, reynolds_highest=1e5).drag[:10]
     False
     """
-    from granum.core.registry import family
-
     names = ("morsi1972", "roos1971") if measurements == "all" else (measurements,)
     Re, measured = (np.concatenate(parts) for parts in zip(*(measured_drag(n) for n in names), strict=True))
     asked = (reynolds_lowest <= Re) & (reynolds_highest >= Re)
@@ -63,15 +72,12 @@ def drag_ranking(
             )
         )
     rows = []
-    for key, law in family("drag_coefficient").items():
-        if law.card.sort != "formula":
-            continue  # parametrised laws need a shape
+    for name, law in sphere_laws().items():
         low, high = law.card.fitted.get("reynolds", (0.0, np.inf))
         inside = (low <= Re) & (high >= Re)
         if not inside.any():
             continue
         deviation = np.asarray(law(Re[inside])) / measured[inside] - 1.0
-        name = key.split(".")[1].removeprefix("drag_coefficient_")
         rows.append((name, np.sqrt(np.mean(deviation**2)), deviation.mean(), abs(deviation).max(), inside.mean(), low, high))
     rows.sort(key=lambda row: (row[4] < 1.0, row[1]))
     columns = list(zip(*rows, strict=True))

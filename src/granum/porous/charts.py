@@ -31,7 +31,7 @@ def pressure_drop_chart(
 ) -> Any:
     """Pressure drop of a bed against velocity on log axes: every law, the two asymptotes, the regimes and the operating point."""
     from granum.core.charts import ACCENT, CAUTION, GAS, GRID, INK, add_label, add_line, add_points, axis_title, figure
-    from granum.core.registry import family
+    from granum.core.registry import everything
     from granum.core.units import best_unit, format_number, from_si
 
     bed = (particle_diameter, void_fraction, fluid_density, dynamic_viscosity, sphericity)
@@ -50,13 +50,13 @@ def pressure_drop_chart(
         title=_("Pressure drop of a bed against velocity"), x_log=True, y_log=True,
     )  # fmt: skip
     chosen = pressure_gradient.card.name if hasattr(pressure_gradient, "card") else ""
-    for key, law in family("pressure_gradient").items():
+    for law in everything(("porous",)).values():
         skipped = (chosen, "pressure_gradient_obstacles", "pressure_gradient_blake_kozeny", "pressure_gradient_burke_plummer")
-        if law.card.sort != "formula" or law.card.name in skipped:
+        if law.card.family != "pressure_gradient" or law.card.sort != "formula" or law.card.name in skipped:
             continue
         least, most = law.card.fitted.get("reynolds_bed", (0.0, np.inf))
         V = U[(least <= U * per_velocity) & (most >= U * per_velocity)]
-        name = key.split(".")[1].removeprefix("pressure_gradient_").replace("_", "–").title()
+        name = law.card.name.removeprefix("pressure_gradient_").replace("_", "–").title()
         add_line(drawing, across(V), upward(length * np.asarray(law(V, *bed))), name, color=GAS, width=0.8, opacity=0.6, legendgroup="laws")
     for law, name in ((pressure_gradient_blake_kozeny, _("viscous part")), (pressure_gradient_burke_plummer, _("inertial part"))):
         add_line(drawing, across(U), upward(length * np.asarray(law(U, *bed))), name, color=CAUTION, dash="dash", width=1.2)

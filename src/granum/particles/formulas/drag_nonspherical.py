@@ -9,7 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import formula, law
 from granum.core.kinds import PositiveNumber, Ratio, Sphericity, Within
-from granum.particles.falling import shape_factors
+from granum.particles.falling import drag_of_any_shape, shape_factors
 
 
 @formula(
@@ -29,16 +29,9 @@ def drag_coefficient_haider_levenspiel(reynolds: PositiveNumber, sphericity: Sph
     >>> round(drag_coefficient_haider_levenspiel(reynolds=200.0), 4)
     0.796
     """
-    Re, psi = reynolds, sphericity
-    A = jnp.exp(2.3288 - 6.4581 * psi + 2.4486 * psi**2)
-    B = 0.0964 + 0.5565 * psi
-    C = jnp.exp(4.905 - 13.8944 * psi + 18.4222 * psi**2 - 10.2599 * psi**3)
-    D = jnp.exp(1.4681 + 12.2584 * psi - 20.7322 * psi**2 + 15.8855 * psi**3)
     # The source gives spheres their own rounding of the four numbers.
-    round_particle = psi == 1.0
-    A, B = jnp.where(round_particle, 0.1806, A), jnp.where(round_particle, 0.6459, B)
-    C, D = jnp.where(round_particle, 0.4251, C), jnp.where(round_particle, 6880.95, D)
-    return 24.0 / Re * (1.0 + A * Re**B) + C / (1.0 + D / Re)
+    ball = 24.0 / reynolds * (1.0 + 0.1806 * reynolds**0.6459) + 0.4251 / (1.0 + 6880.95 / reynolds)
+    return jnp.where(sphericity == 1.0, ball, drag_of_any_shape(reynolds, sphericity))
 
 
 @formula(

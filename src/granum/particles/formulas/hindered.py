@@ -101,6 +101,8 @@ def settling_exponent_khan_richardson(reynolds: PositiveNumber, wall_ratio: Wall
 def settling_exponent_maude_whitmore(reynolds: PositiveNumber) -> PositiveNumber:
     """Exponent n of the settling velocity (1 − φ)ⁿ by Maude and Whitmore.
 
+    The three pieces, as handbooks print them, do not meet: n jumps up by 4 % at Re = 0.3.
+
     >>> settling_exponent_maude_whitmore(reynolds=1.0)
     4.375
     """

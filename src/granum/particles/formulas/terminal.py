@@ -16,7 +16,7 @@ Drag = Annotated[Any, Law("drag_coefficient")]
 
 
 @formula(
-    source="brown2003; ganser1993; clift1978, chapter 5",
+    source="brown2003; haider1989; clift1978, chapter 5",
     equation=r"v_t = \mathrm{sgn}(\rho_p - \rho_f)\sqrt{\frac{4 g d_p |\rho_p - \rho_f|}{3\, C_D(\mathrm{Re})\, \rho_f}}",
 )
 def terminal_velocity(
@@ -26,12 +26,12 @@ def terminal_velocity(
     dynamic_viscosity: DynamicViscosity,
     gravity: Acceleration = STANDARD_GRAVITY,
     drag: Drag = drag_coefficient_brown_lawler,
-    sphericity: Sphericity = 1.0,
+    sphericity: Sphericity | None = None,
 ) -> Velocity:
     """Terminal velocity of a single particle in a fluid at rest: positive downwards, negative for a particle that rises.
 
     The diameter is that of the sphere of equal volume. Any drag law serves; its range is checked at the Reynolds number
-    found. A law that knows the sphericity uses it, a law for spheres is carried over to the shape by Ganser's similarity.
+    found. A law that knows the sphericity uses it; a law for spheres is scaled by Haider and Levenspiel's ratio of shape to sphere.
     With equal densities the velocity is zero and flagged. Put ω²r in place of gravity for a centrifuge.
 
     >>> round(1000 * terminal_velocity(particle_diameter="85 um", particle_density=2630, fluid_density=1020,
@@ -51,7 +51,7 @@ def terminal_velocity(
 
 
 @formula(
-    source="brown2003; ganser1993; clift1978, chapter 5",
+    source="brown2003; haider1989; clift1978, chapter 5",
     equation=r"Y = \frac{\mathrm{Re}}{C_D} = \frac{3 \rho_f^2 v^3}{4 \eta g |\rho_p - \rho_f|},\quad d_p = \frac{\mathrm{Re}(Y)\,\eta}{\rho_f v}",
 )
 def terminal_diameter(
@@ -61,7 +61,7 @@ def terminal_diameter(
     dynamic_viscosity: DynamicViscosity,
     gravity: Acceleration = STANDARD_GRAVITY,
     drag: Drag = drag_coefficient_brown_lawler,
-    sphericity: Sphericity = 1.0,
+    sphericity: Sphericity | None = None,
 ) -> Length:
     """Diameter of the particle that has a given terminal velocity: the inverse of the terminal velocity.
 

@@ -150,7 +150,7 @@ def permeability_obstacles(particle_diameter: Length, void_fraction: VoidFractio
 def permeability_happel(particle_diameter: Length, void_fraction: VoidFraction) -> Permeability:
     """Permeability of a bed of spheres of any porosity by Happel's cell with a free surface.
 
-    Its Kozeny coefficient is 4.5 to 5.1 from porosity 0.4 to 0.7, and it tends to the obstacle model for a lonely sphere.
+    Its Kozeny coefficient is 4.5 to 5.1 from porosity 0.4 to 0.6, and it tends to the obstacle model for a lonely sphere.
 
     >>> permeability_happel(particle_diameter="100 um", void_fraction=0.5)
     2.931...e-11
