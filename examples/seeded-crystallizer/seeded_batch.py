@@ -11,17 +11,17 @@ import numpy as np
 import granum as gr
 
 c = gr.crystallization
-case = dict(
-    solute_per_solvent=0.4929904,  # saturated at 32 °C: 492.9904 g/L as printed
-    solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
-    growth={"law": "power_law_growth", "growth_coefficient": 6967e-6 / 60, "growth_order": 1.32},
-    nucleation={"law": "secondary_nucleation", "nucleation_coefficient": 2.78e-5 * 1e18 / 60 / 2110, "nucleation_order": 1.78},
-    duration="80 min",
-    crystal_density=2110,
-    seed_mass_per_solvent=0.0005,
-    seed_size="100 um",
-    seed_width="20 um",
-)
+case = {
+    "solute_per_solvent": 0.4929904,  # saturated at 32 °C: 492.9904 g/L as printed
+    "solubility": {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    "growth": {"law": "power_law_growth", "growth_coefficient": 6967e-6 / 60, "growth_order": 1.32},
+    "nucleation": {"law": "secondary_nucleation", "nucleation_coefficient": 2.78e-5 * 1e18 / 60 / 2110, "nucleation_order": 1.78},
+    "duration": "80 min",
+    "crystal_density": 2110,
+    "seed_mass_per_solvent": 0.0005,
+    "seed_size": "100 um",
+    "seed_width": "20 um",
+}
 runs = {}
 for name, exponent in (("linear", 1.0), ("cubic", 3.0)):
     program = c.PowerCooling("32 degC", "28 degC", "80 min", exponent)

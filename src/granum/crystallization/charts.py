@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import chart
-from granum.core.charts import ACCENT, GAS, HEAT, LIQUID, OUT, SOLID, add_label, add_line, axis_title, figure
+from granum.core.charts import ACCENT, GAS, HEAT, LIQUID, OUT, SOLID, add_band, add_line, axis_title, figure
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.i18n import _
 from granum.core.kinds import Density, Distance, Law, Length, MassRatio, PositiveNumber, Series, Temperature, TemperatureDifference, Time
@@ -48,11 +48,11 @@ def solubility_chart(
     drawing = figure(axis_title("temperature", "degC"), axis_title("solute_per_solvent", "kg/kg"), title=_("Solubility and zones"))
     add_line(drawing, x, saturated, _("solubility"), color=LIQUID, width=3)
     add_line(drawing, x, limit, _("metastable limit"), color=OUT, dash="dash")
-    at = int(0.72 * len(x))
-    span = float(limit[-1] - saturated[0])
-    add_label(drawing, x[at], float(saturated[at]) - 0.14 * span, _("1 stable"), color=LIQUID)
-    add_label(drawing, x[int(0.5 * len(x))], float(0.5 * (saturated[int(0.5 * len(x))] + limit[int(0.5 * len(x))])), _("2 metastable"))
-    add_label(drawing, x[int(0.35 * len(x))], float(limit[int(0.35 * len(x))]) + 0.16 * span, _("3 labile"), color=OUT)
+    add_band(drawing, x, saturated, limit, _("2 metastable"), color=GAS)
+    for word, across, upward, color in ((_("3 labile"), 0.3, 0.85, OUT), (_("1 stable"), 0.75, 0.15, LIQUID)):
+        drawing.add_annotation(
+            x=across, y=upward, xref="paper", yref="paper", text=word, showarrow=False, font={"color": color, "size": 13}
+        )
     if path_temperature is not None and path_solute_per_solvent is not None:
         path = np.asarray(path_temperature) - ZERO_CELSIUS
         add_line(drawing, path, np.asarray(path_solute_per_solvent), _("batch"), color=ACCENT, width=3)
@@ -100,7 +100,7 @@ def batch_chart(
     add_line(drawing, t, np.asarray(course.solubility_per_solvent), _("solubility"), color=LIQUID, dash="dash")
     add_line(drawing, t, np.asarray(course.crystals), _("crystals"), color=SOLID)
     add_line(drawing, t, np.asarray(course.temperature) - ZERO_CELSIUS, _("temperature"), color=HEAT, dash="dot", yaxis="y2")
-    drawing.update_layout(yaxis2={"overlaying": "y", "side": "right", "title": axis_title("temperature", "degC"), "showgrid": False},
+    drawing.update_layout(yaxis2={"overlaying": "y", "side": "right", "title": axis_title("temperature", "degC"), "showgrid": False, "tickmode": "auto", "nticks": 6},
                           margin={"r": 70}, legend={"orientation": "h", "y": 1.08})  # fmt: skip
     return drawing
 
@@ -134,20 +134,27 @@ def size_distribution_chart(
     path, born = np.asarray(course.path), np.asarray(course.born)
     edges = np.linspace(0.0, 1.05 * float(jnp.max(course.final.high)), 161)
     middle = 0.5 * (edges[1:] + edges[:-1]) * 1e6
-    drawing = figure(axis_title("crystal_size", "um"), _("crystals by mass / (g/kg µm)"), title=_("Size distribution over time"))
+    drawing = figure(
+        axis_title("crystal_size", "um"), _("crystals by mass / (g/kg µm)"), title=_("Size distribution over time"), y_log=True
+    )
+    highest = 0.0
     for k, color in zip(np.linspace(0, STEPS, 5).astype(int), (GAS, LIQUID, ACCENT, SOLID, HEAT), strict=True):
         here = Packets(
             jnp.concatenate([seeds.low + path[k], path[k] - path[1 : k + 1]]), jnp.concatenate([seeds.high + path[k], path[k] - path[:k]]),
             jnp.concatenate([seeds.number, born[:k]]),
         )  # fmt: skip
         mass = np.asarray(here.in_classes(edges)) * crystal_density * volume_shape_factor
-        add_line(drawing, middle, mass * 1e3 / (np.diff(edges) * 1e6), f"{float(course.time[k]) / 60:.0f} min", color=color)
+        density = mass * 1e3 / (np.diff(edges) * 1e6)
+        highest = max(highest, float(density.max()))
+        add_line(drawing, middle, np.where(density > 0, density, np.nan), f"{float(course.time[k]) / 60:.0f} min", color=color)
+    top = np.log10(max(highest, 1e-300))
+    drawing.update_yaxes(range=[top - 4.0, top + 0.2])
     return drawing
 
 
 @chart(source="kubota2001; mullin2001, sec. 9.1.3", title="Seed chart", typical={})
 def seed_chart_figure() -> Any:
-    """Product over seed size against seed loading on the ideal growth line, both logarithmic.
+    """Product over seed size against seed loading on the ideal growth line.
 
     Batches whose product lies on the line have grown without nucleation; points below it tell of nuclei.
 
@@ -155,6 +162,6 @@ def seed_chart_figure() -> Any:
     1
     """
     loading = np.geomspace(1e-3, 1.0, 80)
-    drawing = figure(axis_title("seed_loading", ""), axis_title("growth_ratio", ""), title=_("Seed chart"), x_log=True, y_log=True)
+    drawing = figure(axis_title("seed_loading", ""), axis_title("growth_ratio", ""), title=_("Seed chart"), x_log=True)
     add_line(drawing, loading, ((1 + loading) / loading) ** (1 / 3), _("ideal growth"))
     return drawing

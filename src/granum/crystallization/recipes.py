@@ -13,7 +13,21 @@ from scipy.optimize import minimize
 from granum.core import procedure
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
-from granum.core.kinds import Density, Distance, Law, Length, MassFlow, MassRatio, Number, PositiveNumber, Ratio, Series, Temperature, Time
+from granum.core.kinds import (
+    Density,
+    Distance,
+    Fraction,
+    Law,
+    Length,
+    MassFlow,
+    MassRatio,
+    Number,
+    PositiveNumber,
+    Ratio,
+    Series,
+    Temperature,
+    Time,
+)
 from granum.crystallization.formulas.programs import TemperaturePoints
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
@@ -122,12 +136,12 @@ def optimal_cooling(
     return CoolingRecipe(times, temperature, float(jnp.max(S)), float(nuclei), float(linear), float(mean))
 
 
-class Option(NamedTuple):
-    """One way to crystallize, how well it fits (0 to 1), and why."""
+class Processes(NamedTuple):
+    """Ways to crystallize, best first."""
 
-    name: str
-    suitability: float
-    reasons: tuple[str, ...]
+    crystallization_process: Annotated[str, Series("processes")]
+    suitability: Annotated[Fraction, Series("processes")]
+    reasons: Annotated[str, Series("processes")]
 
 
 TONNAGE_CONTINUOUS = 10_000.0 / 86_400.0  # kg/s: 10 t/d
@@ -144,16 +158,16 @@ def choose(
     fouling: bool = False,
     heat_sensitive: bool = False,
     narrow_sizes: bool = False,
-) -> list[Option]:
+) -> Processes:
     """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, each with its reasons.
 
     Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling; below about 10 t/d a batch, above it
     continuous operation.
 
     >>> best = choose(solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}, temperature_hot="80 degC",
-    ...               temperature_cold="20 degC", crystal_flow="20 tonne/day")[0]
-    >>> best.suitability > 0.7
-    True
+    ...               temperature_cold="20 degC", crystal_flow="20 tonne/day")
+    >>> best.crystallization_process[0]
+    'cooling through a wall, continuous'
     """
     if temperature_hot <= temperature_cold:
         raise InputError(_("The hot temperature must be above the cold one."), name="temperature_hot")
@@ -187,8 +201,11 @@ def choose(
         (_("fluidized bed (Oslo), classified product"), (0.95 if narrow_sizes else 0.5) * (1.0 if large else 0.3),
          [tonnage, _("Large and even crystals, growing without impellers.") if narrow_sizes else _("Dearer than a stirred vessel.")]),
     ]  # fmt: skip
-    found = [
-        Option(f"{mode}, {how}", float(np.clip(a, 0.0, 1.0) * b), tuple(r for r in (*why, *because) if r))
-        for mode, a, why in modes for how, b, because in operations
-    ]  # fmt: skip
-    return sorted(found, key=lambda option: -option.suitability)
+    rows = [
+        (f"{mode}, {how}", float(np.clip(a, 0.0, 1.0) * b), " ".join(r for r in (*why, *because) if r))
+        for mode, a, why in modes
+        for how, b, because in operations
+    ]
+    rows.sort(key=lambda row: -row[1])
+    names, values, reasons = zip(*rows, strict=True)
+    return Processes(names, np.asarray(values), reasons)

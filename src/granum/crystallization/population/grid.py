@@ -162,7 +162,8 @@ def march_grid(model: Model, operation: Operation, edges: Any, numbers: Any, sol
     begin = (contents.temperature, model.ratio(contents, mass), model.saturated(contents), mass, powers @ numbers)
     (last, _contents), rows = lax.scan(advance, (numbers, contents), (times[:-1], times[1:]))
     joined = [jnp.concatenate([jnp.asarray(a)[None], b]) for a, b in zip(begin, rows[:-1], strict=True)]
-    return GridCourse(times, *joined, last, rows[-1])
+    temperature, ratio, saturated, crystals, all_moments = joined
+    return GridCourse(times, temperature, ratio, saturated, crystals, all_moments, last, rows[-1])
 
 
 def check_grid(edges: Any, numbers: Any) -> None:
