@@ -13,7 +13,15 @@ from granum.core.i18n import catalog
 from granum.core.kinds import KINDS
 
 SOURCE = Path(granum.__file__).parent
-MESSAGES = sorted({m for _f, _n, m, _c, _x in extract_from_dir(str(SOURCE), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=()) if isinstance(m, str)})
+MESSAGES = sorted(
+    {
+        m
+        for _f, _n, m, _c, _x in extract_from_dir(
+            str(SOURCE), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=()
+        )
+        if isinstance(m, str)
+    }
+)
 
 
 def fields(text: str) -> set[str]:

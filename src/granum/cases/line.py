@@ -115,8 +115,8 @@ class UnitReport:
                 {
                     "name": _(c.name),
                     "value": plain(c.value),
-                    "low": None if c.low == -np.inf else c.low,
-                    "high": None if c.high == np.inf else c.high,
+                    "low": plain(c.low),
+                    "high": plain(c.high),
                     "unit": c.unit,
                     "ok": c.ok,
                     "source": c.source,

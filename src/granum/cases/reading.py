@@ -216,9 +216,7 @@ def _size_shares(table: SizeTable | None, mixture: Mixture, where: str) -> np.nd
                 where=where, missing=f"{100 * (1 - inside):.3g}"
             )
         )
-    shares = np.diff(cumulative)
-    shares[0] += cumulative[0]
-    shares[-1] += 1.0 - cumulative[-1]
+    shares = np.asarray(distribution.classes(mixture.edges).to_basis("volume").fractions)
     return shares
 
 

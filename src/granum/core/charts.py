@@ -8,6 +8,7 @@ import plotly.graph_objects as go
 
 from granum.core.glossary import glossary
 from granum.core.i18n import current_language
+from granum.core.symbols import html_symbol
 from granum.core.units import pretty_unit
 
 INK, GRID, ACCENT = "#1c2430", "#e6e9ee", "#0b6e6e"
@@ -46,26 +47,6 @@ def axis_title(name: str, unit: str = "", label: str | None = None) -> str:
     symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol and label is None else ""
     shown = pretty_unit(unit)
     return f"{text}{symbol}" + (f" / {shown}" if shown else "")
-
-
-_GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "epsilon": "ε", "eta": "η", "theta": "θ",
-    "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "varphi": "φ", "phi": "φ", "psi": "ψ",
-    "Psi": "Ψ", "omega": "ω", "Omega": "Ω", "kappa": "κ", "chi": "χ", "zeta": "ζ", "Gamma": "Γ", "Sigma": "Σ", "Phi": "Φ", "Lambda": "Λ",
-}  # fmt: skip
-
-
-def html_symbol(latex: str) -> str:
-    """A short LaTeX symbol (Greek, one subscript or superscript, a dot) as HTML."""
-    import re
-
-    text = re.sub(r"\\(?:mathrm|text|mathit)\{([^{}]*)\}", r"\1", latex)
-    text = re.sub(r"\\dot\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0307", text)
-    text = re.sub(r"\\(?:bar|overline)\s*\{?(\\?\w+)\}?", lambda m: m.group(1) + "\u0304", text)
-    text = re.sub(r"\\([A-Za-z]+)\s*", lambda m: _GREEK.get(m.group(1), m.group(1)), text)
-    text = re.sub(r"_\{([^{}]*)\}|_(\w)", lambda m: f"<sub>{m.group(1) or m.group(2)}</sub>", text)
-    text = re.sub(r"\^\{([^{}]*)\}|\^(\w|\*)", lambda m: f"<sup>{m.group(1) or m.group(2)}</sup>", text)
-    return text.replace("{", "").replace("}", "").replace("\\", "")
 
 
 def figure(x: str, y: str, *, title: str = "", x_log: bool = False, y_log: bool = False, **layout: Any) -> go.Figure:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import sys
+import tomllib
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -263,6 +264,8 @@ def _single(parameter: Parameter) -> Parameter:
 
 
 def _choice(value: Any, parameter: Parameter, where: str) -> Any:
+    if isinstance(value, str) and value not in parameter.choices:  # a number typed as text
+        value = next((choice for choice in parameter.choices if str(choice) == value.strip()), value)
     if value not in parameter.choices:
         raise unknown_name(_("Choice for '{name}'").format(name=parameter.name), str(value), map(str, parameter.choices), where)
     return value
@@ -286,12 +289,25 @@ def _plain(value: Any, parameter: Parameter, where: str) -> Any:
     return value
 
 
+def _table(text: str, parameter: Parameter, where: str) -> Any:
+    """A law with its options as typed on a command line: ``{law = "power_law", exponent = 2}``."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        raise InputError(
+            _("'{name}' is not a table such as {{law = \"…\", option = 1}}{where}.").format(name=parameter.name, where=where),
+            name=parameter.name,
+        ) from None
+
+
 def _law(value: Any, parameter: Parameter, where: str) -> Any:
     if not isinstance(value, (str, Mapping)):
         return value
     from granum.core.registry import law
 
     assert parameter.law is not None
+    if isinstance(value, str) and value.lstrip().startswith("{"):
+        value = _table(value, parameter, where)
     if isinstance(value, str):
         return law(parameter.law, value, where)
     options = dict(value)

@@ -14,8 +14,10 @@ from rich.text import Text
 
 from granum.core.cards import Card
 from granum.core.i18n import _
+from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.results import Result
+from granum.core.symbols import text_symbol
 from granum.core.units import best_unit, format_number, from_si, pretty_unit, show
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
@@ -62,14 +64,29 @@ def print_result(result: Result) -> None:
     console.print(Text(result.card.title, style="bold"), Text(f"  {result.card.key}", style="dim"))
     table = _table((_("quantity"), "left"), (_("symbol"), "left"), (_("value"), "right"))
     for p in result.card.parameters:
-        table.add_row(p.label, p.term.symbol if p.term else "", value_text(result.inputs[p.name], p), style="dim")
+        table.add_row(p.label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
     for p in result.card.outputs:
         table.add_row(
-            Text(p.label, style="bold"), p.term.symbol if p.term else "", Text(value_text(result.outputs[p.name], p), style="bold")
+            Text(p.label, style="bold"),
+            text_symbol(p.term.symbol) if p.term else "",
+            Text(value_text(result.outputs[p.name], p), style="bold"),
         )
     console.print(table)
     console.print(Text(result.card.citation, style="dim"))
     _notices(console, result.notices)
+
+
+def _friendly(row: dict[str, Any]) -> tuple[list[str], str]:
+    """Value, standard error and interval of an estimate in the unit people would choose."""
+    numbers = [row["value"], row["standard_error"], *row["interval_95"]]
+    kinds = {k for k in KINDS.values() if k.unit == row["unit"] and k.display}
+    kind = kinds.pop() if len(kinds) == 1 else None  # 1/m may be a surface per volume or a medium resistance: left alone
+    unit = row["unit"]
+    if kind is not None and row["value"] is not None:
+        unit = best_unit(row["value"], kind)
+        zero = from_si(0.0, unit, kind)
+        numbers = [None if x is None else from_si(x, unit, kind) - (zero if i == 1 else 0.0) for i, x in enumerate(numbers)]
+    return [format_number(x) if x is not None else "—" for x in numbers], pretty_unit(unit)
 
 
 def print_fit(found: Any, saved: Path | None = None) -> None:
@@ -80,18 +97,11 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
         (_("parameter"), "left"), (_("value"), "right"), (_("standard error"), "right"), (_("95 % interval"), "right"), (_("unit"), "left")
     )
     for name, row in data["parameters"].items():
-        low, high = row["interval_95"]
-        numbers = [format_number(x) if x is not None else "—" for x in (row["value"], row["standard_error"], low, high)]
-        table.add_row(_(name.replace("_", " ")), numbers[0], numbers[1], f"{numbers[2]} … {numbers[3]}", pretty_unit(row["unit"]))
+        numbers, unit = _friendly(row)
+        table.add_row(_(name.replace("_", " ")), numbers[0], numbers[1], f"{numbers[2]} … {numbers[3]}", unit)
     for name, row in data.get("derived", {}).items():
-        table.add_row(
-            _(name.replace("_", " ")),
-            format_number(row["value"]) if row["value"] is not None else "—",
-            "",
-            "",
-            pretty_unit(row["unit"]),
-            style="dim",
-        )
+        numbers, unit = _friendly(row)
+        table.add_row(_(name.replace("_", " ")), numbers[0], "", "", unit, style="dim")
     console.print(table)
     console.print(
         Text("   ".join(f"{k} = {format_number(v)}" for k, v in data["statistics"].items() if isinstance(v, (int, float))), style="dim")
