@@ -1,0 +1,111 @@
+"""Which separator for a slurry: settlers, centrifuges and filters ranked, with reasons."""
+
+from __future__ import annotations
+
+import csv
+from functools import cache
+from importlib.resources import files
+from math import exp, log
+from typing import Annotated, NamedTuple
+
+import numpy as np
+
+from granum.core import procedure
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.i18n import _
+from granum.core.kinds import DensityDifference, DynamicViscosity, Fraction, Length, Series, VolumeFlow, VolumeFraction
+from granum.core.units import format_number
+
+# Settling velocity, m/s, below which a machine of that effect cannot be made large enough: the flow over area of common machines.
+LEAST_GRAVITY, LEAST_SPUN = 3e-5, 1e-4
+DECADE_OUT = log(10.0)
+
+
+@cache
+def machines() -> tuple[dict[str, float | str], ...]:
+    """The table of separators, SI."""
+    text = (files("granum") / "filtration" / "data" / "separators_svarovsky2001.csv").read_text(encoding="utf-8")
+    rows = []
+    for row in csv.DictReader(text.splitlines()):
+        found: dict[str, float | str] = {"name": row["name"]}
+        for key, cell in row.items():
+            if key != "name":
+                word, _dot, unit = key.partition(" [")
+                found[word] = float(cell) * {"um]": 1e-6, "m3/h]": 1.0 / 3600.0}.get(unit, 1.0)
+        rows.append(found)
+    return tuple(rows)
+
+
+class Separators(NamedTuple):
+    """Separators, best first."""
+
+    separator: Annotated[str, Series("machines")]
+    suitability: Annotated[Fraction, Series("machines")]
+    reasons: Annotated[str, Series("machines")]
+
+
+def _outside(value: float, low: float, high: float) -> float:
+    """By how much a value lies outside a range, as a natural logarithm."""
+    if value < low:
+        return log(low / max(value, 1e-12))
+    return log(value / high) if value > high else 0.0
+
+
+@procedure(source="svarovsky2001, ch. 1; perry2008, § 18; wakeman2005; robatel1989", title="Choice of a solid–liquid separator")
+def separator_choice(
+    particle_diameter: Length,
+    density_difference: DensityDifference,
+    solids_volume_fraction: VolumeFraction,
+    volume_flow: VolumeFlow,
+    liquid_left_wanted: Fraction = 1.0,
+    dynamic_viscosity: DynamicViscosity = 1e-3,
+    washing: bool = False,
+) -> Separators:
+    """Settlers, centrifuges and filters ranked for a slurry by size, settling velocity, concentration, flow, dryness and washing.
+
+    The suitability is 1 where every figure lies in the range the machine is commonly used for, and falls by a factor e for each decade
+    outside. The ranges are orders of magnitude: use the list to decide what to test.
+
+    >>> separator_choice("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True).separator[0]
+    'pusher centrifuge'
+    """
+    falling = particle_diameter**2 * abs(density_difference) * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
+    rows = []
+    for machine in machines():
+        number = {key: float(value) for key, value in machine.items() if key != "name"}
+        missing, why = 0.0, []
+        for value, low, high, text in (
+            (particle_diameter, number["size_low"], number["size_high"], _("particle size outside {low} to {high} µm")),
+            (volume_flow, number["flow_low"], number["flow_high"], _("flow outside {low} to {high} m³/h")),
+            (
+                solids_volume_fraction,
+                max(number["solids_low"], 1e-7),
+                number["solids_high"],
+                _("solids outside {low} to {high} % by volume"),
+            ),
+        ):
+            off = _outside(value, low, high)
+            if off > 0:
+                scale = 1e6 if value is particle_diameter else 3600.0 if value is volume_flow else 100.0
+                why.append(text.format(low=format_number(low * scale, 3), high=format_number(high * scale, 3)))
+                # several machines side by side, or one at part load, are possible: flow counts a third
+                missing += off / 3.0 if value is volume_flow else off
+        if number["settles"]:
+            least = LEAST_GRAVITY if number["effect"] == 1 else LEAST_SPUN
+            off = _outside(falling * number["effect"], least, np.inf)
+            if off > 0:
+                why.append(_("settles too slowly"))
+                missing += off
+        if number["liquid_left"] > liquid_left_wanted:
+            why.append(_("leaves more liquid ({value} % by volume)").format(value=format_number(100 * number["liquid_left"], 2)))
+            missing += 2.0 * log(number["liquid_left"] / max(liquid_left_wanted, 0.01))
+        if washing and not number["washes"]:
+            why.append(_("cannot wash"))
+            missing += DECADE_OUT
+        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], str(machine["name"]), why))
+    rows.sort(key=lambda row: (-row[0], row[1]))
+    return Separators(
+        tuple(_(name) for _score, _left, name, _why in rows),
+        np.array([score for score, *_rest in rows]),
+        tuple("; ".join(why) or _("within its common range") for *_rest, why in rows),
+    )

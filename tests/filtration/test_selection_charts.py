@@ -1,0 +1,54 @@
+"""The choice of a separator follows the sources' plain advice; charts draw what the formulas say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from granum.core.i18n import catalog, language
+from granum.filtration.charts import cake_profile_chart, filtration_cycle_chart, washing_chart
+from granum.filtration.selection import machines, separator_choice
+
+
+def ranked(*case, **more):
+    found = separator_choice(*case, **more)
+    return dict(zip(found.separator, found.suitability, strict=True)), found
+
+
+def test_plain_advice():
+    coarse, found = ranked("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True)
+    assert found.separator[0] == "pusher centrifuge"
+    assert coarse["cross-flow membrane"] < 0.05
+    fine, found = ranked("0.5 um", 50, 0.001, "1 m^3/hour")
+    assert fine["gravity thickener"] < 0.2
+    assert fine["tubular bowl centrifuge"] == 1.0
+    dilute, _found = ranked("8 um", 1500, 0.0003, "500 m^3/hour")
+    assert dilute["deep bed of sand"] == 1.0
+    assert dilute["pusher centrifuge"] < 0.05
+    # nothing that settles when there is no density difference
+    same, found = ranked("20 um", 0.0, 0.05, "5 m^3/hour")
+    assert max(same[m["name"]] for m in machines() if m["settles"]) < min(same["membrane press"], same["rotary vacuum drum"])
+    assert "settles too slowly" in found.reasons[found.separator.index("scroll decanter")]
+
+
+def test_every_machine_has_a_french_name_and_a_sound_range():
+    for m in machines():
+        assert m["name"] in catalog("fr")
+        assert m["size_low"] < m["size_high"]
+        assert m["solids_low"] < m["solids_high"] <= 0.65
+        assert m["flow_low"] < m["flow_high"]
+    with language("fr"):
+        assert separator_choice("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15).separator[0] == "essoreuse à poussoir"
+
+
+def test_charts():
+    drawing = filtration_cycle_chart(10, "3 bar", "1 cP", 1e11, 20, "20 min")
+    filtrate, tangent, best = drawing.data
+    assert best.x[0] == pytest.approx(40.0)  # dead and filtering time, 20 min each without medium
+    at = np.interp(best.x[0], filtrate.x, filtrate.y)
+    assert at == pytest.approx(best.y[0], rel=1e-3)
+    below = np.interp(filtrate.x, tangent.x, tangent.y) - filtrate.y
+    assert below[np.asarray(filtrate.x) <= tangent.x[-1]].min() > -1e-3
+    profile = cake_profile_chart("4 bar", 1e10, 0.7, 0.5, 0.06, "0.1 bar")
+    assert profile.data[0].y[-1] == pytest.approx(4.0)
+    assert washing_chart(10).data[1].y[0] == 1.0
