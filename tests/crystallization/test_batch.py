@@ -11,7 +11,7 @@ from tests.crystallization.cases import B_ORDER, DENSITY, DURATION, G_ORDER, KB,
 
 from granum.crystallization.formulas.growth import GrowthLaw, PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import NoNucleation, NucleationLaw, PowerLawNucleation
-from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
+from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.crystallization.population.lagrangian import Model, SolventVolume, march
 from granum.crystallization.population.operations import Addition, Flashing, HeatData, Jacketed, Programmed
 from granum.crystallization.population.packets import Seeds, SizeMap
@@ -191,3 +191,15 @@ def test_evaporation_drives_crystallization():
     assert float(found.solvent[-1]) == pytest.approx(0.8)
     ideal = START - 0.8 * START  # all solute beyond saturation
     assert float(found.crystals[-1] - found.crystals[0]) == pytest.approx(ideal, rel=0.02)
+
+
+def test_antisolvent_drives_crystallization():
+    """All solute beyond the solubility of the final mixture crystallizes: C0 - (1 + a) C0 exp(-kappa a / (1 + a))."""
+    law = AntisolventSolubility(PolynomialSolubility([0.3]), 4.0)
+    added = Addition(antisolvent=lambda t: 0.5 * t / 7200.0)
+    rates = Model(law, PowerLawGrowth(1e-5), NoNucleation(), Crystal(1300.0), SolventVolume(1000.0))
+    start = Seeds.of_one_size(5e-5, 0.01, 1300.0)
+    found = march(rates, Programmed(lambda t: 298.15 + 0.0 * t, added), start, 0.3, 1.0, jnp.linspace(0, 7200.0, 401))
+    ideal = 0.3 - 1.5 * 0.3 * np.exp(-4.0 * 0.5 / 1.5)
+    assert float(found.crystals[-1] - 0.01) == pytest.approx(ideal, rel=0.02)
+    assert float(found.solute_per_solvent[-1] * 1.5 + found.crystals[-1]) == pytest.approx(0.31, abs=1e-13)

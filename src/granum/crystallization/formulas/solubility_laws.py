@@ -6,14 +6,14 @@ Every law gives kg of anhydrous solute per kg of solvent.
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.kinds import MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, PositiveNumber, Series, Temperature
 from granum.materials.library import solute as material_solute
 
 
@@ -85,3 +85,20 @@ class VantHoffSolubility(SolubilityLaw):
     def __call__(self, temperature: Temperature) -> MassRatio:
         x = jnp.exp((self.entropy_of_dissolution - self.enthalpy_of_dissolution / temperature) / GAS_CONSTANT)
         return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)
+
+
+@law("solubility_law", name="antisolvent_solubility", source="yalkowsky1981", title="Solubility in a mixture with an antisolvent (log-linear)",
+     equation=r"\ln C^* = \ln C^*_0(T) - \kappa\,w")  # fmt: skip
+class AntisolventSolubility(SolubilityLaw):
+    """Solubility that falls exponentially with the mass fraction of antisolvent in the solvent mixture, after Yalkowsky's log-linear rule.
+
+    Both solubilities are per kg of the solvent mixture. Used alone, without an antisolvent fraction, it is the law of the pure solvent.
+    """
+
+    pure_solubility: Annotated[Any, Law("solubility_law")]
+    antisolvent_power: PositiveNumber
+
+    takes_antisolvent: ClassVar[bool] = True
+
+    def __call__(self, temperature: Temperature, antisolvent_fraction: MassFraction = 0.0) -> MassRatio:
+        return self.pure_solubility(temperature) * jnp.exp(-self.antisolvent_power * antisolvent_fraction)

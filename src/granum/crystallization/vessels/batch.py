@@ -27,7 +27,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Programmed
+from granum.crystallization.population.operations import Addition, Programmed
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.crystals import Crystal
 
@@ -80,7 +80,7 @@ def halved(run: Any, steps: int) -> tuple[Course, Any]:
 
 @procedure(
     source="miller1994; chung1999; mullin2001, sec. 9.1",
-    title="Seeded or unseeded cooling batch",
+    title="Seeded or unseeded batch",
     typical={"duration": (3600.0, 7200.0)},
 )
 def batch(
@@ -98,12 +98,15 @@ def batch(
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
     dissolution: Annotated[Any, Law("dissolution_rate")] | None = None,
+    evaporation_program: Annotated[Any, Law("program")] | None = None,
+    antisolvent_program: Annotated[Any, Law("program")] | None = None,
     steps: int = 400,
 ) -> BatchCourse:
     """Concentration, temperature and crystals of a cooling batch over time, with its product and the error of the time steps.
 
     Seeds are a sieve cut of given mean size and width. Solute and crystals are conserved to rounding whatever the number of steps; the
-    error of the rest is estimated by halving them. Without a dissolution law, crystals keep in an undersaturated solution.
+    error of the rest is estimated by halving them. Without a dissolution law, crystals keep in an undersaturated solution. Programs of the mass
+    evaporated and of the antisolvent added, per kg of solvent charged, make it an evaporative or antisolvent batch.
 
     >>> out = batch(solute_per_solvent=0.492990, solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
     ...     growth={"law": "power_law_growth", "growth_coefficient": 1.161167e-4, "growth_order": 1.32}, duration="80 min",
@@ -116,9 +119,12 @@ def batch(
     crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
     model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density), dissolution)
     seeds = narrow_seeds(seed_size, seed_width, seed_mass_per_solvent, crystal.mass_per_cube)
+    addition = Addition(evaporated=evaporation_program, antisolvent=antisolvent_program)
 
     def run(count: int) -> Course:
-        return march(model, Programmed(temperature_program), seeds, solute_per_solvent, 1.0, jnp.linspace(0.0, duration, count + 1))
+        return march(
+            model, Programmed(temperature_program, addition), seeds, solute_per_solvent, 1.0, jnp.linspace(0.0, duration, count + 1)
+        )
 
     course, error = halved(run, steps)
     final = course.final
