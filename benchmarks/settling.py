@@ -45,7 +45,7 @@ def peer(method):
     def rate(_t, C):
         v = velocity(C)
         f = C * v
-        through = np.minimum(np.where(C < peak, f, top)[:-1], np.where(C > peak, f, top)[1:])
+        through = np.minimum(np.where(peak > C, f, top)[:-1], np.where(peak < C, f, top)[1:])
         b = np.maximum(C, 6.0)
         d = np.where(C > 6.0, v, velocity(6.0)) * factor * 4.0 / (4.0 + b - 6.0)
         through = through - 0.5 / dz * (d[1:] + d[:-1]) * (b[1:] - b[:-1])

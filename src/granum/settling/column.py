@@ -211,7 +211,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
     size = depth / cells
     feed_cell = jnp.clip(jnp.floor(jnp.asarray(feed_depth) * cells), 0, cells - 1) + 1
     index, face = jnp.arange(cells + 2), jnp.arange(cells + 1)
-    inner = (face > 0) & (face < cells)
+    inside = (face > 0) & (face < cells)
     peak = suspension.peak()
     top_flux = suspension.flux(peak)
     velocity, compression = suspension.velocity_function(), suspension.compression
@@ -225,8 +225,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
         # Faces under the feed carry the underflow down, those above the overflow up.
         down = share * jnp.where(face >= feed_cell, qu, 0.0)
         up = -share * jnp.where(face >= feed_cell, 0.0, q - qu)
-        settles = jnp.where(inner, share, 0.0)
-        spreads = jnp.where(inner, 0.5 * share / (size * count.compression), 0.0)
+        spreads = jnp.where(inside, 0.5 * share / (size * count.compression), 0.0)
         source = jnp.where(index == feed_cell, share * q * Cf, 0.0)
 
         def step(_i: Any, C: Any) -> Any:
@@ -234,8 +233,10 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
             v = velocity(C)
             f = C * v
             supply, demand = jnp.where(peak > C, f, top_flux), jnp.where(peak < C, f, top_flux)
-            through = settles * jnp.minimum(supply[:-1], demand[1:]) + down * C[:-1] + up * C[1:]
-            change = source + jnp.pad(through, (1, 0)) - jnp.pad(through, (0, 1))
+            inner = share * jnp.minimum(supply[1:-2], demand[2:-1]) + down[1:-1] * C[1:-2] + up[1:-1] * C[2:-1]
+            # Joined from pieces, so that the compiler computes each face once and not anew for every neighbor.
+            faces = jnp.concatenate([up[:1] * C[1:2], inner, down[-1:] * C[-2:-1]])
+            change = source + jnp.concatenate([-faces[:1], faces[:-1] - faces[1:], faces[-1:]])
             if compression is None:
                 return C + change
             # Compression takes several short steps, each with its share of the change by flow, so that steady states are
