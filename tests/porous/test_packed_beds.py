@@ -8,6 +8,7 @@ from granum.core.errors import InputError
 from granum.core.registry import everything
 from granum.porous.formulas import inverse, packed_beds
 from granum.porous.formulas.gas import mass_flux_gas_bed, pressure_outlet_gas_bed
+from granum.porous.formulas.packed_beds_modern import EisfeldSchnitzlein
 
 LAWS = {
     f.card.name.removeprefix("pressure_gradient_"): f
@@ -83,7 +84,7 @@ def test_wall_and_shape():
     assert narrow == sorted(narrow)  # creeping flow: the wall adds friction
     turbulent = [float(LAWS["eisfeld_schnitzlein_spheres"](5.0, **BED, wall_ratio=r)) for r in (0.0, 0.3)]
     assert turbulent[1] < turbulent[0] * 1.4  # and opens the packing
-    law = packed_beds.EisfeldSchnitzlein(diameter=0.02)
+    law = EisfeldSchnitzlein(diameter=0.02)
     assert float(law(0.1, *BED.values())) == pytest.approx(float(LAWS["eisfeld_schnitzlein_spheres"](0.1, **BED, wall_ratio=0.1)))
     for name in ("ergun", "nemec_levec", "carman"):
         assert LAWS[name](0.01, **BED, sphericity=0.7) > LAWS[name](0.01, **BED)

@@ -9,7 +9,7 @@ import numpy as np
 from granum.core import chart
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.i18n import _
-from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Length, Position, Ratio, Time, Velocity, kind_of
+from granum.core.kinds import KINDS, Acceleration, Density, DynamicViscosity, Law, Length, Ratio, Time, Velocity
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.particles.formulas.trajectories import trajectory, trajectory_stokes
@@ -49,7 +49,7 @@ def drag_chart(
         axis_title("reynolds"), axis_title("drag_coefficient"), title=_("Drag coefficient against Reynolds number"), x_log=True, y_log=True
     )
     Re = np.geomspace(1e-3, 1e6, 271)
-    colors = dict(zip(NAMED, (SOLID, LIQUID, HEAT, CAUTION), strict=True))
+    colors: dict[str, str] = dict(zip(NAMED, (SOLID, LIQUID, HEAT, CAUTION), strict=True))
     chosen = drag.card.name.removeprefix("drag_coefficient_") if hasattr(drag, "card") else ""
     for name, law in sphere_laws().items():
         x = _inside(law, Re)
@@ -131,8 +131,7 @@ def trajectory_chart(
               initial_vertical_velocity, stream_velocity, gravity)  # fmt: skip
     path = trajectory(*inputs, drag, added_mass_coefficient)
     creeping = trajectory_stokes(*inputs, added_mass_coefficient)
-    kind = kind_of(Position)
-    assert kind is not None
+    kind = KINDS["Position"]
     spans = [float(max(np.ptp(np.asarray(v)), 1e-12)) for v in (path.horizontal_position, path.depth)]
     units = [best_unit(span, kind) for span in spans]
 

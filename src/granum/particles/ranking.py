@@ -81,4 +81,4 @@ def drag_ranking(
         rows.append((name, np.sqrt(np.mean(deviation**2)), deviation.mean(), abs(deviation).max(), inside.mean(), low, high))
     rows.sort(key=lambda row: (row[4] < 1.0, row[1]))
     columns = list(zip(*rows, strict=True))
-    return DragRanking(columns[0], *(np.asarray(column, dtype=float) for column in columns[1:]))
+    return DragRanking(columns[0], *(np.asarray(column, dtype=float) for column in columns[1:]))  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ import numpy as np
 
 from granum.core import chart
 from granum.core.i18n import _
-from granum.core.kinds import Density, DynamicViscosity, Law, Length, PressureDrop, Speed, Sphericity, VoidFraction, kind_of
+from granum.core.kinds import KINDS, Density, DynamicViscosity, Law, Length, Speed, Sphericity, VoidFraction
 from granum.porous.formulas.packed_beds import (
     pressure_gradient_blake_kozeny,
     pressure_gradient_burke_plummer,
@@ -40,7 +40,7 @@ def pressure_drop_chart(
     low, high = min(center / 100.0, CREEPING_END / per_velocity / 10.0), max(center * 100.0, TURBULENT_START / per_velocity * 10.0)
     U = np.geomspace(low, high, 161)
     point = length * float(pressure_gradient(center, *bed))
-    kinds = (kind_of(Speed), kind_of(PressureDrop))
+    kinds = (KINDS["Speed"], KINDS["PressureDrop"])
     units = [best_unit(value, kind) for value, kind in zip((center, point), kinds, strict=True)]
     across = lambda v: from_si(np.asarray(v), units[0], kinds[0])  # noqa: E731
     upward = lambda v: from_si(np.asarray(v), units[1], kinds[1])  # noqa: E731

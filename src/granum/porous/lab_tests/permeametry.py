@@ -87,5 +87,6 @@ class Permeametry(LabTest):
 
     def _grains(self, p: dict[str, Any]) -> dict[str, Any]:
         e = self.void_fraction
+        assert e is not None
         surface = jnp.sqrt(e**3 / (self.kozeny_coefficient * p["permeability"])) / (1.0 - e)
         return {"specific_surface": surface, "particle_diameter": 6.0 / surface}
