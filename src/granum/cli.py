@@ -130,7 +130,7 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
     if chart is not None:
         from granum.core.files import write_atomic
 
-        write_atomic(chart, test.chart(found).to_html(include_plotlyjs=True))
+        write_atomic(chart, test.chart().to_html(include_plotlyjs=True))
     if as_json:
         _emit(found.as_json())
     else:

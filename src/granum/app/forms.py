@@ -14,7 +14,7 @@ from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.parameters import Parameter
-from granum.core.units import best_unit, format_number, from_si, show
+from granum.core.units import best_unit, format_number, from_si, parse_unit, show
 from granum.reports.mathml import mathml
 
 
@@ -28,6 +28,8 @@ def card_form(key: str) -> dict[str, Any]:
         row["allowed"] = bounds_text(p)
         row["source_range"] = range_text(p, p.fitted) if p.fitted else ""
         row["options"] = options(p)
+        if p.kind:
+            row["units"] = [u for u in row["units"] if same_dimension(u["unit"], p.kind)]
         row["default_shown"] = None if p.required or p.default is None else entry(p, p.default)
         row["example"] = example(p, examples)
     return data
@@ -37,9 +39,14 @@ def usual_unit(p: Parameter, value: float) -> str:
     """The unit a value of a parameter is written in: the glossary's when it suits the size, else the best one."""
     assert p.kind is not None
     usual = p.term.unit if p.term else None
-    if usual and (value == 0.0 or 0.05 <= abs(from_si(value, usual, p.kind)) < 1e4):
+    if usual and same_dimension(usual, p.kind) and (value == 0.0 or 0.05 <= abs(from_si(value, usual, p.kind)) < 1e4):
         return usual
     return best_unit(value, p.kind)
+
+
+def same_dimension(unit: str, kind: Kind) -> bool:
+    """Whether a kind can be written in a unit; a word of the glossary may be used with another kind than its usual one."""
+    return parse_unit(unit).dimensionality == parse_unit(kind.unit).dimensionality
 
 
 def entry(p: Parameter, value: Any) -> dict[str, str]:
@@ -69,7 +76,13 @@ def docstring_values(card: Card) -> dict[str, Any]:
     """Keyword arguments of the call in the docstring's example, as far as they are literals; empty when one is not."""
     for item in doctest.DocTestParser().get_examples(card.doc):
         for node in ast.walk(ast.parse(item.source)):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == card.name and node.keywords and not node.args:
+            if (
+                isinstance(node, ast.Call)
+                and isinstance(node.func, ast.Name)
+                and node.func.id == card.name
+                and node.keywords
+                and not node.args
+            ):
                 try:
                     return {str(word.arg): ast.literal_eval(word.value) for word in node.keywords if word.arg}
                 except ValueError:

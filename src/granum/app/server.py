@@ -21,10 +21,11 @@ from granum.app import exercises
 from granum.app.forms import card_form
 from granum.app.limits import LARGEST_BODY, Busy, Guard, Workers, problem
 from granum.app.spread import spread
-from granum.app.texts import described, plain_data
+from granum.app.texts import described, label_of, plain_data
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
+from granum.core.units import pretty_unit
 
 STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
@@ -148,9 +149,10 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
     async def opened(path: str) -> Response:
         """The text of one case file."""
         place = _inside(workspace, path)
-        if not place.is_file():
-            raise InputError(_("There is no file '{path}' in the workspace.").format(path=path))
-        return Answer({"path": path, "text": place.read_text(encoding="utf-8", errors="replace")})
+        try:
+            return Answer({"path": path, "text": place.read_text(encoding="utf-8", errors="replace")})
+        except OSError:
+            raise InputError(_("There is no file '{path}' in the workspace.").format(path=path)) from None
 
     @app.put("/api/workspace/{path:path}")
     async def saved(path: str, text: Annotated[str, Body(embed=True)]) -> Response:
@@ -260,8 +262,10 @@ def _fit(key: str, content: bytes, name: str, conditions: str) -> dict[str, Any]
     source = io.BytesIO(content)
     source.name = name
     test = test_type.read(source, **_given(given))
-    found = test.fit()
-    return found.as_json() | {"chart": json.loads(test.chart(found).to_json())}
+    data = test.fit().as_json()
+    for name, row in (*data["parameters"].items(), *data["derived"].items()):
+        row["label"], row["unit_shown"] = label_of(name), pretty_unit(row["unit"])
+    return data | {"chart": json.loads(test.chart().to_json())}
 
 
 def _run(case: str) -> dict[str, Any]:

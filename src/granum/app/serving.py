@@ -33,7 +33,9 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
         listener = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
     except OSError as problem:
         raise InputError(
-            _("Address {host}, port {port} cannot be used: {reason}. Choose another with --port.").format(host=host, port=port, reason=problem.strerror)
+            _("Address {host}, port {port} cannot be used: {reason}. Choose another with --port.").format(
+                host=host, port=port, reason=problem.strerror
+            )
         ) from None
     token = "" if _loopback(host) else secrets.token_urlsafe(24)
     shown = f"[{host}]" if ":" in host else host

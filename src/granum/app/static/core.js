@@ -104,11 +104,13 @@ export function loadPlotly() {
 }
 
 /** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
-function fitted(layout, width) {
+function fitted({ layout, data }, width) {
+  const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
   const narrow = width < 560;
   const margin = { ...layout.margin, t: 36, ...(narrow ? { l: 56, r: 12 } : {}) };
   const legend = narrow ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.22, yanchor: 'top', font: { size: 11 } } : layout.legend;
-  return { ...layout, title: undefined, autosize: true, margin, legend };
+  const axes = narrow ? { xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 }, ...(count > 8 ? { showlegend: false } : {}) } : {};
+  return { ...layout, title: undefined, autosize: true, margin, legend, ...axes };
 }
 
 export function Plot({ figure, label }) {
@@ -117,7 +119,7 @@ export function Plot({ figure, label }) {
     let alive = true;
     loadPlotly().then((Plotly) => {
       if (alive && place.current && figure) {
-        Plotly.react(place.current, figure.data, fitted(figure.layout, place.current.clientWidth), {
+        Plotly.react(place.current, figure.data, fitted(figure, place.current.clientWidth), {
           responsive: true, displaylogo: false, displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
           toImageButtonOptions: { format: 'svg', filename: 'granum' },
         });

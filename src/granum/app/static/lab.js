@@ -51,8 +51,8 @@ function Fitted({ data }) {
     URL.revokeObjectURL(place);
   };
   return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th><th scope="col">${t('unit')}</th></tr></thead>
-    <tbody>${Object.entries(data.parameters).map(([name, row]) => html`<tr data-parameter=${name}><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n"><strong>${number(row.value)}</strong></td><td class="n">${number(row.standard_error, 3)}</td><td class="n">${number(row.interval_95[0])} … ${number(row.interval_95[1])}</td><td>${row.unit}</td></tr>`)}
-    ${Object.entries(data.derived || {}).map(([name, row]) => html`<tr class="dim"><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n">${number(row.value)}</td><td /><td /><td>${row.unit}</td></tr>`)}</tbody></table></div>
+    <tbody>${Object.entries(data.parameters).map(([name, row]) => html`<tr data-parameter=${name}><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n"><strong>${number(row.value)}</strong></td><td class="n">${number(row.standard_error, 3)}</td><td class="n">${number(row.interval_95[0])} … ${number(row.interval_95[1])}</td><td>${row.unit_shown}</td></tr>`)}
+    ${Object.entries(data.derived || {}).map(([name, row]) => html`<tr class="dim"><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n">${number(row.value)}</td><td /><td /><td>${row.unit_shown}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
     <p class="small dim">${Object.entries(data.statistics).filter(([, v]) => typeof v === 'number').map(([name, v]) => `${name.replaceAll('_', ' ')} = ${number(v)}`).join(' · ')}</p>

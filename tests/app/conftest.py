@@ -1,0 +1,45 @@
+"""A real server on a free port of the loopback address, for the tests of the app."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+import uvicorn
+
+from granum.app.server import create_app
+
+
+@contextmanager
+def running(app: Any) -> Iterator[str]:
+    """Serve an application from a thread; gives its address."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    server = uvicorn.Server(uvicorn.Config(app, log_level="critical", lifespan="off", ws="none", timeout_graceful_shutdown=1))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
+    thread.start()
+    while not server.started and thread.is_alive():
+        time.sleep(0.02)
+    try:
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+    finally:
+        server.should_exit = True
+        thread.join(timeout=10)
+        listener.close()
+
+
+@pytest.fixture(scope="session")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address of a server with an empty workspace."""
+    with running(create_app(tmp_path_factory.mktemp("workspace"))) as found:
+        yield found
+
+
+@pytest.fixture(scope="session")
+def serve() -> Any:
+    """The context manager that runs an application."""
+    return running
