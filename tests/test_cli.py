@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from granum.cli import app
 from typer.testing import CliRunner
+
+from granum.cli import app
 
 TERMINAL = ["calc", "particles.terminal_velocity"]
 GOOD = ["particle_diameter=85um", "particle_density=2630kg/m3", "fluid_density=1020kg/m3", "dynamic_viscosity=1.2cP"]

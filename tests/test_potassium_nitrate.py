@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import granum as gr
 import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
+
+import granum as gr
 from granum.flowsheet import solve
 
 CASE = Path(__file__).parents[1] / "examples" / "potassium-nitrate" / "line.toml"

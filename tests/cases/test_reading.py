@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from granum.cases import read_text
 from granum.core.errors import CaseError, ConvergenceError, GranumError
 
@@ -42,7 +43,10 @@ def test_a_right_case_solves_and_closes() -> None:
 
 
 def test_specification_in_a_case() -> None:
-    text = GOOD + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "14400 kg/h"\nlower = 0\nupper = "95 %"\n'
+    text = (
+        GOOD
+        + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "14400 kg/h"\nlower = 0\nupper = "95 %"\n'
+    )
     run = read_text(text).solve()
     assert run.found["split.side_fraction"] == pytest.approx(0.75, abs=1e-9)
 
@@ -77,7 +81,10 @@ def test_unconverged_names_stream_and_unit_and_keeps_the_last_iterate() -> None:
 
 
 def test_infeasible_specification_says_which() -> None:
-    text = GOOD + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "0.1 kg/h"\nlower = 0\nupper = 0.9\n'
+    text = (
+        GOOD
+        + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "0.1 kg/h"\nlower = 0\nupper = 0.9\n'
+    )
     with pytest.raises(ConvergenceError, match=r"mix\.mass_flow"):
         read_text(text).solve()
 

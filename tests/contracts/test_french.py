@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from string import Formatter
 
-import granum
 import pytest
 from babel.messages.extract import extract_from_dir
+
+import granum
 from granum.core.glossary import glossary
 from granum.core.i18n import catalog
 from granum.core.kinds import KINDS

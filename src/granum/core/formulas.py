@@ -108,7 +108,7 @@ class Formula:
             values[i] = value = convert(value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key))
             if p.kind is None and not isinstance(value, (Formula, str, bool, int, type(None))):
                 traced = traced or any(map(is_tracer, jax.tree_util.tree_leaves(value)))
-            batched = batched or (p.kind is not None and not p.series and np.ndim(value) > 0)
+            batched = batched or (p.kind is not None and not p.series and getattr(value, "ndim", 0) > 0)
         return values, traced, batched
 
     def _split(self, values: list[Any]) -> tuple[tuple[Any, ...], list[Any]]:
@@ -192,7 +192,7 @@ class Formula:
                 values[i] = convert(values[i], p)
         if any(p.law or p.kind is None or p.series or p.sort is int for p in self.card.parameters if p.name in given):
             return ()
-        kinds = [self.card.parameter(n).kind for n in names]
+        kinds = [kind for n in names if (kind := self.card.parameter(n).kind) is not None]
         limits = [
             (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf), k.upper if k.open_upper else np.nextafter(k.upper, np.inf))
             for k in kinds

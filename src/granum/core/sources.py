@@ -15,12 +15,12 @@ duplicates: list[str] = []
 @cache
 def bibliography() -> dict[str, dict[str, str]]:
     """All entries by key."""
-    import bibtexparser
+    from bibtexparser.entrypoint import parse_string
 
     entries: dict[str, dict[str, str]] = {}
     for path in sorted((files("granum") / "references").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".bib"):
-            library = bibtexparser.parse_string(path.read_text(encoding="utf-8"))
+            library = parse_string(path.read_text(encoding="utf-8"))
             if library.failed_blocks:
                 raise ValueError(f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}")
             for entry in library.entries:

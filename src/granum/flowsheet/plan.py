@@ -44,7 +44,9 @@ def plan(units: tuple[str, ...], links: tuple[Link, ...]) -> tuple[Block, ...]:
     """
     graph = nx.MultiDiGraph()
     graph.add_nodes_from(units)
-    graph.add_edges_from((k.source_unit, k.target_unit, k.name) for k in links if k.origin and k.target)
+    for k in links:
+        if k.origin and k.target:
+            graph.add_edge(k.source_unit, k.target_unit, key=k.name)
     groups = nx.condensation(graph, scc=list(nx.strongly_connected_components(graph)))
     rank = {unit: i for i, unit in enumerate(units)}
     first = {g: min(rank[u] for u in groups.nodes[g]["members"]) for g in groups}

@@ -42,11 +42,11 @@ def write_tables(run: Any, path: Path) -> None:
         from openpyxl import Workbook
 
         book = Workbook()
-        book.remove(book.active)
         for title, rows in tables.items():
             sheet = book.create_sheet(title)
             for row in rows:
                 sheet.append(row)
+        del book["Sheet"]  # the empty one a new book starts with
         data = io.BytesIO()
         book.save(data)
         write_atomic(path, data.getvalue())

@@ -18,7 +18,6 @@ from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
-
 COLDEST_FILM = 230.0  # K
 
 
@@ -80,7 +79,11 @@ class WellMixedDryer(Unit):
             Tw = self._surface_temperature(T, bed.pressure, jnp.minimum(y, saturated))
             latent = fluid("water").heat_of_vaporization.value(Tw)
             flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
-            area = feed.by_size(6.0 / (feed.mixture.sizes * feed.solid_density)) * feed.solid / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
+            area = (
+                feed.by_size(6.0 / (feed.mixture.sizes * feed.solid_density))
+                * feed.solid
+                / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
+            )
             area = jnp.sum(area, axis=(0, *range(2, area.ndim)))  # m² per kg of all solid, by class
             film = safe_divide(water, feed.solid_flow * jnp.sum(area))  # kg of water per m²
             time = film / jnp.maximum(flux, 1e-12)  # to dry one particle
