@@ -35,7 +35,7 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )
-from granum.porous.displacement import axial_dispersion, remaining_fraction
+from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
@@ -139,8 +139,8 @@ class FilteringCentrifuge(Unit):
             return jnp.ones(())
         face = jnp.pi * (self.radius_outer + self.cake_radius) * self.height
         velocity = filtrate_flow_critical(basket_height=self.height, **self.case(feed)) / face / self.void_fraction
-        spreading = axial_dispersion(velocity, solid_diameter(feed, self.particle_diameter), self.diffusivity)
-        return remaining_fraction(self.wash_ratio(feed, wash), velocity * self.thickness / spreading)
+        number = practical_number(velocity, self.thickness, solid_diameter(feed, self.particle_diameter), self.diffusivity)
+        return remaining_fraction(self.wash_ratio(feed, wash), number)
 
     def saturation(self, feed: Stream, spin: Spin) -> Any:
         """Saturation of the cake at discharge."""

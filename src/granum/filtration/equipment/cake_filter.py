@@ -27,8 +27,8 @@ from granum.core.kinds import (
 )
 from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
-from granum.filtration.formulas.washing import axial_dispersion_cake, dispersion_number, solute_remaining_dispersion
 from granum.filtration.quantities import MassPerArea
+from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
@@ -136,14 +136,12 @@ class CakeFilter(Unit):
         return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
 
     def solute_left(self, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
-        """Fraction of the mother liquor that washing leaves in the cake."""
+        """Fraction of the mother liquor that washing leaves in the cake, by dispersion but never better than practice."""
         if wash is None:
             return jnp.ones(())
         pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, feed, wash) / self.void_fraction
-        spreading = axial_dispersion_cake(pore_velocity, self._diameter(feed), self.diffusivity)
-        return solute_remaining_dispersion(
-            self.wash_ratio(feed, wash), dispersion_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), spreading)
-        )
+        number = practical_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), self._diameter(feed), self.diffusivity)
+        return remaining_fraction(self.wash_ratio(feed, wash), number)
 
     def saturation(self, feed: Stream, plan: Plan) -> Any:
         """Saturation of the cake at discharge."""

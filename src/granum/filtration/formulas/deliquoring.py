@@ -101,9 +101,9 @@ def saturation_after_deliquoring(
         * time
         / (dynamic_viscosity * void_fraction * jnp.maximum(1.0 - irreducible_saturation, 1e-9) * cake_thickness**2)
     )
-    watch(dimensionless_time=theta)
     some = theta > 0
     x = jnp.where(some, theta, 1.0)
+    watch(dimensionless_time=x)
     reduced = jnp.where(x <= 1.915, 1.0 / (1.0 + 1.08 * x**0.88), 1.0 / (1.0 + 1.46 * x**0.48))
     return jnp.where(some, irreducible_saturation + (1.0 - irreducible_saturation) * reduced, 1.0)
 
