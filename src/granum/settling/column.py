@@ -19,6 +19,7 @@ from jax import lax
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
+from granum.core.parameters import is_tracer
 from granum.settling.flux import least
 
 COURANT = 0.98  # of a cell crossed in one step
@@ -86,7 +87,7 @@ class Suspension(eqx.Module):
 
     def check(self) -> None:
         """Raise when the flux has more than one hump, for which this scheme's flux is not made; only for known numbers."""
-        if any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(self)):
+        if any(is_tracer(leaf) for leaf in jax.tree.leaves(self)):
             return
         f = np.asarray(self.flux(jnp.geomspace(1e-4, 1.0, 1500) * self.packed))
         turns = np.diff(np.sign(np.diff(f)[np.abs(np.diff(f)) > 1e-12 * f.max()]))
@@ -215,7 +216,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
     peak = suspension.peak()
     top_flux = suspension.flux(peak)
     velocity, compression = suspension.velocity_function(), suspension.compression
-    critical = None if compression is None else jnp.asarray(compression.critical_concentration, dtype=float)
+    critical = jnp.asarray(0.0 if compression is None else compression.critical_concentration, dtype=float)
     at_critical = 0.0 if compression is None else velocity(critical)
     count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation)) if steps is None else steps
 

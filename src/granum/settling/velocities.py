@@ -39,7 +39,7 @@ class Vesilind(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="takacs", source="takacs1991, eq. 6",
+    "settling_velocity", name="takacs", source="takacs1991, eq. 6; alex2008",
     equation=r"v = \max\left[0,\ \min\left(v_0',\ v_0\left(e^{-r_h(C-C_{ns})} - e^{-r_p(C-C_{ns})}\right)\right)\right]",
     title="Takács settling velocity",
 )  # fmt: skip
