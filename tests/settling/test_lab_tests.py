@@ -87,6 +87,7 @@ def test_reads_a_file_and_says_what_it_did():
     assert {"sorted", "made falling"} <= words
     assert found["vesilind_coefficient"].value == pytest.approx(0.4, rel=0.02)
     assert found.as_json()["card"] == "settling.batch_test"
+    assert len(test.chart().data) >= 4
 
 
 def test_induction_is_found_and_taken_off():
@@ -143,6 +144,7 @@ def test_flocculent_column_of_davis_example_10_3():
     assert float(test.removal(54 * 60.0, 2.0)) == pytest.approx(0.65, abs=0.02)
     lines = test.iso_removal(np.array([0.4, 0.6]), np.array([3600.0, 3600.0]))
     assert lines[0] > lines[1]
+    assert len(test.chart().data) >= 5
 
 
 def test_discrete_particles_have_no_floc_growth():

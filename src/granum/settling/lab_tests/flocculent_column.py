@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
 
 from granum.core import lab_test
+from granum.core.i18n import _
 from granum.core.kinds import Distance, Fraction, PositiveNumber, Series, Speed, Time
 from granum.estimation import Fit, LabTest
 from granum.numerics import safe_power
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
 
 QUADRATURE = np.polynomial.legendre.leggauss(48)
 
@@ -73,3 +77,20 @@ class FlocculentColumn(LabTest):
         p, R = self.constants(), jnp.asarray(removal_efficiency)
         reach = p["floc_velocity"] * p["floc_time"] * safe_power(jnp.asarray(time) / p["floc_time"], p["floc_exponent"])
         return reach * ((1.0 - R) / R) ** (1.0 / p["floc_sharpness"])
+
+    def chart(self) -> go.Figure:
+        """Iso-removal lines over depth and time, with the readings and their shares."""
+        from granum.core.charts import LINES, add_line, axis_title, figure
+
+        t, z, R = (np.asarray(x, dtype=float) for x in (self.time, self.depth, self.removal_efficiency))
+        drawing = figure(axis_title("time", "min"), axis_title("depth", "m"), title=type(self).card.title)
+        grid = np.linspace(0.02, 1.05, 150) * t.max()
+        for share, color in zip((0.3, 0.4, 0.5, 0.6, 0.7, 0.8), LINES, strict=False):
+            depth = np.asarray(self.iso_removal(share, grid))
+            inside = depth <= 1.2 * z.max()
+            if np.count_nonzero(inside) > 1:
+                add_line(drawing, grid[inside] / 60.0, depth[inside], f"{100 * share:.0f} %", color=color)
+        text = [f"{100 * r:.0f}" for r in R]
+        drawing.add_scatter(x=t / 60.0, y=z, mode="markers+text", text=text, textposition="top center", name=_("data"), marker={"size": 6})
+        drawing.update_yaxes(autorange="reversed")
+        return drawing
