@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -39,15 +39,21 @@ class Problem:
     loss: Loss
 
     @cached_property
-    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
         index = np.flatnonzero(self.keep)
         sigma = self.sigma[index]
 
-        def residual(q: Any, measured: Any) -> Any:
-            values = dict(zip(self.names, q * self.scale, strict=True))
-            return (ravel_pytree(self.model(values, self.x))[0][index] - measured[index]) / sigma
+        def whole(q: Any) -> Any:
+            return ravel_pytree(self.model(dict(zip(self.names, q * self.scale, strict=True)), self.x))[0]
 
-        return jax.jit(residual), jax.jit(jax.jacfwd(residual))
+        def residual(q: Any, measured: Any) -> Any:
+            return (whole(q)[index] - measured[index]) / sigma
+
+        return jax.jit(residual), jax.jit(jax.jacfwd(residual)), jax.jit(whole)
+
+    def prediction(self, q: np.ndarray) -> np.ndarray:
+        """Model values at all points, at scaled parameters."""
+        return np.asarray(self._functions[2](q))
 
     def residual(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Weighted residuals (model less measured) of the kept points at scaled parameters."""
@@ -212,7 +218,7 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
     for i, n in enumerate(names):
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
         parameters[n] = Estimate(values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error))
-    whole = np.asarray(ravel_pytree(problem.model(dict(zip(names, q * scale, strict=True)), problem.x))[0])
+    whole = problem.prediction(q)
     weight = 1.0 / problem.sigma[problem.keep] ** 2
     kept_y = problem.y[problem.keep]
     spread = float(np.sum(weight * (kept_y - np.average(kept_y, weights=weight)) ** 2))
@@ -230,7 +236,7 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
     }
     flags += _warnings(parameters, covariance, held, condition, card)
     found = {} if derived is None else derive(derived, values, covariance, dof, units)
-    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, replace(problem))
+    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem)
 
 
 def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:

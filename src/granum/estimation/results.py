@@ -173,7 +173,7 @@ def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapp
     def flat(v: Any) -> dict[str, Any]:
         return dict(function(dict(zip(names, v, strict=True))))
 
-    out, slopes = flat(vector), jax.jacfwd(flat)(vector)
+    out, slopes = jax.jit(lambda v: (flat(v), jax.jacfwd(flat)(v)))(vector)
     reach = t_reach(0.95, degrees_of_freedom)
     found = {}
     for name, value in out.items():
