@@ -132,7 +132,9 @@ class Solver:
     def _dry_bulb(self, Ts: Any, y: Any, lewis: Any) -> Any:
         frozen = self.pair.is_frozen(Ts)
         return self._root(
-            lambda T: rel.wet_bulb_balance(self.pair, Ts, T, self.P, y, frozen, lewis), Ts * (1 - SLACK), self.pair.highest_temperature
+            lambda T: rel.wet_bulb_balance(self.pair, Ts, self.pair.molar_enthalpy(T, self.P, y), self.P, y, frozen, lewis),
+            Ts * (1 - SLACK),
+            self.pair.highest_temperature,
         )
 
     def _with_wet_surface(self, wet: str) -> tuple[Gas, Any]:

@@ -57,16 +57,16 @@ def settled(pair: AbstractPair, T: Any, P: Any, y: Any) -> Gas:
     return Gas(T, jnp.where(foggy, ys, y), jnp.where(foggy, fog, 0.0))
 
 
-def wet_bulb_balance(pair: AbstractPair, Ts: Any, T: Any, P: Any, y: Any, frozen: Any, lewis: Any) -> Any:
+def wet_bulb_balance(pair: AbstractPair, Ts: Any, h: Any, P: Any, y: Any, frozen: Any, lewis: Any) -> Any:
     """Heat given by the gas less heat taken by evaporation at a wet surface of temperature Ts; zero at the wet bulb.
 
-    Scaled by (1 − y)(1 − ys), which keeps it finite up to pure vapor and to the boiling point. Without
+    ``h`` is the molar enthalpy of the gas. Scaled by (1 − y)(1 − ys), which keeps it finite up to pure vapor and to the boiling point. Without
     a Lewis factor it is the adiabatic-saturation balance of enthalpies.
     """
     ys = pair.saturated_fraction(Ts, P, frozen)
     saturated = pair.molar_enthalpy(Ts, P, ys)
     condensate = pair.condensate_molar_enthalpy(Ts, P, frozen)
-    adiabatic = (1.0 - ys) * pair.molar_enthalpy(T, P, y) + (ys - y) * condensate - (1.0 - y) * saturated
+    adiabatic = (1.0 - ys) * h + (ys - y) * condensate - (1.0 - y) * saturated
     if lewis is None:
         return adiabatic
     evaporation = (ys - y) * (pair.vapor_partial_enthalpy(Ts, P, ys) - condensate)
@@ -84,24 +84,29 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     Tf = pair.freezing_temperature
     boiling = pair.boiling_temperature(P)
     top = jnp.minimum(T, boiling)
-    liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), T, P, y, False, lewis) >= 0)
+    h = pair.molar_enthalpy(T, P, y)
+    liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), h, P, y, False, lewis) >= 0)
     frozen = jax.lax.stop_gradient(~liquid)
     guess = _wet_bulb_guess(pair, T, P, y, boiling)
     lower = jnp.minimum(Tf, top) * (1 - SLACK)
 
-    def over_liquid(T: Any, P: Any, y: Any) -> Any:
-        return falling_root(
-            lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, False, lewis), lower, top * (1 + SLACK), T, P, y, start=guess
-        )
+    def over_liquid(h: Any, P: Any, y: Any) -> Any:
+        def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
+            return wet_bulb_balance(pair, Ts, h, P, y, False, lewis)
 
-    def over_either(T: Any, P: Any, y: Any) -> Any:
+        return falling_root(balance, lower, top * (1 + SLACK), h, P, y, start=guess)
+
+    def over_either(h: Any, P: Any, y: Any) -> Any:
+        def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
+            return wet_bulb_balance(pair, Ts, h, P, y, frozen, lewis)
+
         low = jnp.where(frozen, pair.lowest_temperature, lower)
         high = jnp.where(frozen, jnp.minimum(top, Tf), top) * (1 + SLACK)
-        return falling_root(lambda Ts, T, P, y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), low, high, T, P, y, start=guess)
+        return falling_root(balance, low, high, h, P, y, start=guess)
 
     if frozen.size < LARGE:
-        return over_either(T, P, y)
-    return jax.lax.cond(jnp.any(frozen), over_either, over_liquid, T, P, y)
+        return over_either(h, P, y)
+    return jax.lax.cond(jnp.any(frozen), over_either, over_liquid, h, P, y)
 
 
 def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:
@@ -127,7 +132,9 @@ def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any
     ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
     y = ys
     for _pass in range(4):
-        value, slope = jax.jvp(lambda y: wet_bulb_balance(pair, Ts, T, P, y, frozen, lewis), (y,), (jnp.ones_like(y),))
+        value, slope = jax.jvp(
+            lambda y: wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis), (y,), (jnp.ones_like(y),)
+        )
         y = y - value / jnp.where(slope == 0, 1.0, slope)
     return y
 

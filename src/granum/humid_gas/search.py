@@ -53,3 +53,23 @@ def falling_root(balance: Callable[..., Any], lower: Any, upper: Any, *arguments
         return right / jnp.where(slope == 0, jnp.inf, slope)
 
     return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide)
+
+
+def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None) -> Any:
+    """A fixed number of Newton steps on a function known to be smooth and steep near its root; implicit derivatives.
+
+    ``least_slope`` keeps a slope from falling below it; None for functions that fall.
+    """
+
+    def solve(f: Callable[..., Any], x: Any) -> Any:
+        def step(_i: Any, x: Any) -> Any:
+            value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
+            return x - value / (slope if least_slope is None else jnp.maximum(slope, least_slope))
+
+        return lax.fori_loop(0, passes, step, x)
+
+    def divide(linear: Callable[..., Any], right: Any) -> Any:
+        slope = linear(jnp.ones_like(right))
+        return right / jnp.where(slope == 0, jnp.inf, slope)
+
+    return lax.custom_root(function, lax.stop_gradient(first), solve, divide)

@@ -112,7 +112,9 @@ def kinds_of_water(
 
 @formula(source="keey1978", equation=r"X_e = X(a_w, T)", typical={"water_activity": (0.1, 0.8)}, title="Equilibrium moisture",
          output="moisture_dry_basis")  # fmt: skip
-def equilibrium_moisture(water_activity: WaterActivity, isotherm: IsothermLaw, temperature: Temperature = 298.15) -> MoistureDryBasis:
+def equilibrium_moisture(
+    water_activity: WaterActivity, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
+) -> MoistureDryBasis:
     """Moisture of a product in equilibrium with gas whose relative humidity is the water activity; isotherms by name or with constants.
 
     Wood Handbook, table: 9.2 % at 21.1 °C and 50 %.
@@ -126,7 +128,9 @@ def equilibrium_moisture(water_activity: WaterActivity, isotherm: IsothermLaw, t
 @formula(
     source="keey1978", equation=r"a_w = X^{-1}(X, T)", typical={"moisture_dry_basis": (0.05, 0.2)}, title="Water activity of a product"
 )
-def water_activity(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw, temperature: Temperature = 298.15) -> WaterActivity:
+def water_activity(
+    moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
+) -> WaterActivity:
     """Water activity of a product of known moisture: the relative humidity of the air with which it keeps.
 
     >>> round(water_activity(moisture_dry_basis=0.092, isotherm="hailwood_horrobin", temperature="21.1 degC"), 2)
@@ -149,7 +153,7 @@ class SorptionHeat(NamedTuple):
     title="Isosteric heat of sorption",
     output="isosteric_heat",
 )
-def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw, temperature: Temperature = 298.15) -> SorptionHeat:
+def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15) -> SorptionHeat:
     """Heat to evaporate bound water: net part from the isotherm's shift with temperature, plus the latent heat.
 
     Zero net heat for an isotherm without temperature. A negative value says that the printed constants let isotherms cross.
@@ -167,8 +171,8 @@ def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw, 
          title="Moisture between the branches of hysteresis", output="moisture_dry_basis")  # fmt: skip
 def hysteresis_moisture(
     water_activity: WaterActivity,
-    isotherm_desorption: IsothermLaw,
-    isotherm_adsorption: IsothermLaw,
+    isotherm_desorption: IsothermLaw = POTATO,
+    isotherm_adsorption: IsothermLaw = POTATO,
     desorption_share: Fraction = 1.0,
     temperature: Temperature = 298.15,
 ) -> MoistureDryBasis:

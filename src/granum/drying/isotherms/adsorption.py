@@ -22,7 +22,7 @@ def _langmuir_like_inverse(X: Any, m: Any, C: Any) -> Any:
     return 2.0 * X / (b + jnp.sqrt(jnp.maximum(b * b + 4.0 * (C - 1.0) * X * X, 1e-300)))
 
 
-@law("isotherm", name="isotherm_bet", source="brunauer1938", title="BET isotherm", fitted={"water_activity": (0.05, 0.5)},
+@law("isotherm", name="isotherm_bet", source="brunauer1938", title="BET isotherm",
      equation=r"X = \frac{m\,C\,a}{(1-a)(1-a+C\,a)}")  # fmt: skip
 class Bet(AbstractIsotherm):
     """Brunauer, Emmett and Teller: a monolayer of bound water and layers of free water above it. Holds up to a water activity of 0.5.
@@ -113,8 +113,7 @@ class Gab(AbstractIsotherm):
 
 
 @law("isotherm", name="isotherm_hailwood_horrobin", source="hailwood1946; glass2010, eq. 4-5", title="Hailwood–Horrobin isotherm of wood",
-     equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]",
-     fitted={"temperature": (253.15, 373.15)})  # fmt: skip
+     equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]")  # fmt: skip
 class HailwoodHorrobin(AbstractIsotherm):
     """Equilibrium moisture of wood, two hydrates and dissolved water, with the coefficients of the Wood Handbook over temperature.
 

@@ -1,0 +1,264 @@
+"""The two charts of humid gas: psychrometric (Carrier) and Mollier–Ramzin, for any pair and pressure, with the path of a process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+from granum.core import chart
+from granum.core.constants import STANDARD_ATMOSPHERE, ZERO_CELSIUS
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS, HumidityRatio, Pressure, Series, Temperature
+from granum.core.units import format_number, show
+from granum.humid_gas.formulas.state import GasVaporPair
+from granum.humid_gas.isolines import Isolines, nice_steps
+from granum.humid_gas.pairs import AIR_WATER, AbstractPair
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
+
+WIDTH, HEIGHT = 1120, 790
+MARGIN = {"l": 70, "r": 80, "t": 70, "b": 62}
+TABLE_HEIGHT = 200
+States = Annotated[Temperature, Series("states")] | None
+Humidities = Annotated[HumidityRatio, Series("states")] | None
+Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def default_humidity(T_high: float) -> float:
+    """A humidity ratio that suits a highest temperature."""
+    t = T_high - ZERO_CELSIUS
+    return 0.03 if t <= 60.0 else 0.03 + 8e-4 * (t - 55.0)
+
+
+class _Sheet:
+    """Draws isolines, labels and states on one of the two charts; ``place`` turns temperature and humidity into coordinates."""
+
+    def __init__(self, figure: go.Figure, lines: Isolines, place: Place, x: tuple[float, float], y: tuple[float, float], height: float):
+        self.figure, self.lines, self.place = figure, lines, place
+        self.x, self.y = x, y
+        self.scale = ((WIDTH - MARGIN["l"] - MARGIN["r"]) / (x[1] - x[0]), height / (y[1] - y[0]))
+
+    def curve(self, T: np.ndarray, w: np.ndarray, name: str, color: str, width: float, dash: str = "solid", legend: bool = False) -> None:
+        import plotly.graph_objects as go
+
+        if len(T) < 2:
+            return
+        x, y = self.place(T, w)
+        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": color, "width": width, "dash": dash}, name=name,
+                                         legendgroup=name, showlegend=legend, hoverinfo="skip"))  # fmt: skip
+
+    def label(self, T: np.ndarray, w: np.ndarray, text: str, color: str, at: float, size: int = 10, beyond: float = 0.0) -> None:
+        """Text along a curve, at a share of its drawn length; ``beyond`` shifts it past the end, in pixels."""
+        if len(T) < 2:
+            return
+        x, y = self.place(T, w)
+        px, py = x * self.scale[0], y * self.scale[1]
+        s = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
+        if s[-1] < 45.0 and not beyond:
+            return
+        where = at * s[-1]
+        cx, cy = np.interp(where, s, px), np.interp(where, s, py)
+        low, high = max(where - 12.0, 0.0), min(where + 12.0, s[-1])
+        dx = np.interp(high, s, px) - np.interp(low, s, px)
+        dy = np.interp(high, s, py) - np.interp(low, s, py)
+        angle = -np.degrees(np.arctan2(dy, dx))
+        length = np.hypot(dx, dy) or 1.0
+        sign = 1.0 if at > 0.5 else -1.0
+        cx, cy = cx + sign * beyond * dx / length, cy + sign * beyond * dy / length
+        angle = angle - 180.0 if angle > 90.0 else angle + 180.0 if angle < -90.0 else angle
+        X, Y = cx / self.scale[0], cy / self.scale[1]
+        if not (self.x[0] <= X <= self.x[1] and self.y[0] <= Y <= self.y[1]):
+            return
+        self.figure.add_annotation(x=X, y=Y, text=text, textangle=float(angle), showarrow=False, font={"size": size, "color": color},
+                                   bgcolor="rgba(255,255,255,0.85)" if not beyond else None, borderpad=0)  # fmt: skip
+
+    def family(self, kind: str, values: np.ndarray, name: str, color: str, width: float, dash: str, text: Callable[[float], str], at: float,
+               beyond: float = 0.0, every: int = 1) -> None:  # fmt: skip
+        """All lines of one quantity, every so many of them labelled."""
+        first = True
+        for i, value in enumerate(values):
+            T, w = self.lines.line(kind, float(value))
+            if len(T) < 2:
+                continue
+            self.curve(T, w, name, color, width, dash, legend=first)
+            first = False
+            if i % every == 0:
+                self.label(T, w, text(float(value)), color, at, beyond=beyond)
+
+    def hover(self) -> None:
+        """Invisible points that show the full state under the pointer."""
+        import plotly.graph_objects as go
+
+        T, w, data = self.lines.grid
+        x, y = self.place(T, w)
+        template = (
+            "<b>%{customdata[0]:.1f} °C</b><br>w %{customdata[1]:.2f} g/kg<br>φ %{customdata[2]:.1f} %<br>"
+            + "T<sub>h</sub> %{customdata[3]:.1f} °C<br>T<sub>r</sub> %{customdata[4]:.1f} °C<br>h %{customdata[5]:.1f} kJ/kg<br>"
+            + "v %{customdata[6]:.3f} m³/kg<extra></extra>"
+        )
+        self.figure.add_trace(go.Scatter(x=x, y=y, mode="markers", marker={"size": 9, "opacity": 0.0}, customdata=data, hovertemplate=template,
+                                         showlegend=False))  # fmt: skip
+
+    def path(self, T: np.ndarray, w: np.ndarray) -> None:
+        """The process: thick line through numbered states."""
+        import plotly.graph_objects as go
+
+        from granum.core.charts import ACCENT
+
+        x, y = self.place(T, w)
+        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": ACCENT, "width": 4}, name=_("process"), hoverinfo="skip"))
+        self.figure.add_trace(go.Scatter(
+            x=x, y=y, mode="markers+text", text=[f"<b>{i + 1}</b>" for i in range(len(T))], textfont={"color": "white", "size": 12},
+            marker={"size": 21, "color": ACCENT, "line": {"color": "white", "width": 2}}, showlegend=False, hoverinfo="skip"))  # fmt: skip
+
+
+def _table(figure: go.Figure, states: np.ndarray, share: float) -> None:
+    """The states in rows under the chart; the columns are those of ``Isolines.states``."""
+    import plotly.graph_objects as go
+
+    heads = ("", "T / °C", "w / (g/kg)", "φ / %", "T<sub>h</sub> / °C", "T<sub>r</sub> / °C", "h / (kJ/kg)", "v / (m³/kg)")
+    digits = (3, 3, 3, 3, 3, 4, 4)
+    columns = [[str(i + 1) for i in range(len(states))]]
+    columns += [[format_number(float(v), n) for v in states[:, k]] for k, n in enumerate(digits)]
+    figure.add_trace(go.Table(
+        header={"values": [f"<b>{n}</b>" for n in heads], "fill_color": "#eef2f2", "line_color": "#d9dde3", "font": {"size": 12}, "height": 26},
+        cells={"values": columns, "fill_color": "white", "line_color": "#d9dde3", "font": {"size": 12}, "height": 24},
+        domain={"x": [0.0, 1.0], "y": [0.0, share]}))  # fmt: skip
+
+
+def _checked(temperature: Any, humidity_ratio: Any) -> tuple[np.ndarray, np.ndarray] | None:
+    if temperature is None and humidity_ratio is None:
+        return None
+    if temperature is None or humidity_ratio is None or len(temperature) != len(humidity_ratio):
+        raise InputError(_("The states of a process need as many temperatures as humidity ratios."))
+    return np.asarray(temperature, dtype=float), np.asarray(humidity_ratio, dtype=float)
+
+
+def _frame(title: str, states: Any, pair: AbstractPair, P: float) -> tuple[go.Figure, float, float]:
+    """Empty figure, height of the plot in pixels, and share of the height that the table takes."""
+    from granum.core.charts import figure
+
+    rows = 0 if states is None else len(states[0])
+    extra = 0 if states is None else 60 + 25 * rows
+    height = HEIGHT + extra
+    drawing = figure("", "", title=f"{title} · {type(pair).card.title} · {show(P, KINDS['Pressure'])}")  # type: ignore[attr-defined]
+    share = 0.0 if states is None else (40 + 25 * rows) / (height - MARGIN["t"] - MARGIN["b"])
+    drawing.update_layout(width=WIDTH, height=height, margin=MARGIN, legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "font": {"size": 11}},
+                          hovermode="closest", hoverdistance=15)  # fmt: skip
+    start = 0.0 if states is None else share + 70.0 / (height - MARGIN["t"] - MARGIN["b"])
+    drawing.update_yaxes(domain=[start, 1.0])
+    return drawing, (1.0 - start) * (height - MARGIN["t"] - MARGIN["b"]), share
+
+
+def _families(sheet: _Sheet, wet_at: float, volume_at: float) -> None:
+    from granum.core.charts import HEAT, INK, LIQUID, OK
+
+    lines = sheet.lines
+    humid = [p for p in (0.01, 0.02, 0.05) if lines.T_high > 353.0] + [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
+    sheet.family("enthalpy", nice_steps(*lines.range_of("enthalpy"), 16), _("enthalpy kJ/kg"), HEAT, 0.7, "solid",
+                 lambda h: format_number(h / 1e3, 4), 0.0, beyond=16.0)  # fmt: skip
+    sheet.family("specific_volume", nice_steps(*lines.range_of("specific_volume"), 10), _("volume m³/kg"), OK, 0.8, "dashdot",
+                 lambda v: f"{format_number(v, 4)}", volume_at)  # fmt: skip
+    sheet.family("wet_bulb_temperature", nice_steps(lines.T_low - ZERO_CELSIUS, lines.range_of("wet_bulb")[1] - ZERO_CELSIUS, 12) + ZERO_CELSIUS,
+                 _("wet bulb °C"), "#6b46c1", 0.7, "dash", lambda T: f"{format_number(T - ZERO_CELSIUS, 3)}°", wet_at)  # fmt: skip
+    sheet.family(
+        "relative_humidity", np.array(humid), _("relative humidity"), LIQUID, 1.0, "solid", lambda f: f"{format_number(100 * f, 2)} %", 0.72
+    )
+    T, w = lines.line("relative_humidity", 1.0)
+    sheet.curve(T, w, _("saturation"), INK, 3.0, legend=True)
+    sheet.label(T, w, "100 %", INK, 0.75, size=11)
+
+
+@chart(source="ashrae2017, ch. 1", title="Psychrometric chart")
+def psychrometric_chart(
+    temperature_low: Temperature = 263.15,
+    temperature_high: Temperature = 323.15,
+    humidity_ratio_high: HumidityRatio | None = None,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
+    temperature: States = None,
+    humidity_ratio: Humidities = None,
+) -> go.Figure:
+    """Psychrometric chart of Carrier's type: humidity ratio over dry-bulb temperature, with the states of a process if given.
+
+    Lines of relative humidity, wet bulb, enthalpy and volume; the pointer shows the full state.
+
+    >>> psychrometric_chart(temperature=["20 degC", "60 degC", "35 degC"], humidity_ratio=[0.008, 0.008, 0.018]).layout.xaxis.range
+    (-10.0, 50.0)
+    """
+    from granum.core.charts import axis_title
+
+    states = _checked(temperature, humidity_ratio)
+    top = humidity_ratio_high or default_humidity(temperature_high)
+    lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
+    drawing, height, share = _frame(_("Psychrometric chart"), states, pair, pressure)
+    x, y = (temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS), (0.0, 1e3 * top)
+    sheet = _Sheet(drawing, lines, lambda T, w: (T - ZERO_CELSIUS, 1e3 * w), x, y, height)
+    drawing.update_xaxes(range=list(x), title=axis_title("temperature", "degC"), nticks=14, showgrid=True)
+    drawing.update_yaxes(range=list(y), title=axis_title("humidity_ratio", "g/kg"), side="right", nticks=13)
+    _families(sheet, 0.8, 0.9)
+    sheet.hover()
+    if states is not None:
+        sheet.path(*states)
+        _table(drawing, lines.states, share)
+    return drawing
+
+
+@chart(source="mollier1923; ramzin1927", title="Mollier–Ramzin chart")
+def mollier_chart(
+    temperature_low: Temperature = 263.15,
+    temperature_high: Temperature = 333.15,
+    humidity_ratio_high: HumidityRatio | None = None,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
+    temperature: States = None,
+    humidity_ratio: Humidities = None,
+) -> go.Figure:
+    """Oblique enthalpy chart of Mollier and Ramzin: the isotherm of 0 °C is level, lines of constant enthalpy fall to the right.
+
+    The ordinate is enthalpy less the heat of vaporization at 0 °C times humidity, so heating is a vertical and mixing a straight line.
+
+    >>> mollier_chart().layout.xaxis.range
+    (0.0, 30.0)
+    """
+    from granum.core.charts import INK, axis_title
+
+    states = _checked(temperature, humidity_ratio)
+    top = humidity_ratio_high or default_humidity(temperature_high)
+    lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
+    zero = (
+        float(lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([1e-3]))[0] - lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([0.0]))[0])
+        * 1e3
+    )
+
+    def place(T: np.ndarray, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return 1e3 * np.asarray(w), (lines.enthalpy(np.asarray(T), np.asarray(w)) - zero * np.asarray(w)) / 1e3
+
+    drawing, height, share = _frame(_("Mollier–Ramzin chart"), states, pair, pressure)
+    low, high = (float(place(np.array([T]), np.array([0.0]))[1][0]) for T in (temperature_low, temperature_high))
+    x, y = (0.0, 1e3 * top), (low, high)
+    sheet = _Sheet(drawing, lines, place, x, y, height)
+    ticks = nice_steps(temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS, 14)
+    at = [float(place(np.array([t + ZERO_CELSIUS]), np.array([0.0]))[1][0]) for t in ticks]
+    drawing.update_xaxes(range=list(x), title=axis_title("humidity_ratio", "g/kg"), nticks=16)
+    drawing.update_yaxes(
+        range=list(y), title=axis_title("temperature", "degC"), tickvals=at, ticktext=[format_number(t, 3) for t in ticks], showgrid=False
+    )
+    fine = nice_steps(temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS, 28)
+    first = True
+    for t in fine:
+        T, w = lines.line("temperature", t + ZERO_CELSIUS)
+        sheet.curve(T, w, _("temperature °C"), "#8a94a3", 0.9 if np.isclose(t, ticks).any() else 0.4, legend=first)
+        first = False
+        if np.isclose(t, ticks).any():
+            sheet.label(T, w, f"{format_number(t, 3)}°", INK, 0.35)
+    _families(sheet, 0.55, 0.25)
+    sheet.hover()
+    if states is not None:
+        sheet.path(*states)
+        _table(drawing, lines.states, share)
+    return drawing
