@@ -1,0 +1,139 @@
+"""Void fraction and height of a fluidized bed: liquids by three authors; void fraction from mass, height and pressure drop."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from granum.core import formula, limit_active, watch
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import (
+    Acceleration,
+    Area,
+    Density,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    Mass,
+    PositiveNumber,
+    PressureDrop,
+    Speed,
+    VoidFraction,
+    Within,
+)
+from granum.fluidization.formulas.minimum import archimedes, excess
+
+LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
+BED = {"mass": (40.0, 60.0), "area": (0.05, 0.1), "length": (0.8, 1.2), "height": (0.8, 1.2)}
+
+
+def _carried(e: Any) -> Any:
+    """A void fraction that reaches 1 means transport: cut there, with a flag."""
+    limit_active(e >= 1.0, e, "void_fraction")
+    return jnp.minimum(e, 1.0)
+
+
+@formula(source="richardson1954", equation=r"\varepsilon = (U/U_t)^{1/n}", output="bed_void_fraction",
+         typical={"superficial_velocity": (0.01, 0.05), "terminal_velocity": (0.1, 0.3), "settling_exponent": (2.4, 4.7)})  # fmt: skip
+def bed_void_fraction_richardson_zaki(
+    superficial_velocity: Speed, terminal_velocity: Speed, settling_exponent: Annotated[PositiveNumber, Within(1.0, 10.0)]
+) -> Fraction:
+    """Void fraction of a bed fluidized by a liquid, by Richardson and Zaki; 1 and a flag above the terminal velocity.
+
+    The exponent comes from ``settling_exponent_richardson_zaki`` or another of its family.
+
+    >>> round(bed_void_fraction_richardson_zaki(superficial_velocity=0.01, terminal_velocity=0.1, settling_exponent=2.4), 4)
+    0.3831
+    """
+    return _carried((superficial_velocity / terminal_velocity) ** (1.0 / settling_exponent))
+
+
+@formula(source="riba1977",
+         equation=r"\varepsilon = 1.58\,\mathrm{Re}^{0.33}\,\mathrm{Ga}^{-0.21}\left(\frac{\rho_p-\rho_f}{\rho_f}\right)^{-0.22}",
+         output="bed_void_fraction", typical=LIQUID)  # fmt: skip
+def bed_void_fraction_riba(
+    superficial_velocity: Speed,
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> Fraction:
+    """Void fraction of a bed fluidized by a liquid, by Riba and Couderc, for void fractions below 0.85.
+
+    >>> e = bed_void_fraction_riba(superficial_velocity=0.05, particle_diameter="2 mm", particle_density=2500, fluid_density=1000,
+    ...                            dynamic_viscosity="1 cP")
+    >>> 0.4 < e < 0.7
+    True
+    """
+    d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
+    Re, Ga = rho * superficial_velocity * d / eta, gravity * d**3 * rho**2 / eta**2
+    return _carried(1.58 * Re**0.33 * Ga**-0.21 * (excess(particle_density, rho) / rho) ** -0.22)
+
+
+@formula(source="wenyu1966", equation=r"\varepsilon^{4.7}\,\mathrm{Ar} = 18\,\mathrm{Re} + 2.7\,\mathrm{Re}^{1.687}",
+         fitted={"reynolds": (0.0, 1000.0)}, output="bed_void_fraction", typical=LIQUID)  # fmt: skip
+def bed_void_fraction_wen_yu(
+    superficial_velocity: Speed,
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> Fraction:
+    """Void fraction of a bed fluidized by a liquid, by Wen and Yu, from the drag of one sphere.
+
+    >>> e = bed_void_fraction_wen_yu(superficial_velocity=0.05, particle_diameter="2 mm", particle_density=2500, fluid_density=1000,
+    ...                              dynamic_viscosity="1 cP")
+    >>> 0.4 < e < 0.7
+    True
+    """
+    d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
+    Re = rho * superficial_velocity * d / eta
+    watch(reynolds=Re)
+    return _carried(((18.0 * Re + 2.7 * Re**1.687) / archimedes(d, particle_density, rho, eta, gravity)) ** (1.0 / 4.7))
+
+
+@formula(source="kunii1991, ch. 3", equation=r"H = H_0\,\frac{1-\varepsilon_0}{1-\varepsilon}", output="height",
+         typical={"void_fraction": (0.5, 0.8), "void_fraction_settled": (0.38, 0.45)})  # fmt: skip
+def height_expanded(height: Length, void_fraction_settled: VoidFraction, void_fraction: VoidFraction) -> Length:
+    """Height of an expanded bed from that of the settled bed: the solid stays.
+
+    >>> round(height_expanded(height=1.0, void_fraction_settled=0.4, void_fraction=0.7), 6)
+    2.0
+    """
+    return height * (1.0 - void_fraction_settled) / (1.0 - void_fraction)
+
+
+@formula(source="kunii1991, ch. 3, eq. 17", equation=r"\Delta p = \frac{m\,g}{A}\left(1 - \frac{\rho_f}{\rho_p}\right)", output="pressure_drop",
+         typical=BED)  # fmt: skip
+def pressure_drop_fluidized_bed(
+    mass: Mass, area: Area, particle_density: Density, fluid_density: Density, gravity: Acceleration = STANDARD_GRAVITY
+) -> PressureDrop:
+    """Pressure drop of a fluidized bed: its weight less buoyancy over the cross-section.
+
+    >>> round(pressure_drop_fluidized_bed(mass=100.0, area=1.0, particle_density=2000.0, fluid_density=1000.0), 2)
+    490.33
+    """
+    return mass * gravity / area * excess(particle_density, fluid_density) / particle_density
+
+
+@formula(source="kunii1991, ch. 3, eq. 17",
+         equation=r"\varepsilon = 1 - \frac{\Delta p}{H g (\rho_p - \rho_f)}", output="bed_void_fraction",
+         typical={"pressure_drop": (5e3, 8e3), "height": (0.8, 1.2), "fluid_density": (0.5, 5.0)})  # fmt: skip
+def bed_void_fraction_from_pressure_drop(
+    pressure_drop: PressureDrop,
+    height: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> Fraction:
+    """Void fraction of a fluidized layer from the pressure drop between two levels.
+
+    From mass and height use ``void_fraction_from_mass`` of the packed bed: 1 - m/(H A ρ).
+
+    >>> round(bed_void_fraction_from_pressure_drop(pressure_drop=5883.99, height=1.0, particle_density=2000, fluid_density=1000), 4)
+    0.4
+    """
+    return 1.0 - pressure_drop / (height * gravity * excess(particle_density, fluid_density))

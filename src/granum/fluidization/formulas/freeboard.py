@@ -1,0 +1,170 @@
+"""Freeboard: transport disengaging height, and the flux of fines entrained, by several authors."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+
+from granum.core import formula, limit_active
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, MassFlux, Speed
+
+SURFACE = {"bubble_diameter": (0.03, 0.3), "superficial_velocity": (0.2, 1.0), "minimum_fluidization_velocity": (0.01, 0.1)}
+ESCAPE = {"particle_diameter": (2e-5, 1e-4), "superficial_velocity": (0.6, 2.0), "terminal_velocity": (0.02, 0.4),
+          "fluid_density": (0.4, 5.0), "dynamic_viscosity": (1.5e-5, 4e-5)}  # fmt: skip
+
+
+@formula(source="fung1993", equation=r"\mathrm{TDH} = 13.8\,d_b", typical=SURFACE)
+def disengaging_height_fung(bubble_diameter: Length) -> Length:
+    """Transport disengaging height by Fung and Hamdullahpur, from the bubbles at the surface.
+
+    >>> round(disengaging_height_fung(bubble_diameter=0.1), 6)
+    1.38
+    """
+    return 13.8 * bubble_diameter
+
+
+@formula(source="horio1980", equation=r"\mathrm{TDH} = 4.47\,d_b^{1/2}", typical=SURFACE)
+def disengaging_height_horio(bubble_diameter: Length) -> Length:
+    """Transport disengaging height by Horio and others, from the bubbles at the surface.
+
+    >>> round(disengaging_height_horio(bubble_diameter=0.04), 3)
+    0.894
+    """
+    return 4.47 * jnp.sqrt(bubble_diameter)
+
+
+@formula(source="pemberton1986", equation=r"\mathrm{TDH} = 18.2\,d_b", typical=SURFACE)
+def disengaging_height_pemberton(bubble_diameter: Length) -> Length:
+    """Transport disengaging height by Pemberton and Davidson, from the bubbles at the surface.
+
+    >>> round(disengaging_height_pemberton(bubble_diameter=0.1), 6)
+    1.82
+    """
+    return 18.2 * bubble_diameter
+
+
+@formula(source="amitin1968", equation=r"\mathrm{TDH} = 0.85\,U^{1.2}(7.33 - 1.2\log_{10} U)", typical=SURFACE)
+def disengaging_height_amitin(superficial_velocity: Speed) -> Length:
+    """Transport disengaging height by Amitin and others, from the gas velocity.
+
+    At 1 m/s the logarithm vanishes:
+
+    >>> round(disengaging_height_amitin(superficial_velocity=1.0), 4)
+    6.2305
+    """
+    return 0.85 * superficial_velocity**1.2 * (7.33 - 1.2 * jnp.log10(superficial_velocity))
+
+
+@formula(source="fournol1973", equation=r"\mathrm{TDH} = 1000\,U^2/g", typical=SURFACE)
+def disengaging_height_fournol(superficial_velocity: Speed, gravity: Acceleration = STANDARD_GRAVITY) -> Length:
+    """Transport disengaging height by Fournol and others, for cracking catalyst.
+
+    >>> round(disengaging_height_fournol(superficial_velocity=0.1), 2)
+    1.02
+    """
+    return 1000.0 * superficial_velocity**2 / gravity
+
+
+@formula(source="smolders2001", equation=r"\mathrm{TDH} = 6\,[(U-U_{mf})\,d_b]^{0.6}", typical=SURFACE)
+def disengaging_height_smolders(superficial_velocity: Speed, minimum_fluidization_velocity: Speed, bubble_diameter: Length) -> Length:
+    """Transport disengaging height by Smolders and Baeyens, from bubbles and excess gas.
+
+    >>> round(disengaging_height_smolders(superficial_velocity=1.1, minimum_fluidization_velocity=0.1, bubble_diameter=1.0), 6)
+    6.0
+    """
+    extra = jnp.maximum(superficial_velocity - minimum_fluidization_velocity, 1e-12)
+    return 6.0 * (extra * bubble_diameter) ** 0.6
+
+
+@formula(source="geldart1979", equation=r"K^*_\infty = 23.7\,\rho_g U\,e^{-5.4\,v_t/U}", typical=ESCAPE)
+def elutriation_flux_geldart(superficial_velocity: Speed, terminal_velocity: Speed, fluid_density: Density) -> MassFlux:
+    """Elutriation rate constant of a size class above the disengaging height by Geldart and others.
+
+    The flux of a class is the constant times its mass fraction in the bed.
+
+    >>> round(elutriation_flux_geldart(superficial_velocity=1.0, terminal_velocity=0.5, fluid_density=1.2), 3)
+    1.911
+    """
+    U = superficial_velocity
+    return 23.7 * fluid_density * U * jnp.exp(-5.4 * terminal_velocity / U)
+
+
+@formula(source="tasirin1998", equation=r"K^*_\infty = 14.5\,\rho_g U^{2.5}\,e^{-5.4\,v_t/U}", typical=ESCAPE)
+def elutriation_flux_tasirin_geldart(superficial_velocity: Speed, terminal_velocity: Speed, fluid_density: Density) -> MassFlux:
+    """Elutriation rate constant of a size class by Tasirin and Geldart, for a turbulent freeboard.
+
+    >>> round(elutriation_flux_tasirin_geldart(superficial_velocity=1.0, terminal_velocity=0.5, fluid_density=1.2), 3)
+    1.169
+    """
+    U = superficial_velocity
+    return 14.5 * fluid_density * U**2.5 * jnp.exp(-5.4 * terminal_velocity / U)
+
+
+@formula(source="zenz1958; kunii1991, ch. 7",
+         equation=r"\frac{K^*_\infty}{\rho_g U} = \begin{cases}1.26\times10^7 X^{1.88} & X < 3\times10^{-4}\\ 4.31\times10^4 X^{1.18}\end{cases},\ X = \frac{U^2}{g d_p \rho_p^2}",
+         typical=ESCAPE)  # fmt: skip
+def elutriation_flux_zenz_weil(
+    superficial_velocity: Speed,
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> MassFlux:
+    """Elutriation rate constant of a size class by Zenz and Weil, from cracking catalyst of 40 to 200 µm.
+
+    >>> k = elutriation_flux_zenz_weil(superficial_velocity=0.6, particle_diameter="60 um", particle_density=1500, fluid_density=1.2)
+    >>> 0.5 < k < 2.0
+    True
+    """
+    U = superficial_velocity
+    X = U**2 / (gravity * particle_diameter * particle_density**2)
+    return fluid_density * U * jnp.where(X < 3e-4, 1.26e7 * X**1.88, 4.31e4 * X**1.18)
+
+
+@formula(source="wen1960",
+         equation=r"K^*_\infty = 1.7\times10^{-5}\rho_g (U-v_t)\left[\frac{(U-v_t)^2}{g d_p}\right]^{1/2}\mathrm{Re}_t^{0.725}\left(\frac{\rho_p-\rho_g}{\rho_g}\right)^{1.15}",
+         typical=ESCAPE)  # fmt: skip
+def elutriation_flux_wen_hashinger(
+    superficial_velocity: Speed,
+    terminal_velocity: Speed,
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> MassFlux:
+    """Elutriation rate constant of a size class by Wen and Hashinger, from 40 to 270 µm; none below the terminal velocity.
+
+    >>> elutriation_flux_wen_hashinger(superficial_velocity=0.2, terminal_velocity=0.3, particle_diameter="60 um", particle_density=1500,
+    ...                                fluid_density=1.2, dynamic_viscosity=1.8e-5)
+    0.0
+    """
+    d, rho = particle_diameter, fluid_density
+    limit_active(superficial_velocity <= terminal_velocity, superficial_velocity, "superficial_velocity")
+    slip = jnp.maximum(superficial_velocity - terminal_velocity, 0.0)
+    Re = rho * terminal_velocity * d / dynamic_viscosity
+    heavy = jnp.maximum(particle_density - rho, 1e-12) / rho
+    return 1.7e-5 * rho * slip**2 / jnp.sqrt(gravity * d) * Re**0.725 * heavy**1.15
+
+
+@formula(source="lin1980", equation=r"K^*_\infty = 9.43\times10^{-4}\,\rho_g U\left(\frac{U^2}{g d_p}\right)^{1.65}", typical=ESCAPE)
+def elutriation_flux_lin(
+    superficial_velocity: Speed, particle_diameter: Length, fluid_density: Density, gravity: Acceleration = STANDARD_GRAVITY
+) -> MassFlux:
+    """Elutriation rate constant of a size class by Lin, Sears and Wen, from char finer than 30 to 150 µm.
+
+    >>> round(elutriation_flux_lin(superficial_velocity=1.0, particle_diameter=1.0, fluid_density=1.0, gravity=1.0), 6)
+    0.000943
+    """
+    U = superficial_velocity
+    return 9.43e-4 * fluid_density * U * (U**2 / (gravity * particle_diameter)) ** 1.65
+
+
+@formula(source="colakyan1984", equation=r"K^*_\infty = 33\,(1 - v_t/U)^2", typical=ESCAPE)
+def elutriation_flux_colakyan_levenspiel(superficial_velocity: Speed, terminal_velocity: Speed) -> MassFlux:
+    """Elutriation rate constant of coarse particles by Colakyan and Levenspiel; none below the terminal velocity.
+
+    >>> round(elutriation_flux_colakyan_levenspiel(superficial_velocity=1.0, terminal_velocity=0.5), 6)
+    8.25
+    """
+    return 33.0 * jnp.maximum(1.0 - terminal_velocity / superficial_velocity, 0.0) ** 2
