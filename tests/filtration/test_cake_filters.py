@@ -9,7 +9,7 @@ import pytest
 
 from granum.core.constants import ZERO_CELSIUS
 from granum.filtration.equipment.batch import CandleFilter, ChamberPress, MembranePress, Nutsche, PlateAndFramePress, PressureLeafFilter
-from granum.filtration.equipment.continuous import HorizontalBeltFilter, RotaryDiscFilter, RotaryVacuumDrum
+from granum.filtration.equipment.continuous import HorizontalBeltFilter, PrecoatDrum, RotaryDiscFilter, RotaryVacuumDrum
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream
@@ -142,3 +142,17 @@ def test_gradient_through_a_drum_and_many_cases_at_once():
     assert slope < 0
     batch = jax.jit(jax.vmap(salt_in_cake))(jnp.linspace(0.01, 0.1, 50), jnp.full(50, 0.05))
     assert np.all(np.diff(np.asarray(batch)) < 0)
+
+
+def test_precoat_limits_the_rate_of_a_clear_feed():
+    m = mixture()
+    feed = stream(m, 0.002, 2.0)
+    fields = {**COMMON, "rotation_speed": "0.5 rpm", "precoat_permeability": 1e-13, "knife_advance": "0.05 mm"}
+    drum = PrecoatDrum.size(feed, precoat_thickness="80 mm", **fields)
+    # hardly any cake: the flux is that of 40 mm of precoat for half of the time
+    flux = 6e4 / (0.8937e-3 * 0.04 / 1e-13)
+    assert float(drum.area) == pytest.approx(2.0 / 996.9 / (0.5 * flux), rel=0.1)
+    out = drum(feed)
+    checks = {c.name: c for c in drum.checks({"feed": feed}, out)}
+    assert checks["life of the precoat"].value == pytest.approx(1600 * 120)
+    assert float(closure([feed], out).mass) < 1e-14

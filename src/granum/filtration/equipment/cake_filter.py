@@ -110,6 +110,10 @@ class CakeFilter(Unit):
         """Specific resistance of the cake at the driving pressure."""
         return cake_resistance_power_law(self.pressure_drop, self.cake_resistance, self.compressibility, self.reference_pressure)
 
+    def media_resistance(self) -> Any:
+        """Resistance of what carries the cake."""
+        return self.medium_resistance
+
     def slurry(self, feed: Stream) -> Slurry:
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
@@ -120,7 +124,7 @@ class CakeFilter(Unit):
     def wash_flux(self, loading: Any, feed: Stream, wash: Stream | None) -> Any:
         """Superficial velocity of wash liquor through a cake of that dry mass per area."""
         viscosity = feed.liquid_viscosity if wash is None else wash.liquid_viscosity
-        return self.pressure_drop / (viscosity * (self.resistance * loading + self.medium_resistance))
+        return self.pressure_drop / (viscosity * (self.resistance * loading + self.media_resistance()))
 
     def thickness(self, loading: Any, solid_density: Any) -> Any:
         """Cake thickness of a dry mass per area."""
