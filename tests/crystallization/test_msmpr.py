@@ -13,7 +13,7 @@ from granum.crystallization.formulas.msmpr import undersize_mass_fraction
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
 from granum.crystallization.vessels.crystals import Crystal
-from granum.crystallization.vessels.msmpr import AdditiveVolumes, Feed, steady_msmpr
+from granum.crystallization.vessels.msmpr import AdditiveVolumes, Feed, Removal, steady_msmpr
 
 # Potassium nitrate in water: Miller and Rawlings (1994), Chung, Ma and Braatz (1999), in SI units.
 SOLUBILITY = PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4])
@@ -91,3 +91,41 @@ def test_gradient_and_batch():
     assert float(jax.jit(jax.grad(f))(293.15)) == pytest.approx(float(difference), rel=1e-5)
     many = jax.jit(jax.vmap(f))(jnp.array([285.0, 293.15]))
     assert float(many[1]) == pytest.approx(float(f(293.15)), rel=1e-12)
+
+
+def test_removal_of_one_is_the_plain_vessel():
+    plain, same = vessel(), vessel(removal=Removal(1.0, 1e-4, 1.0, 5e-4))
+    np.testing.assert_allclose(same.crystals, plain.crystals, rtol=1e-9, atol=1e-15)
+    assert float(same.magma_density) == pytest.approx(float(plain.magma_density), rel=1e-12)
+
+
+def test_fines_dissolution_and_classification_against_quadrature():
+    """Product of class = Q times withdrawal times n, with n of the R-Z model integrated numerically."""
+    removal = Removal(3.0, 8e-5, 2.5, 4e-4)
+    found = vessel(removal=removal)
+    size = np.linspace(0.0, 6e-3, 600_001)
+    length = float(found.length)
+    n = np.exp(-np.asarray(removal.path(size)) / length)
+    out = n * np.where(size > 4e-4, 2.5, 1.0) * size**3
+    cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (out[1:] + out[:-1]) * np.diff(size))])
+    share = np.interp(np.asarray(EDGES[1:]), size, cumulative) / cumulative[-1]
+    np.testing.assert_allclose(np.cumsum(found.crystals)[:-1] / float(jnp.sum(found.crystals)), share[:-1], atol=2e-5)
+    # The balance of nuclei: product cube made per second from B V nuclei.
+    made = CRYSTAL.mass_per_cube * float(found.nucleation_rate) * 5.0 * cumulative[-1] / length
+    assert made == pytest.approx(float(jnp.sum(found.crystals)), rel=1e-4)
+
+
+def test_fines_dissolution_coarsens_and_classification_narrows():
+    def spread(state):
+        below = np.cumsum(state.crystals) / float(jnp.sum(state.crystals))
+        q16, q50, q84 = np.interp([0.16, 0.5, 0.84], below, np.asarray(EDGES[1:]))
+        return q50, (q84 - q16) / (2 * q50)
+
+    plain, fines, classed = (
+        spread(vessel()),
+        spread(vessel(removal=Removal(5.0, 1e-4))),
+        spread(vessel(removal=Removal(1.0, 0.0, 4.0, 4e-4))),
+    )
+    assert plain[1] == pytest.approx(0.52, abs=0.01)  # Randolph and Larson
+    assert fines[0] > 1.1 * plain[0]
+    assert classed[1] < plain[1]

@@ -11,7 +11,7 @@ from tests.crystallization.cases import DENSITY, DURATION, KB, KG, START, linear
 from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.charts import size_distribution_chart, solubility_chart
 from granum.crystallization.equipment.batch import BatchCrystallizer
-from granum.crystallization.equipment.msmpr import Msmpr, VacuumCrystallizer
+from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
 from granum.crystallization.formulas.classified import population_density_classified, population_density_second_stage
 from granum.crystallization.formulas.film import film_growth
@@ -178,13 +178,22 @@ def mixture() -> Mixture:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", ["msmpr", "evaporative", "vacuum", "batch"])
+@pytest.mark.parametrize("kind", ["msmpr", "evaporative", "vacuum", "classified", "batch"])
 def test_equipment_closes_its_balances(kind):
     kinetics = {"solubility": SOLUBILITY, "growth": GROWTH, "nucleation": NUCLEATION}
     unit = {
         "msmpr": lambda: Msmpr(temperature=293.15, volume=5.0, **kinetics),
         "evaporative": lambda: Msmpr(temperature=293.15, volume=5.0, evaporation=0.1, **kinetics),
         "vacuum": lambda: VacuumCrystallizer(temperature=293.15, volume=5.0, **kinetics),
+        "classified": lambda: ClassifiedCrystallizer(
+            temperature=293.15,
+            volume=5.0,
+            fines_removal_ratio=3.0,
+            fines_cut_size="80 um",
+            product_removal_ratio=2.0,
+            product_cut_size="400 um",
+            **kinetics,
+        ),
         "batch": lambda: BatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, seed_mass_per_solvent=0.01, **kinetics),
     }[kind]()
     feed = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))

@@ -22,7 +22,7 @@ from granum.crystallization.vessels.crystals import Crystal
 STEPS = 300
 
 
-@chart(source="mullin2001, sec. 3.12; mullin2001, sec. 5.3", title="Solubility, metastable zone and path of a batch",
+@chart(source="mullin2001, ch. 3 and 5", title="Solubility, metastable zone and path of a batch",
        typical={"temperature_cold": (280.0, 290.0), "temperature_hot": (320.0, 340.0)})  # fmt: skip
 def solubility_chart(
     solubility: Annotated[Any, Law("solubility_law")],
@@ -69,7 +69,7 @@ def _simulated(
     return march(model, Programmed(program), seeds, solute_per_solvent, 1.0, jnp.linspace(0.0, duration, STEPS + 1)), seeds
 
 
-@chart(source="miller1994; mullin2001, sec. 9.1", title="Cooling batch over time", typical={"duration": (3600.0, 7200.0)})
+@chart(source="miller1994; mullin2001, ch. 9", title="Cooling batch over time", typical={"duration": (3600.0, 7200.0)})
 def batch_chart(
     solute_per_solvent: MassRatio,
     solubility: Annotated[Any, Law("solubility_law")],
@@ -152,7 +152,7 @@ def size_distribution_chart(
     return drawing
 
 
-@chart(source="kubota2001; mullin2001, sec. 9.1.3", title="Seed chart", typical={})
+@chart(source="kubota2001; mullin2001, ch. 9", title="Seed chart", typical={})
 def seed_chart_figure() -> Any:
     """Product over seed size against seed loading on the ideal growth line.
 

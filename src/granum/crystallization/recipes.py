@@ -29,6 +29,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.crystallization.formulas.programs import TemperaturePoints
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import SEED_PACKETS, narrow_seeds
@@ -46,7 +47,7 @@ class CoolingRecipe(NamedTuple):
     mean_diameter: Length
 
 
-@eqx.filter_jit
+@compiled
 def _run(shares: Any, setting: tuple[Any, ...], steps: int) -> tuple[Any, Any, Any]:
     model, seeds, ratio, hot, cold, duration = setting
     knots = jnp.linspace(0.0, duration, shares.shape[0] + 1)

@@ -55,7 +55,7 @@ class BatchFigures(NamedTuple):
     heat_duty: Power
 
 
-@equipment("batch_crystallizer", source="mullin2001, sec. 9.1; miller1994", title="Seeded batch crystallizer",
+@equipment("batch_crystallizer", source="mullin2001, ch. 9; miller1994", title="Seeded batch crystallizer",
            equation=r"\dot m = m_{batch} / (t_f + t_{dead})")  # fmt: skip
 class BatchCrystallizer(Unit):
     """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over the cycle.
@@ -138,6 +138,6 @@ class BatchCrystallizer(Unit):
                 0.0,
                 0.5,
                 "dimensionless",
-                "mullin2001, sec. 5.3",
+                "mullin2001, ch. 5",
             ),
         )

@@ -26,7 +26,7 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
-from granum.crystallization.vessels.msmpr import AdditiveVolumes, SteadyState, steady_msmpr
+from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
 
@@ -79,7 +79,7 @@ class _Continuous(Unit):
             feed_of(feed, found), self.temperature, self.volume, self.solubility, self.growth, self.nucleation,
             crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
             AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
-            feed.mixture.edges, evaporation, per_crystal, self.nucleus_size,
+            feed.mixture.edges, evaporation, per_crystal, self.nucleus_size, self._removal(),
         )  # fmt: skip
         return state, found
 
@@ -115,12 +115,16 @@ class _Continuous(Unit):
             Check(_DRYING, jnp.asarray(state.evaporation), 0.0, jnp.inf, "kg/s", "randolph1988, ch. 4"),
         )
 
+    def _removal(self) -> Removal | None:
+        """Fines dissolved and product classified; none by default."""
+        return None
+
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
         raise NotImplementedError
 
 
-@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, sec. 9.1", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
+@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
            equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
 class Msmpr(_Continuous):
     """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
@@ -146,7 +150,44 @@ class Msmpr(_Continuous):
         return self.evaporation, 0.0
 
 
-@equipment("vacuum_crystallizer", source="mullin2001, sec. 8.4; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
+@equipment(
+    "classified_crystallizer",
+    source="randolph1988, ch. 8",
+    title="Continuous crystallizer with fines dissolution and classified product (Oslo)",
+    equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
+)
+class ClassifiedCrystallizer(_Continuous):
+    """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts (R–Z model).
+
+    A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product removal evens the sizes. A fluidized bed
+    (Oslo) is one with a strong classification. The dissolved fines return with their solute, whose heat cancels.
+    """
+
+    temperature: Temperature
+    volume: Volume
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    fines_removal_ratio: PositiveNumber = 1.0
+    fines_cut_size: Distance = 0.0
+    product_removal_ratio: PositiveNumber = 1.0
+    product_cut_size: Distance = 1.0
+    volume_shape_factor: PositiveNumber = 1.0
+    nucleus_size: Distance = 0.0
+    evaporation: MassFlow = 0.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _removal(self) -> Removal:
+        return Removal(self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size)
+
+    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
+        if found.vapor is None and not (isinstance(self.evaporation, float) and self.evaporation == 0.0):
+            raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
+        return self.evaporation, 0.0
+
+
+@equipment("vacuum_crystallizer", source="mullin2001, ch. 8; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
            equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}")  # fmt: skip
 class VacuumCrystallizer(_Continuous):
     """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to foul.

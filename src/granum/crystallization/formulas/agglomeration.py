@@ -73,7 +73,7 @@ class ProductKernel(AgglomerationKernel):
         return self.agglomeration_coefficient * crystal_size**3 * crystal_size_other**3
 
 
-@formula(source="smoluchowski1917; mullin2001, sec. 7.3", equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}", output="agglomeration_coefficient",
+@formula(source="smoluchowski1917; mullin2001, ch. 7", equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}", output="agglomeration_coefficient",
          typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)})  # fmt: skip
 def agglomeration_coefficient_brownian(
     crystal_size: Length, crystal_size_other: Length, dynamic_viscosity: DynamicViscosity, temperature: Temperature = 298.15

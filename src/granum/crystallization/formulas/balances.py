@@ -34,7 +34,7 @@ class Balance(NamedTuple):
     yield_fraction: Ratio
 
 
-@formula(source="mullin2001, sec. 3.2; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}")
+@formula(source="mullin2001, ch. 3; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}")
 def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarMass) -> Ratio:
     """Mass fraction of anhydrous solute in a hydrated crystal.
 
@@ -45,7 +45,7 @@ def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarM
 
 
 @formula(
-    source="geankoplis2003, sec. 12.11; mullin2001, sec. 8.2",
+    source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
     equation=r"C = \frac{A x_A - (A - V)\,x_L}{x_c - x_L},\quad x_L = \frac{C^*}{1+C^*}",
     title="Crystals and mother liquor of a crystallizer at equilibrium",
     typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.3, 0.4), "solubility_per_solvent": (0.1, 0.3),
@@ -77,7 +77,7 @@ def crystallizer_balance(
 
 
 @formula(
-    source="geankoplis2003, sec. 12.11; mullin2001, sec. 8.2",
+    source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
     equation=r"\dot Q = A c_{p} (T_L - T_A) - C q_c + V L_v",
     output="heat_duty",
     typical={"temperature_inlet": (330.0, 350.0), "temperature": (280.0, 300.0), "crystal_flow": (0.1, 1.0), "evaporation": (0.0, 0.2)},
@@ -116,7 +116,7 @@ class FlashBalance(NamedTuple):
 
 
 @formula(
-    source="mullin2001, eq. 8.4; richardson2002, ch. 15",
+    source="mullin2001, ch. 8; richardson2002, ch. 15",
     equation=r"V = \frac{q_c C_0 + A c_p (T_A - T_L)}{L_v - q_c\,x_L/(x_c - x_L)},\quad C_0 = A\frac{x_A - x_L}{x_c - x_L}",
     title="Adiabatic vacuum crystallizer at equilibrium",
     typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.35, 0.4), "solubility_per_solvent": (0.2, 0.4),
@@ -176,7 +176,7 @@ def log_mean_temperature_difference(
     return jnp.where(near, b * (1.0 + e / 2.0 - e**2 / 12.0), closed)
 
 
-@formula(source="mullin2001, sec. 8.2; kern1950, ch. 20", equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}", output="area",
+@formula(source="mullin2001, ch. 8; kern1950, ch. 20", equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}", output="area",
          typical={"heat_duty": (1e4, 1e6)})  # fmt: skip
 def area_jacket(
     heat_duty: Power, heat_transfer_coefficient: HeatTransferCoefficient, temperature_difference_inlet: PositiveNumber,
@@ -191,7 +191,7 @@ def area_jacket(
     return jnp.abs(heat_duty) / (heat_transfer_coefficient * mean)
 
 
-@formula(source="mullin2001, sec. 8.2", equation=r"R_{max} = 1 - \frac{C^* (W - V)}{C_0 W}", output="yield_fraction",
+@formula(source="mullin2001, ch. 8", equation=r"R_{max} = 1 - \frac{C^* (W - V)}{C_0 W}", output="yield_fraction",
          typical={"solute_per_solvent": (0.4, 0.6), "solubility_per_solvent": (0.2, 0.3)})  # fmt: skip
 def yield_fraction_anhydrous(
     solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio, evaporated_fraction: Fraction = 0.0

@@ -20,7 +20,7 @@ class DrivingForce(eqx.Module):
         """Value in the unit of the kinetics."""
 
 
-@law("driving_force", name="relative", source="mullin2001, sec. 3.12.1", title="Relative supersaturation (C − C*)/C*",
+@law("driving_force", name="relative", source="mullin2001, ch. 3", title="Relative supersaturation (C − C*)/C*",
      equation=r"\sigma = (C - C^*)/C^*")  # fmt: skip
 class RelativeSupersaturation(DrivingForce):
     """Relative supersaturation on anhydrous solute per mass of solvent."""
@@ -29,7 +29,7 @@ class RelativeSupersaturation(DrivingForce):
         return (solute_per_solvent - solubility_per_solvent) / solubility_per_solvent
 
 
-@law("driving_force", name="absolute", source="mullin2001, sec. 3.12.1", title="Absolute supersaturation C − C*",
+@law("driving_force", name="absolute", source="mullin2001, ch. 3", title="Absolute supersaturation C − C*",
      equation=r"\Delta C = C - C^*")  # fmt: skip
 class AbsoluteSupersaturation(DrivingForce):
     """Absolute supersaturation in kg of anhydrous solute per kg of solvent."""
@@ -38,7 +38,7 @@ class AbsoluteSupersaturation(DrivingForce):
         return solute_per_solvent - solubility_per_solvent
 
 
-@law("driving_force", name="logarithmic", source="mullin2001, eq. 3.67 to 3.69", title="Logarithm of the supersaturation ratio",
+@law("driving_force", name="logarithmic", source="mullin2001, ch. 3", title="Logarithm of the supersaturation ratio",
      equation=r"\ln(C/C^*)")  # fmt: skip
 class LogarithmicSupersaturation(DrivingForce):
     """Logarithm of the supersaturation ratio, the thermodynamic driving force of an ideal solution."""
@@ -47,7 +47,7 @@ class LogarithmicSupersaturation(DrivingForce):
         return safe_log(solute_per_solvent / solubility_per_solvent, otherwise=-700.0)
 
 
-@law("driving_force", name="molar", source="mullin2001, sec. 3.12.1", title="Molar supersaturation in kmol per cubic meter of solvent",
+@law("driving_force", name="molar", source="mullin2001, ch. 3", title="Molar supersaturation in kmol per cubic meter of solvent",
      equation=r"\Delta C\,\rho_{solvent} / M")  # fmt: skip
 class MolarSupersaturation(DrivingForce):
     """Absolute supersaturation in kmol of solute per cubic meter of solvent."""

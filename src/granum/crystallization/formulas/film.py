@@ -28,7 +28,7 @@ from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide, safe_power
 
 
-@formula(source="mullin2001, sec. 6.2.2", equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}", family="growth_formula")
+@formula(source="mullin2001, ch. 6", equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}", family="growth_formula")
 def growth_rate_from_flux(
     growth_flux: MassFlux, crystal_density: Density, volume_shape_factor: PositiveNumber, surface_shape_factor: PositiveNumber
 ) -> GrowthRate:
@@ -60,7 +60,7 @@ def _interface(C, C_star, kd, kr, r):
 
 
 @formula(
-    source="mullin2001, eq. 6.18 to 6.20; garside1985",
+    source="mullin2001, ch. 6; garside1985",
     equation=r"\Phi = k_d (C - C_i) = k_r (C_i - C^*)^r",
     title="Crystal growth by diffusion and integration in series",
 )
@@ -123,7 +123,7 @@ def sherwood_number_levins_glastonbury(
     return 2.0 + 0.47 * eddy**0.62 * agitator_to_tank**0.17 * schmidt_number**0.36
 
 
-@formula(source="mullin2001, sec. 6.2.2", equation=r"k_d = \mathrm{Sh}\,D/L", output="diffusion_coefficient")
+@formula(source="mullin2001, ch. 6", equation=r"k_d = \mathrm{Sh}\,D/L", output="diffusion_coefficient")
 def diffusion_coefficient_sherwood(
     sherwood_number: PositiveNumber, diffusivity: Diffusivity, crystal_size: Length
 ) -> MassTransferCoefficient:
@@ -135,7 +135,7 @@ def diffusion_coefficient_sherwood(
     return sherwood_number * diffusivity / crystal_size
 
 
-@law("growth_rate", name="film_growth_law", source="mullin2001, eq. 6.18 to 6.20", title="Growth by diffusion and integration in series",
+@law("growth_rate", name="film_growth_law", source="mullin2001, ch. 6", title="Growth by diffusion and integration in series",
      equation=r"\Phi = k_d (C - C_i) = k_r (C_i - C^*)^r,\quad G = \frac{k_a \Phi}{3 k_v \rho_c}")  # fmt: skip
 class FilmGrowthLaw(GrowthLaw):
     """Growth by diffusion through the film and integration at the surface in series, both with activation energies.
@@ -164,7 +164,7 @@ class FilmGrowthLaw(GrowthLaw):
         return self.surface_shape_factor * flux / (3.0 * self.volume_shape_factor * self.crystal_density)
 
 
-@formula(source="mullin2001, sec. 6.2.2", equation=r"\mathrm{Da} = \frac{k_r (C-C^*)^{r-1}}{k_d}", output="damkohler_growth")
+@formula(source="mullin2001, ch. 6", equation=r"\mathrm{Da} = \frac{k_r (C-C^*)^{r-1}}{k_d}", output="damkohler_growth")
 def damkohler_growth(
     solute_concentration: Concentration,
     solubility_concentration: Concentration,

@@ -32,7 +32,7 @@ def arrhenius(activation_energy: Any, temperature: Any) -> Any:
 
 
 @formula(
-    source="mullin2001, sec. 6.2.4",
+    source="mullin2001, ch. 6",
     equation=r"G = k_g\,e^{-E_g/RT}\,\sigma^g",
     family="growth_formula",
 )
@@ -54,7 +54,7 @@ def growth_rate_power(
     return k * safe_power(relative_supersaturation, growth_order)
 
 
-@law("growth_rate", name="power_law_growth", source="mullin2001, sec. 6.2.4", title="Growth rate by a power law",
+@law("growth_rate", name="power_law_growth", source="mullin2001, ch. 6", title="Growth rate by a power law",
      equation=r"G = k_g\,e^{-E_g/RT}\,S^g")  # fmt: skip
 class PowerLawGrowth(GrowthLaw):
     """Growth rate proportional to a power of the driving force, with Arrhenius temperature dependence.
@@ -146,7 +146,7 @@ class BirthAndSpreadGrowth(GrowthLaw):
         return arrhenius(self.growth_activation_energy, temperature) * rate
 
 
-@law("dissolution_rate", name="power_law_dissolution", source="mullin2001, sec. 6.2.7", title="Dissolution rate by a power law",
+@law("dissolution_rate", name="power_law_dissolution", source="mullin2001, ch. 6", title="Dissolution rate by a power law",
      equation=r"D = k_{dis}\,e^{-E/RT}\,(-S)^d")  # fmt: skip
 class PowerLawDissolution(GrowthLaw):
     """Rate at which crystals shrink in an undersaturated solution, proportional to a power of the undersaturation.

@@ -25,7 +25,7 @@ _GROWTH = {"growth_rate": (1e-8, 1e-7), "residence_time": (1800.0, 7200.0)}
 
 
 @formula(
-    source="randolph1988, eq. 4.2-15",
+    source="randolph1988, ch. 4",
     equation=r"n = n_0 \exp\left(-\frac{L}{G\tau}\right)",
     typical=_GROWTH,
 )
@@ -41,7 +41,7 @@ def population_density(
     return nuclei_population_density * jnp.exp(-crystal_size / (growth_rate * residence_time))
 
 
-@formula(source="randolph1988, eq. 4.2-16", equation=r"B_0 = n_0 G", family="nucleation_formula")
+@formula(source="randolph1988, ch. 4", equation=r"B_0 = n_0 G", family="nucleation_formula")
 def nucleation_rate_msmpr(nuclei_population_density: PopulationDensity, growth_rate: GrowthRate) -> NucleationRate:
     """Nucleation rate from the population density of nuclei and the growth rate.
 
@@ -85,7 +85,7 @@ def nuclei_population_density(
     return magma_density / (6.0 * volume_shape_factor * crystal_density * (growth_rate * residence_time) ** 4)
 
 
-@formula(source="randolph1988, ch. 4; mullin2001, sec. 9.1.1", equation=r"L_D = 3 G \tau", typical=_GROWTH)
+@formula(source="randolph1988, ch. 4; mullin2001, ch. 9", equation=r"L_D = 3 G \tau", typical=_GROWTH)
 def dominant_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
     """Dominant size by mass of an ideal continuous crystallizer: the maximum of the mass density.
 
@@ -95,9 +95,7 @@ def dominant_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
     return 3.0 * growth_rate * residence_time
 
 
-@formula(
-    source="randolph1988, ch. 4; mullin2001, sec. 9.1.1", equation=r"W(L_{50}) = \tfrac12,\quad L_{50} = 3.672\,G\tau", typical=_GROWTH
-)
+@formula(source="randolph1988, ch. 4; mullin2001, ch. 9", equation=r"W(L_{50}) = \tfrac12,\quad L_{50} = 3.672\,G\tau", typical=_GROWTH)
 def mass_median_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
     """Median size by mass of an ideal continuous crystallizer.
 

@@ -50,7 +50,7 @@ class NucleationLaw(eqx.Module):
 
 
 @formula(
-    source="mullin2001, eq. 5.5",
+    source="mullin2001, ch. 5",
     equation=r"r_c = \frac{2\gamma v_m}{\nu k T \ln\beta}",
     typical={"supersaturation_ratio": (1.5, 10.0)},
 )
@@ -76,7 +76,7 @@ def critical_radius(
     return jnp.where(positive, 2.0 * interfacial_energy * molecular_volume(crystal_density, molar_mass) / work, jnp.nan)
 
 
-@formula(source="volmer1939; mullin2001, eq. 5.19", equation=r"\phi = \tfrac14 (2+\cos\theta)(1-\cos\theta)^2")
+@formula(source="volmer1939; mullin2001, ch. 5", equation=r"\phi = \tfrac14 (2+\cos\theta)(1-\cos\theta)^2")
 def heterogeneous_factor(contact_angle: Angle) -> Fraction:
     """Share of the homogeneous nucleation barrier that is left on a foreign surface, for a spherical cap.
 
@@ -95,7 +95,7 @@ def _barrier(log_ratio: Any, gamma: Any, v: Any, T: Any, nu: Any, phi: Any) -> A
 
 
 @formula(
-    source="mullin2001, eq. 5.8 to 5.9",
+    source="mullin2001, ch. 5",
     equation=r"\frac{\Delta G^*}{kT} = \frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}",
     typical={"supersaturation_ratio": (1.5, 10.0)},
 )
@@ -120,7 +120,7 @@ def nucleation_barrier(
 
 
 @formula(
-    source="mullin2001, eq. 5.9",
+    source="mullin2001, ch. 5",
     equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
     family="nucleation_formula",
     typical={"supersaturation_ratio": (2.0, 10.0), "interfacial_energy": (2e-3, 1e-2), "molar_mass": (0.05, 0.15)},
@@ -171,7 +171,7 @@ def interfacial_energy_mersmann(
 
 
 @formula(
-    source="garside1985; mullin2001, eq. 5.48",
+    source="garside1985; mullin2001, ch. 5",
     equation=r"B_0 = k_b\,e^{-E_b/RT}\,\sigma^b\,M_T^j\,(N/N_0)^p",
     family="nucleation_formula",
 )
@@ -204,7 +204,7 @@ def nucleation_rate_secondary(
     )
 
 
-@law("nucleation_rate", name="secondary_nucleation", source="garside1985; mullin2001, eq. 5.48", title="Nucleation by a power law",
+@law("nucleation_rate", name="secondary_nucleation", source="garside1985; mullin2001, ch. 5", title="Nucleation by a power law",
      equation=r"B_0 = k_b\,e^{-E_b/RT}\,S^b\,M_T^j\,(N/N_0)^p")  # fmt: skip
 class PowerLawNucleation(NucleationLaw):
     """Nucleation rate by a power law in driving force, magma density and agitation; primary with magma order 0.
@@ -229,7 +229,7 @@ class PowerLawNucleation(NucleationLaw):
         return rate * safe_power(magma_density, self.magma_order)
 
 
-@law("nucleation_rate", name="classical_nucleation", source="mullin2001, eq. 5.9", title="Classical primary nucleation",
+@law("nucleation_rate", name="classical_nucleation", source="mullin2001, ch. 5", title="Classical primary nucleation",
      equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)")  # fmt: skip
 class ClassicalNucleation(NucleationLaw):
     """Primary nucleation of classical theory, homogeneous or heterogeneous."""
@@ -251,7 +251,7 @@ class ClassicalNucleation(NucleationLaw):
         return jnp.where(some, self.nucleation_preexponential * jnp.exp(-jnp.where(some, barrier, 0.0)), 0.0)
 
 
-@law("nucleation_rate", name="primary_and_secondary_nucleation", source="mullin2001, sec. 5.3", title="Sum of two nucleation laws",
+@law("nucleation_rate", name="primary_and_secondary_nucleation", source="mullin2001, ch. 5", title="Sum of two nucleation laws",
      equation=r"B_0 = B_1 + B_2")  # fmt: skip
 class SummedNucleation(NucleationLaw):
     """Two nucleation mechanisms at work together, such as primary and secondary."""
@@ -266,7 +266,7 @@ class SummedNucleation(NucleationLaw):
         return self.first_nucleation(*given) + self.second_nucleation(*given)
 
 
-@law("nucleation_rate", name="no_nucleation", source="mullin2001, sec. 5.3", title="No nucleation", equation="B_0 = 0")
+@law("nucleation_rate", name="no_nucleation", source="mullin2001, ch. 5", title="No nucleation", equation="B_0 = 0")
 class NoNucleation(NucleationLaw):
     """Seeds grow and nothing is born: the ideal of a seeded batch."""
 

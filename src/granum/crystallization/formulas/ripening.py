@@ -12,7 +12,7 @@ _TYPICAL = {"crystal_size": (1e-8, 1e-5)}
 
 
 @formula(
-    source="mullin2001, eq. 3.60",
+    source="mullin2001, ch. 3",
     equation=r"\frac{C^*(L)}{C^*_\infty} = \exp\left(\frac{4\gamma M}{\nu R T \rho_c L}\right)",
     output="supersaturation_ratio",
     typical=_TYPICAL,

@@ -9,7 +9,7 @@ from granum.core.kinds import Density, GrowthRate, Length, Mass, PositiveNumber,
 
 
 @formula(
-    source="mullin2001, sec. 9.1.3",
+    source="mullin2001, ch. 9",
     equation=r"\frac{L_p}{L_s} = \left(\frac{M_p}{M_s}\right)^{1/3}",
     output="product_size",
     typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
@@ -24,7 +24,7 @@ def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mas
 
 
 @formula(
-    source="mullin2001, sec. 9.1.3",
+    source="mullin2001, ch. 9",
     equation=r"M_s = M_p \left(\frac{L_s}{L_p}\right)^3",
     output="seed_mass",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "product_mass": (10.0, 100.0)},
@@ -64,7 +64,7 @@ class SeedChart(NamedTuple):
 
 
 @formula(
-    source="kubota2001; mullin2001, sec. 9.1.3",
+    source="kubota2001; mullin2001, ch. 9",
     equation=r"\frac{L_p}{L_s} = \left(\frac{1 + C_s}{C_s}\right)^{1/3}",
     title="Seeding: ideal growth line",
     typical={"seed_loading": (0.005, 0.3)},
@@ -86,7 +86,7 @@ def seed_chart(
 
 
 @formula(
-    source="mullin2001, sec. 9.1.3; jones1974",
+    source="mullin2001, ch. 9; jones1974",
     equation=r"G_{max} = \frac{L_p - L_s}{t_f}",
     output="duration",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "growth_rate": (1e-8, 2e-7)},

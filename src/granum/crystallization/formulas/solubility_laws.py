@@ -25,7 +25,7 @@ class SolubilityLaw(eqx.Module):
         """kg of anhydrous solute per kg of solvent in equilibrium with the crystal."""
 
 
-@law("solubility_law", name="library_solubility", source="mullin2001, app.", title="Solubility from the materials library",
+@law("solubility_law", name="library_solubility", source="mullin2001, appendix", title="Solubility from the materials library",
      equation=r"C^* = C^*_{library}(T)")  # fmt: skip
 class LibrarySolubility(SolubilityLaw):
     """Solubility of a system of the materials library, over its stable crystal or over a named one."""
@@ -37,7 +37,7 @@ class LibrarySolubility(SolubilityLaw):
         return material_solute(self.solute).solubility(temperature, self.crystal or None)
 
 
-@law("solubility_law", name="polynomial_solubility", source="mullin2001, sec. 3.4", title="Solubility by a polynomial in °C",
+@law("solubility_law", name="polynomial_solubility", source="mullin2001, ch. 3", title="Solubility by a polynomial in °C",
      equation=r"C^* = \sum_k a_k (T - 273.15)^k")  # fmt: skip
 class PolynomialSolubility(SolubilityLaw):
     """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of solvent."""
@@ -72,7 +72,7 @@ class ApelblatSolubility(SolubilityLaw):
         return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)
 
 
-@law("solubility_law", name="vant_hoff_solubility", source="mullin2001, sec. 3.6", title="Solubility by the van 't Hoff equation",
+@law("solubility_law", name="vant_hoff_solubility", source="mullin2001, ch. 3", title="Solubility by the van 't Hoff equation",
      equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R}")  # fmt: skip
 class VantHoffSolubility(SolubilityLaw):
     """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of dissolution."""

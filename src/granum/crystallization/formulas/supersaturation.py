@@ -9,7 +9,7 @@ from granum.core.kinds import MassFraction, MassRatio, Number, OpenFraction, Pos
 from granum.numerics.smooth import safe_log
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"\beta = C / C^*")
+@formula(source="mullin2001, ch. 3", equation=r"\beta = C / C^*")
 def supersaturation_ratio(solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber) -> Ratio:
     """Supersaturation ratio on the basis of anhydrous solute per mass of solvent.
 
@@ -22,7 +22,7 @@ def supersaturation_ratio(solute_per_solvent: MassRatio, solubility_per_solvent:
     return solute_per_solvent / solubility_per_solvent
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"\sigma = (C - C^*) / C^*")
+@formula(source="mullin2001, ch. 3", equation=r"\sigma = (C - C^*) / C^*")
 def relative_supersaturation(solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber) -> Number:
     """Relative supersaturation on the basis of anhydrous solute per mass of solvent.
 
@@ -34,7 +34,7 @@ def relative_supersaturation(solute_per_solvent: MassRatio, solubility_per_solve
     return solute_per_solvent / solubility_per_solvent - 1.0
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"\Delta C = C - C^*")
+@formula(source="mullin2001, ch. 3", equation=r"\Delta C = C - C^*")
 def absolute_supersaturation(solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio) -> Number:
     """Absolute supersaturation as anhydrous solute per mass of solvent.
 
@@ -44,7 +44,7 @@ def absolute_supersaturation(solute_per_solvent: MassRatio, solubility_per_solve
     return solute_per_solvent - solubility_per_solvent
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"\beta_x = \frac{C/(1+C)}{C^*/(1+C^*)}")
+@formula(source="mullin2001, ch. 3", equation=r"\beta_x = \frac{C/(1+C)}{C^*/(1+C^*)}")
 def supersaturation_ratio_solution_basis(solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber) -> Ratio:
     """Supersaturation ratio on the basis of mass fractions of the solution.
 
@@ -55,7 +55,7 @@ def supersaturation_ratio_solution_basis(solute_per_solvent: MassRatio, solubili
     return c * (1.0 + s) / (s * (1.0 + c))
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"\Delta T = \frac{C - C^*}{dC^*/dT}")
+@formula(source="mullin2001, ch. 3", equation=r"\Delta T = \frac{C - C^*}{dC^*/dT}")
 def undercooling(
     solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio, solubility_slope: PositiveNumber
 ) -> TemperatureDifference:
@@ -67,7 +67,7 @@ def undercooling(
     return (solute_per_solvent - solubility_per_solvent) / solubility_slope
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"x = C/(1+C)", output="solute_mass_fraction")
+@formula(source="mullin2001, ch. 3", equation=r"x = C/(1+C)", output="solute_mass_fraction")
 def solute_mass_fraction(solute_per_solvent: MassRatio) -> MassFraction:
     """Mass fraction of anhydrous solute in the solution from the mass ratio to the solvent.
 
@@ -77,7 +77,7 @@ def solute_mass_fraction(solute_per_solvent: MassRatio) -> MassFraction:
     return solute_per_solvent / (1.0 + solute_per_solvent)
 
 
-@formula(source="mullin2001, sec. 3.12.1", equation=r"C = x/(1-x)", output="solute_per_solvent")
+@formula(source="mullin2001, ch. 3", equation=r"C = x/(1-x)", output="solute_per_solvent")
 def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio:
     """Mass ratio of anhydrous solute to solvent from the mass fraction in the solution.
 
@@ -88,7 +88,7 @@ def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio
 
 
 @formula(
-    source="mullin2001, sec. 3.12.1",
+    source="mullin2001, ch. 3",
     equation=r"C_h = \frac{C}{x_c - C\,(1 - x_c)}",
     output="solute_per_solvent",
     typical={"solute_per_solvent": (0.1, 0.5)},
@@ -107,7 +107,7 @@ def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of
     return jnp.where(free > 0, c / jnp.where(free > 0, free, 1.0), jnp.nan)
 
 
-@formula(source="mullin2001, eq. 3.67 to 3.69", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation")
+@formula(source="mullin2001, ch. 3", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation")
 def driving_force_thermodynamic(supersaturation_ratio: PositiveNumber, ions_per_formula: PositiveNumber = 1.0) -> Number:
     """Thermodynamic driving force of crystallization over RT, for ideal activity coefficients.
 

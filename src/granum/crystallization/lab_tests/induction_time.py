@@ -15,7 +15,7 @@ from granum.core.kinds import Density, Length, MolarMass, PositiveNumber, Series
 from granum.estimation import Fit, LabTest
 
 
-@lab_test("induction_time", source="mullin2001, sec. 5.5; volmer1939", title="Induction time by supersaturation",
+@lab_test("induction_time", source="mullin2001, ch. 5; volmer1939", title="Induction time by supersaturation",
           equation=r"\ln t_{ind} = \ln t_0 + \frac{16\pi\gamma^3 v_m^2}{3 (kT)^3 (\nu\ln\beta)^2}")  # fmt: skip
 class InductionTime(LabTest):
     """Interfacial energy from the time to the first crystals at several supersaturations, one temperature.

@@ -70,7 +70,7 @@ class SolubilityApelblat(_Solubility):
         return ApelblatSolubility(**self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass)
 
 
-@lab_test("solubility_vant_hoff", source="mullin2001, sec. 3.6", title="Solubility fitted with the van 't Hoff equation",
+@lab_test("solubility_vant_hoff", source="mullin2001, ch. 3", title="Solubility fitted with the van 't Hoff equation",
           equation=r"\ln x = -\frac{\Delta H}{RT} + \frac{\Delta S}{R}")  # fmt: skip
 class SolubilityVantHoff(_Solubility):
     """Enthalpy and entropy of dissolution from the solubility at several temperatures."""
@@ -97,7 +97,7 @@ class SolubilityVantHoff(_Solubility):
 
 @lab_test(
     "solubility_polynomial",
-    source="mullin2001, sec. 3.4",
+    source="mullin2001, ch. 3",
     title="Solubility fitted with a polynomial",
     equation=r"C^* = a_0 + a_1\theta + a_2\theta^2",
 )

@@ -16,6 +16,7 @@ from jax import lax
 
 from granum.core.errors import InputError
 from granum.core.i18n import _
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model
 from granum.crystallization.population.operations import Operation
 from granum.crystallization.population.packets import mean_power
@@ -112,7 +113,7 @@ def growth_rate_of_change(numbers: Any, rate: Any, births: Any, edges: Any) -> A
     return -jnp.diff(flux)
 
 
-@eqx.filter_jit
+@compiled
 def march_grid(model: Model, operation: Operation, edges: Any, numbers: Any, solute: Any, solvent: Any, times: Any,
                agglomeration: Any = None, breakage: Any = None) -> GridCourse:  # fmt: skip
     """Follow a batch on a grid of sizes (SSP Runge–Kutta, second order); see ``march`` for the arguments.

@@ -14,6 +14,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.operations import Contents, Operation
 from granum.crystallization.population.packets import Packets, Population, Seeds, ShiftedMoments, SizeMap
 from granum.crystallization.vessels.crystals import Crystal, ratio_left
@@ -120,7 +121,7 @@ class _State(NamedTuple):
     path: Any
 
 
-@eqx.filter_jit
+@compiled
 def march(model: Model, operation: Operation, seeds: Seeds, solute: Any, solvent: Any, times: Any) -> Course:
     """Follow a batch through given times (the first is the start).
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.population.packets import HIGHEST, Seeds
@@ -34,7 +34,7 @@ def march_moments(model: Model, operation: Any, seeds: Seeds, solute: Any, solve
     return _solve(model, operation, seeds, solute, solvent, jnp.asarray(times, dtype=float), tolerance)
 
 
-@eqx.filter_jit
+@compiled
 def _solve(model: Model, operation: Programmed, seeds: Seeds, solute: Any, solvent: Any, times: Any, tolerance: float) -> Any:
     start = seeds.moments()
     scale = jnp.where(start > 0, start, 1.0)

@@ -79,7 +79,7 @@ def halved(run: Any, steps: int) -> tuple[Course, Any]:
 
 
 @procedure(
-    source="miller1994; chung1999; mullin2001, sec. 9.1",
+    source="miller1994; chung1999; mullin2001, ch. 9",
     title="Seeded or unseeded batch",
     typical={"duration": (3600.0, 7200.0)},
 )

@@ -6,6 +6,8 @@ from typing import Any
 
 import equinox as eqx
 
+from granum.numerics.smooth import safe_divide
+
 
 class Crystal(eqx.Module):
     """One crystalline substance.
@@ -45,4 +47,5 @@ def crystals_at(solute: Any, solvent: Any, solute_per_solvent: Any, solute_fract
 
 def ratio_left(solute: Any, solvent: Any, crystals: Any, solute_fraction: Any, bound: Any = None) -> Any:
     """Solute per solvent of the liquor once a mass of crystals has formed: the inverse of ``crystals_at``."""
-    return (solute - solute_fraction * crystals) / (solvent - (1.0 - solute_fraction if bound is None else bound) * crystals)
+    bound = 1.0 - solute_fraction if bound is None else bound
+    return safe_divide(solute - solute_fraction * crystals, solvent - bound * crystals)

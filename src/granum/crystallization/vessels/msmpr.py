@@ -15,8 +15,10 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.vessels.crystals import Crystal, crystals_at, ratio_left
 from granum.numerics.roots import find_root
+from granum.numerics.smooth import safe_divide
 
 SCAN = 96  # trial compositions between saturation and feed among which the first solution is sought
 
@@ -37,7 +39,7 @@ class SteadyState(NamedTuple):
     crystals: product by size class, kg/s; the last class takes the tail beyond the grid.
     solute, solvent: mother liquor leaving, kg/s. evaporation: vapor leaving, kg/s.
     growth_rate: m/s. nucleation_rate: 1/(m³ s). residence_time: s. suspension_flow: m³/s.
-    magma_density: crystals per suspension volume, kg/m³. length: growth in one residence time, m.
+    magma_density: crystals per suspension volume in the vessel, kg/m³. length: growth in one residence time, m.
     washed_out: no steady crystals: the solution leaves supersaturated as it came.
     converged: whether the mass balance was closed.
     """
@@ -70,7 +72,45 @@ class AdditiveVolumes(eqx.Module):
         return solute / self.solute_density + solvent / self.solvent_density + self.others
 
 
-@eqx.filter_jit
+class Removal(eqx.Module):
+    """Sizes that leave faster than the mother liquor (R–Z model), cuts being sharp.
+
+    Parameters
+    ----------
+    fines_ratio, fines_cut: crystals below the cut are drawn R times as fast; what is drawn beyond the product is dissolved and comes back.
+    product_ratio, product_cut: crystals above the cut leave as product z times as fast.
+    """
+
+    fines_ratio: Any = 1.0
+    fines_cut: Any = 0.0
+    product_ratio: Any = 1.0
+    product_cut: Any = 1.0
+
+    def path(self, size: Any) -> Any:
+        """Growth weighted with the removal, m: what the logarithm of the survivors falls with."""
+        between = jnp.clip(size - self.fines_cut, 0.0, self.product_cut - self.fines_cut)
+        return (
+            self.fines_ratio * jnp.minimum(size, self.fines_cut) + between + self.product_ratio * jnp.maximum(size - self.product_cut, 0.0)
+        )
+
+    def beyond(self, level: Any, start: Any, length: Any, held: bool = False) -> Any:
+        """Cube of the crystals of one start size that leave as product above a level; what the vessel holds of them with ``held``."""
+        total = 0.0
+        parts = ((0.0, self.fines_cut, self.fines_ratio, 1.0), (self.fines_cut, self.product_cut, 1.0, 1.0),
+                 (self.product_cut, None, self.product_ratio, self.product_ratio))  # fmt: skip
+        for low, high, rate, share in parts:
+            begin = jnp.maximum(jnp.maximum(level, start), low)
+            part = self._term(begin, start, length, rate)
+            if high is not None:
+                part = part - self._term(jnp.maximum(begin, high), start, length, rate)
+            total = total + (1.0 if held else share) / rate * part
+        return total
+
+    def _term(self, size: Any, start: Any, length: Any, rate: Any) -> Any:
+        return jnp.exp(-(self.path(size) - self.path(start)) / length) * _third(size, length / rate)
+
+
+@compiled
 def steady_msmpr(
     feed: Feed,
     temperature: Any,
@@ -84,6 +124,7 @@ def steady_msmpr(
     evaporation: Any = 0.0,
     evaporation_per_crystal: Any = 0.0,
     nucleus_size: Any = 0.0,
+    removal: Removal | None = None,
 ) -> SteadyState:
     """Steady state of one vessel.
 
@@ -96,6 +137,7 @@ def steady_msmpr(
     edges: size class boundaries of the crystals, m.
     evaporation: solvent taken off as vapor, kg/s, and what is added to it per kg of crystals that form: the heat of
         crystallization over that of vaporization in an adiabatic vessel, which keeps every balance linear.
+    removal: fines dissolved and product classified; None where every size leaves with the liquor.
 
     Of several steady states the one with most crystals is taken; the one without any is taken when it is the only one.
     Crystals that enter with an undersaturated liquor dissolve until it is saturated or they are gone.
@@ -108,22 +150,32 @@ def steady_msmpr(
     bound = 1.0 - x + evaporation_per_crystal
     all_solute, all_solvent = feed.solute + x * total, feed.solvent - evaporation + bound * total
     # Composition if nothing new crystallized; between it and saturation lies every steady state.
-    highest = feed.solute / (feed.solvent - evaporation)
+    liquid = feed.solvent - evaporation
+    highest = safe_divide(feed.solute, jnp.maximum(liquid, 0.0))  # nothing crystallizes from an empty stream
     start_numbers, start_sizes = _packets(feed.crystals, edges, crystal)
 
     def state(c: Any) -> tuple[Any, ...]:
         product = crystals_at(all_solute, all_solvent, c, x, bound)
         left = all_solvent - bound * product
         flow = liquor_volume(left * c, left) + product / crystal.density
+        flow = jnp.where(flow > 0, flow, 1.0)  # an empty stream
         G = growth(c, saturated, temperature)
-        return product, flow, G, nucleation(c, saturated, temperature, product / flow)
+        held = 1.0
+        if removal is not None:  # the vessel holds another concentration than the product
+            length = jnp.maximum(G * volume / flow, 1e-15)
+            held = removal.beyond(0.0, nucleus_size, length, held=True) / removal.beyond(0.0, nucleus_size, length)
+        return product, flow, G, nucleation(c, saturated, temperature, held * product / flow), held * product / flow
+
+    def cubes(start: Any, length: Any) -> Any:
+        """Mean cube at which crystals of a start size leave."""
+        return _third(start, length) if removal is None else removal.beyond(0.0, start, jnp.maximum(length, 1e-15))
 
     def grown(c: Any) -> Any:
         """Crystal mass that the kinetics make, kg/s."""
-        _product, flow, G, B = state(c)
+        _product, flow, G, B, _magma = state(c)
         length = G * volume / flow
         return crystal.mass_per_cube * (
-            B * volume * _third(nucleus_size, length) + _dot(start_numbers, _third(start_sizes, length[..., None]))
+            B * volume * cubes(nucleus_size, length) + _dot(start_numbers, cubes(start_sizes, length[..., None]))
         )
 
     def excess(c: Any) -> Any:
@@ -141,18 +193,19 @@ def steady_msmpr(
     dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x, bound), 0.0, total)
     rest = jnp.where(supersaturated, total, dissolved_down)
     c = jnp.where(some, root.value, ratio_left(all_solute, all_solvent, rest, x, bound))
-    product, flow, G, B = state(c)
+    product, flow, G, B, magma = state(c)
     product = jnp.where(some, product, rest)
     length = G * volume / flow
     born = jnp.where(some, B * volume, 0.0)
-    classes = _classes(jnp.append(start_numbers, born), jnp.append(start_sizes, nucleus_size), length, edges, crystal)
+    classes = _classes(jnp.append(start_numbers, born), jnp.append(start_sizes, nucleus_size), length, edges, crystal, removal)
     # The closure fixes the total; the classes share it, so that mass is conserved to rounding.
     made = jnp.sum(classes)
     classes = classes * jnp.where(made > 0, product / jnp.where(made > 0, made, 1.0), 0.0)
     left = all_solvent - bound * product
     return SteadyState(
         c, saturated, c / saturated - 1.0, classes, left * c, left,
-        evaporation + evaporation_per_crystal * (product - total), G, B, volume / flow, flow, product / flow, length,
+        evaporation + evaporation_per_crystal * (product - total), G, B, volume / flow, flow,
+        jnp.where(some, magma, product / flow), length,
         ~jnp.any(rises) & supersaturated & (total == 0), jnp.where(some, root.converged, True),
     )  # fmt: skip
 
@@ -179,12 +232,14 @@ def _packets(crystals: Any, edges: Any, crystal: Crystal) -> tuple[Any, Any]:
     return crystals / (crystal.mass_per_cube * size**3), size
 
 
-def _classes(numbers: Any, sizes: Any, length: Any, edges: Any, crystal: Crystal) -> Any:
-    """Crystal mass in each class of a sum of shifted exponentials, kg/s; the last class is open upwards."""
+def _classes(numbers: Any, sizes: Any, length: Any, edges: Any, crystal: Crystal, removal: Removal | None) -> Any:
+    """Crystal mass of the product in each class, kg/s; the last class is open upwards, the first takes what is below the grid."""
     safe = jnp.maximum(length, 1e-15)
-    above = jnp.maximum(edges[:-1, None] - sizes[None, :], 0.0)  # class boundary seen from each packet
-    level = sizes[None, :] + above
-    beyond = jnp.exp(-above / safe) * (level**3 + safe * (3.0 * level**2 + safe * (6.0 * level + 6.0 * safe)))
+    levels = jnp.concatenate([jnp.zeros(1), edges[1:-1]])[:, None]
+    if removal is not None:
+        beyond = removal.beyond(levels, sizes[None, :], safe)
+    else:
+        above = jnp.maximum(levels - sizes[None, :], 0.0)
+        beyond = jnp.exp(-above / safe) * _third(sizes[None, :] + above, safe)
     tail = jnp.sum(numbers[None, :] * beyond, axis=1) * crystal.mass_per_cube
-    tail = tail.at[0].set(jnp.sum(numbers * _third(sizes, safe)) * crystal.mass_per_cube)  # what is below the grid joins its first class
     return tail - jnp.append(tail[1:], 0.0)
