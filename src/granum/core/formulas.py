@@ -162,8 +162,13 @@ class Formula:
             if possible is not None:
                 out = jax.tree.map(lambda x: jnp.where(possible, x, jnp.nan), out)
             finite = jnp.asarray(True) if possible is None else possible
+            # where the body itself has said that a state is impossible, its outputs need not be reported one by one
+            outside = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN and found.card == self.key]
             for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
-                flags.record(flags.NOT_FINITE, ~jnp.isfinite(jnp.asarray(value, dtype=float)) & finite, jnp.zeros(()), p.name, self.key)
+                lost = ~jnp.isfinite(jnp.asarray(value, dtype=float)) & finite
+                for mask in outside:
+                    lost = lost & ~mask if mask.shape in ((), lost.shape) else lost
+                flags.record(flags.NOT_FINITE, lost, jnp.zeros(()), p.name, self.key)
         return out, list(records)
 
     def _body(self, values: list[Any]) -> Any:
