@@ -208,5 +208,5 @@ def choose(
         for how, b, because in operations
     ]
     rows.sort(key=lambda row: -row[1])
-    names, values, reasons = zip(*rows, strict=True)
-    return Processes(names, np.asarray(values), reasons)
+    columns: list[Any] = list(zip(*rows, strict=True))
+    return Processes(columns[0], np.asarray(columns[1], dtype=float), columns[2])
