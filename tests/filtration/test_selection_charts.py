@@ -52,3 +52,10 @@ def test_charts():
     profile = cake_profile_chart("4 bar", 1e10, 0.7, 0.5, 0.06, "0.1 bar")
     assert profile.data[0].y[-1] == pytest.approx(4.0)
     assert washing_chart(10).data[1].y[0] == 1.0
+
+
+def test_air_filter_classes_of_en_1822():
+    from granum.filtration.selection import air_filter_class
+
+    assert [air_filter_class(x) for x in (0.9995, 0.99995, 0.96, 0.999995)] == ["H13", "H14", "E11", "U15"]
+    assert air_filter_class(0.6).startswith("below")

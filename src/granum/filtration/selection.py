@@ -6,7 +6,7 @@ import csv
 from functools import cache
 from importlib.resources import files
 from math import exp, log
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -104,8 +104,22 @@ def separator_choice(
             missing += DECADE_OUT
         rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], str(machine["name"]), why))
     rows.sort(key=lambda row: (-row[0], row[1]))
-    return Separators(
-        tuple(_(name) for _score, _left, name, _why in rows),
-        np.array([score for score, *_rest in rows]),
-        tuple("; ".join(why) or _("within its common range") for *_rest, why in rows),
-    )
+    names: Any = tuple(_(name) for _score, _left, name, _why in rows)
+    whys: Any = tuple("; ".join(why) or _("within its common range") for *_rest, why in rows)
+    return Separators(names, np.array([score for score, *_rest in rows]), whys)
+
+
+# EN 1822: least efficiency at the most penetrating particle size
+CLASSES = (("U17", 0.99999995), ("U16", 0.9999995), ("U15", 0.999995), ("H14", 0.99995), ("H13", 0.9995), ("E12", 0.995), ("E11", 0.95),
+           ("E10", 0.85))  # fmt: skip
+
+
+@procedure(source="en1822", title="Class of a high-efficiency air filter")
+def air_filter_class(capture_efficiency: Fraction) -> str:
+    """Class of an air filter by EN 1822 from its efficiency at the most penetrating particle size; coarse and fine filters have none.
+
+    >>> air_filter_class(capture_efficiency="99.97 %")
+    'H13'
+    """
+    found = next((name for name, least in CLASSES if capture_efficiency >= least), None)
+    return found or _("below E10: a coarse or fine filter (ISO 16890)")
