@@ -273,7 +273,7 @@ def test_an_overloaded_server_says_so_and_slow_work_is_given_up() -> None:
         release = threading.Event()
         workers = Workers(count=1, waiting=2, longest=30.0)
         jobs = [asyncio.create_task(workers.run(release.wait)) for _ in range(3)]
-        done, _ = await asyncio.wait(jobs, return_when=asyncio.FIRST_COMPLETED)
+        _done, _rest = await asyncio.wait(jobs, return_when=asyncio.FIRST_COMPLETED)
         release.set()
         return await asyncio.gather(*jobs, return_exceptions=True)
 
