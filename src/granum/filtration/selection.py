@@ -115,11 +115,11 @@ CLASSES = (("U17", 0.99999995), ("U16", 0.9999995), ("U15", 0.999995), ("H14", 0
 
 
 @procedure(source="en1822", title="Class of a high-efficiency air filter")
-def air_filter_class(capture_efficiency: Fraction) -> str:
+def air_filter_class(filter_efficiency: Fraction) -> str:
     """Class of an air filter by EN 1822 from its efficiency at the most penetrating particle size; coarse and fine filters have none.
 
-    >>> air_filter_class(capture_efficiency="99.97 %")
+    >>> air_filter_class(filter_efficiency="99.97 %")
     'H13'
     """
-    found = next((name for name, least in CLASSES if capture_efficiency >= least), None)
+    found = next((name for name, least in CLASSES if filter_efficiency >= least), None)
     return found or _("below E10: a coarse or fine filter (ISO 16890)")
