@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -94,8 +94,6 @@ class UnitReport:
     model: Any
     values: Any
     checks: tuple[Check, ...]
-    closure: Any
-    steps: tuple[Result, ...] = field(default=(), repr=False)
 
     def figures(self) -> Iterator[tuple[Parameter, Any]]:
         """Each figure with its declaration."""
@@ -148,25 +146,19 @@ class Run:
     @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures and checks."""
-        return {name: self._report(name, note=False) for name in self.sheet.order}
-
-    def _report(self, name: str, note: bool) -> UnitReport:
-        unit = self.sheet.units[name]
-        inlets = self.sheet.inlets_of(name, self.streams)
-        steps: list[Result] = []
-        if note:
-            with record_steps() as steps:
-                outlets = unit(**inlets)
-                values = unit.results(inlets, outlets)
-        else:
-            outlets = outlets_of(self.sheet, self.solution, name)
-            values = _figures(unit, inlets, outlets)
-        return UnitReport(name, unit, values, unit.checks(inlets, outlets), unit_closures(self.sheet, self.solution)[name], tuple(steps))
+        found = _sheets(self.sheet, self.solution)
+        return {name: UnitReport(name, self.sheet.units[name], *found[name]) for name in self.sheet.order}
 
     @cached_property
     def notes(self) -> dict[str, tuple[Result, ...]]:
-        """The formulas each unit evaluated, with their numbers: the calculation note."""
-        return {name: self._report(name, note=True).steps for name in self.sheet.order}
+        """The formulas each unit evaluates, with their numbers: the calculation note."""
+        notes: dict[str, tuple[Result, ...]] = {}
+        for name in self.sheet.order:
+            unit, inlets = self.sheet.units[name], self.sheet.inlets_of(name, self.streams)
+            with record_steps() as steps:
+                unit.results(inlets, unit(**inlets))
+            notes[name] = tuple(steps)
+        return notes
 
     @cached_property
     def audit(self) -> dict[str, Any]:
@@ -234,8 +226,13 @@ class Run:
 
 
 @eqx.filter_jit
-def _figures(unit: Any, inlets: dict[str, Stream], outlets: Any) -> Any:
-    return unit.results(inlets, outlets)
+def _sheets(sheet: Flowsheet, solution: Solution) -> dict[str, tuple[Any, tuple[Check, ...]]]:
+    """Figures and checks of every unit, compiled together because they share most of their work."""
+    sheets = {}
+    for name in sheet.order:
+        unit, inlets, outlets = sheet.units[name], sheet.inlets_of(name, solution.streams), outlets_of(sheet, solution, name)
+        sheets[name] = (unit.results(inlets, outlets), unit.checks(inlets, outlets))
+    return sheets
 
 
 def median_size(stream: Stream) -> float | None:

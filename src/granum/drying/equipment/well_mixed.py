@@ -75,7 +75,7 @@ class WellMixedDryer(Unit):
         def by_kinetics(T: Any, evaporated: Any) -> Any:
             bed = after(jnp.clip(evaporated, 0.0, water), T)
             y = pair.fraction(safe_divide(bed.gas[1], bed.gas[0]))
-            saturated = jnp.minimum(saturated_fraction(pair, T, bed.pressure), 1.0)
+            saturated = jnp.minimum(pair.saturated_fraction(T, bed.pressure, False), 1.0)
             Tw = self._surface_temperature(T, bed.pressure, jnp.minimum(y, saturated))
             latent = fluid("water").heat_of_vaporization.value(Tw)
             flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
@@ -90,7 +90,7 @@ class WellMixedDryer(Unit):
             dried = -jnp.expm1(-time / self.residence_time) * self.residence_time / time  # share evaporated, exponential residence times
             return water * jnp.sum(area * dried) / jnp.sum(area)
 
-        coldest = jnp.minimum(feed.temperature, gas.temperature) - 60.0
+        coldest = jnp.maximum(jnp.minimum(feed.temperature, gas.temperature) - 60.0, COLDEST_FILM + 5.0)
         root = find_root(lambda T: (by_energy(T) - by_kinetics(T, by_energy(T))) / jnp.maximum(water, 1e-300), coldest, gas.temperature)
         T = jnp.where(water > 0, root.value, wet.temperature)
         bed = after(jnp.clip(by_energy(T), 0.0, water), T)
@@ -104,7 +104,8 @@ class WellMixedDryer(Unit):
         """Wet bulb over liquid. The general ``wet_bulb`` also knows ice and vast arrays; here its balance alone compiles much faster."""
         pair = AirWater()
         top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
-        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, T, P, y, False, None), COLDEST_FILM, top).value
+        h = pair.molar_enthalpy(T, P, y)
+        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, None), COLDEST_FILM, top).value
 
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
