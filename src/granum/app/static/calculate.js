@@ -28,10 +28,10 @@ function Work({ page, card, given }) {
   const [copied, setCopied] = useState('');
   useEffect(() => replaceLink(page, card.card, values), [values]);
   const kind = card.sort === 'chart' ? 'chart' : 'calc';
-  const answer = useAnswer((signal) => ask(`/api/${kind}/${card.card}`, values, { signal }), [JSON.stringify(values)]);
+  const missing = card.parameters.filter((p) => p.required && !values[p.name]);
+  const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
   const set = (next) => { setPast([...past.slice(-50), values]); setValues(next); };
   const wrong = answer.error?.details?.name;
-  const unfinished = answer.error?.details?.missing;
   const copy = async () => {
     try { await navigator.clipboard.writeText(location.href); setCopied(t('Copied.')); } catch { setCopied(location.href); }
     setTimeout(() => setCopied(''), 4000);
@@ -42,8 +42,9 @@ function Work({ page, card, given }) {
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
       <button class="button" onClick=${copy}>${t('Copy link')}</button> <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
-      <div aria-live="polite">${answer.error && html`<p class=${`message ${unfinished ? 'dim' : 'out'}`}>${answer.error.message}</p>`}</div>
-      <div class=${answer.pending || answer.error ? 'stale' : ''}>
+      <div aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
+        ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
       ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} />`
         : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${kept} keep=${() => setKept([...kept, answer.data])} clear=${() => setKept([])} choose=${set} />`)}</div>
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;

@@ -23,7 +23,7 @@ function Step({ step }) {
   const x = step.expected;
   const calculated = useAnswer((signal) => (open ? ask(`/api/calc/${step.card}`, step.inputs, { signal }) : Promise.resolve(null)), [open], 0);
   const row = calculated.data?.shown.find((r) => r.name === x.output);
-  return html`<li data-step><h3>${step.ask}</h3>
+  return html`<li data-step><h2>${step.ask}</h2>
     <div class="row"><button class="button" aria-expanded=${String(told)} onClick=${() => setTold(!told)}>${told ? t('Hide the answer') : t('Show the answer')}</button>
       <button class="button" aria-expanded=${String(open)} onClick=${() => setOpen(!open)}>${open ? t('Hide the calculation') : t('Show the calculation')}</button>
       <a href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></div>

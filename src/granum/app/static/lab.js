@@ -39,7 +39,7 @@ function Test({ card, given }) {
       <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${answer.error?.details?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
-      <div class=${answer.pending || answer.error ? 'stale' : ''}>${answer.data && html`<${Fitted} data=${answer.data} />`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
 }
 

@@ -14,7 +14,7 @@ export const french = {
   'Case file': 'Fichier de cas', 'Open an example, or write a case file here.': 'Ouvrez un exemple, ou écrivez ici un fichier de cas.',
   'mass closes to {mass}, energy to {energy}': 'le bilan de matière boucle à {mass}, celui d’énergie à {energy}', 'Streams': 'Courants', 'stream': 'courant', 'solid': 'solide', 'liquid': 'liquide', 'gas': 'gaz', 'Equipment': 'Équipements',
   'temperature': 'température', 'pressure': 'pression', 'particle diameter': 'diamètre de particule', 'by mass': 'en masse', 'Particle sizes': 'Granulométrie',
-  'optional': 'facultatif', 'Cards found': 'Cartes trouvées', 'Copied.': 'Copié.', 'The same in Python': 'La même chose en Python', 'The same on the command line': 'La même chose en ligne de commande',
+  'optional': 'facultatif', 'Still to be given: {names}': 'Reste à donner : {names}', 'Cards found': 'Cartes trouvées', 'Copied.': 'Copié.', 'The same in Python': 'La même chose en Python', 'The same on the command line': 'La même chose en ligne de commande',
   'What other laws give': 'Ce que donnent les autres lois', 'No other law takes these inputs.': "Aucune autre loi n'accepte ces données.", 'outside its range': 'hors de son domaine', 'Calculate again': 'Recalculer', 'yes': 'oui', 'no': 'non',
   'Working… a new line takes a little while the first time.': 'Calcul en cours… une ligne nouvelle prend un peu de temps la première fois.', 'Start from an example': "Partir d'un exemple",
   'Worked examples': 'Exercices résolus', 'Questions': 'Questions', '{count} questions of the course': '{count} questions du cours', 'Show the answer': 'Montrer la réponse', 'Hide the answer': 'Cacher la réponse',
