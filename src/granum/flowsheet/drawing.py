@@ -70,7 +70,10 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
         return (x + BOX if end == "origin" else x), y + BOX * place
 
     parts = []
+    gaps: dict[int, int] = {}  # verticals drawn so far in each gap between columns, to keep them apart
     for k in line.links:
+        if streams and not k.target and float(streams[k.name].mass_flow) <= 0.0:
+            continue  # an outlet that carries nothing
         if not k.origin:
             x, y = port(k, "target")
             path, at = f"M{x - 58} {y} H{x - 3}", (x - 58, y - 5, "start")
@@ -86,7 +89,9 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
                 lane = bottom + LANE * (below.index(k.name) + 1)
                 path, at = f"M{x1} {y1} h22 V{lane} H{x2 - 28} V{y2} H{x2 - 3}", ((x1 + x2) / 2, lane - 4, "middle")
             else:
-                middle = (x1 + x2) / 2
+                gap = columns[k.source_unit]
+                gaps[gap] = gaps.get(gap, 0) + 1
+                middle = x1 + 66 + 9 * (gaps[gap] % 6)
                 path, at = f"M{x1} {y1} H{middle} V{y2} H{x2 - 3}", (x1 + 6, y1 - 5, "start")
         stream = streams.get(k.name) if streams else None
         color = PHASE_COLORS[main_phase(stream) if stream is not None else ""]
