@@ -64,6 +64,8 @@ def print_result(result: Result) -> None:
     console.print(Text(result.card.title, style="bold"), Text(f"  {result.card.key}", style="dim"))
     table = _table((_("quantity"), "left"), (_("symbol"), "left"), (_("value"), "right"))
     for p in result.card.parameters:
+        if result.inputs[p.name] is None:
+            continue  # not given
         table.add_row(p.label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
     for p in result.card.outputs:
         table.add_row(
