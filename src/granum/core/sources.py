@@ -16,11 +16,12 @@ duplicates: list[str] = []
 def bibliography() -> dict[str, dict[str, str]]:
     """All entries by key."""
     from bibtexparser.entrypoint import parse_string
+    from bibtexparser.middlewares import LatexDecodingMiddleware
 
     entries: dict[str, dict[str, str]] = {}
     for path in sorted((files("granum") / "references").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".bib"):
-            library = parse_string(path.read_text(encoding="utf-8"))
+            library = parse_string(path.read_text(encoding="utf-8"), append_middleware=[LatexDecodingMiddleware()])
             if library.failed_blocks:
                 raise ValueError(f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}")
             for entry in library.entries:
