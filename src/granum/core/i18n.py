@@ -2,7 +2,7 @@
 
 >>> with language("fr"):
 ...     _("Did you mean '{close}'?")
-"Vouliez-vous dire « {close} » ?"
+'Vouliez-vous dire « {close} » ?'
 """
 
 from __future__ import annotations

@@ -1,0 +1,80 @@
+"""Units at the edge. Conversion factors are the legal definitions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pint
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from granum.core import units
+from granum.core.errors import InputError, UnitError
+from granum.core.i18n import language
+from granum.core.kinds import KINDS
+from granum.particles import reynolds_number
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "expected"),
+    [
+        ("85 um", "Length", 85e-6), ("85um", "Length", 85e-6), ("85 µm", "Length", 85e-6), ("1e-3 m", "Length", 1e-3), ("1 inch", "Length", 0.0254),
+        ("0,8 bar", "Pressure", 8e4), ("1 atm", "Pressure", 101325.0), ("0 barg", "Pressure", 101325.0), ("1 psi", "Pressure", 6894.757293168),
+        ("20 degC", "Temperature", 293.15), ("20 °C", "Temperature", 293.15), ("68 degF", "Temperature", 293.15), ("300", "Temperature", 300.0),
+        ("10 degC", "TemperatureDifference", 10.0), ("1.2 cP", "DynamicViscosity", 1.2e-3), ("1 darcy", "Permeability", 9.869232667160130e-13),
+        ("12 %", "VolumeFraction", 0.12), ("20 t/hour", "MassFlow", 20000 / 3600), ("2630kg/m3", "Density", 2630.0), ("1 kcal/kg", "SpecificEnergy", 4184.0),
+        ("3000 rpm", "RotationSpeed", 314.159265358979), ("25 cm2/g", "SpecificSurfaceMass", 2.5), ("0.5 m²", "Area", 0.5),
+    ],
+)  # fmt: skip
+def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
+    assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("text", ["85 s", "85 parsecs/furlong", "85 umm", "1 m**9**9", "85 __import__('os')", "1 " + "m" * 60])
+def test_wrong_units_are_named(text: str) -> None:
+    with pytest.raises(UnitError, match=r"x|Unit"):
+        units.read_quantity(text, KINDS["Length"], "x")
+
+
+@pytest.mark.parametrize("text", ["", "abc", "--3 m", "1..2 m", "nan m"])
+def test_what_is_not_a_number_is_refused(text: str) -> None:
+    with pytest.raises(InputError):
+        units.read_quantity(text, KINDS["Length"], "x")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("2 4 8 um", [2, 4, 8]),
+        ("2, 4, 8 um", [2, 4, 8]),
+        ("[2; 4; 8] um", [2, 4, 8]),
+        ("2,4,8 um", [2, 4, 8]),
+        ("2,5 4,5 8 um", [2.5, 4.5, 8]),
+    ],
+)
+def test_lists(text: str, expected: list[float]) -> None:
+    np.testing.assert_allclose(units.read_series(text, KINDS["Length"]), np.array(expected) * 1e-6, rtol=1e-12)
+
+
+@given(st.sampled_from(sorted(KINDS)), st.floats(-1e9, 1e9))
+def test_round_trip_through_every_display_unit(name: str, value: float) -> None:
+    kind = KINDS[name]
+    for unit in kind.units:
+        assert units.to_si(units.from_si(value, unit, kind), unit, kind) == pytest.approx(value, rel=1e-12, abs=1e-9)
+
+
+def test_pint_quantities_of_any_registry_are_accepted() -> None:
+    q = pint.UnitRegistry().Quantity
+    mine = reynolds_number(
+        particle_diameter=q(1, "mm"), velocity=q(10, "cm/s"), fluid_density=q(1, "g/cm^3"), dynamic_viscosity=q(1, "centipoise")
+    )
+    assert mine == pytest.approx(100.0)
+
+
+def test_numbers_as_people_print_them() -> None:
+    assert units.format_number(1.07e8) == "1.07 × 10⁸"
+    assert units.format_number(-9.98e-17, 2) == "-1 × 10⁻¹⁶"
+    assert units.format_number(0.0049167) == "0.004917"
+    assert units.show(85e-6, KINDS["Length"]) == "85 µm"
+    with language("fr"):
+        assert units.format_number(1.07e8) == "1,07 × 10⁸"
