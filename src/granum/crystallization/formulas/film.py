@@ -26,6 +26,7 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.growth import GrowthLaw, arrhenius
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide, safe_power
+from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 
 
 @formula(source="mullin2001, ch. 6", equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}", family="growth_formula")
@@ -96,7 +97,7 @@ def sherwood_number_ranz_marshall(reynolds_number: Ratio, schmidt_number: Positi
     >>> sherwood_number_ranz_marshall(reynolds_number=0.0, schmidt_number=1000.0)
     2.0
     """
-    return 2.0 + 0.6 * safe_power(reynolds_number, 0.5) * schmidt_number ** (1.0 / 3.0)
+    return nusselt_number_ranz_marshall(reynolds_number, schmidt_number)
 
 
 @formula(

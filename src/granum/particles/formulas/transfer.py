@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula
 from granum.core.kinds import PositiveNumber, Ratio
 
 
@@ -22,5 +22,4 @@ def nusselt_number_ranz_marshall(reynolds: Ratio, prandtl_number: PositiveNumber
     2.0
     """
     Re, Pr = reynolds, prandtl_number
-    watch(reynolds=Re)
     return 2.0 + 0.6 * jnp.sqrt(jnp.maximum(Re, 1e-300)) * Pr ** (1.0 / 3.0) * (Re > 0)
