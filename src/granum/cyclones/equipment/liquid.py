@@ -1,0 +1,70 @@
+"""Hydrocyclones in streams: Castilho and Medronho's cut, split and sharpness on every size class."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Fraction, Length, PositiveNumber, PressureDrop, Within
+from granum.cyclones.formulas.hydrocyclones import HydrocycloneFigures, hydrocyclone_castilho_medronho, hydrocyclone_efficiency
+from granum.numerics.smooth import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+
+class Split(NamedTuple):
+    """Thick and clear stream."""
+
+    underflow: Stream
+    overflow: Stream
+
+
+class SplitFigures(NamedTuple):
+    """Figures of a hydrocyclone."""
+
+    cut_size: Length
+    pressure_drop: PressureDrop
+    underflow_share: Fraction
+    sharpness: PositiveNumber
+    removal_efficiency: Fraction
+
+
+@equipment("hydrocyclone", source="castilho2000; svarovsky2001", title="Hydrocyclone")
+class Hydrocyclone(Unit):
+    """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the liquid by the water split."""
+
+    diameter: Length
+    underflow_diameter: Length
+    parallel_number: Annotated[PositiveNumber, Within(1.0, 1000.0)] = 1.0
+
+    def figures(self, feed: Stream, density: Any) -> HydrocycloneFigures:
+        """Cut, pressure drop, split and sharpness for solids of a density."""
+        flow = jnp.maximum(feed.slurry_volume_flow, 1e-12) / self.parallel_number
+        return hydrocyclone_castilho_medronho(flow, self.diameter, self.underflow_diameter, jnp.minimum(feed.solids_volume_fraction, 0.999),
+                                              density, feed.liquid_density, feed.liquid_viscosity)  # fmt: skip
+
+    def __call__(self, feed: Stream) -> Split:
+        m = feed.mixture
+        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
+        found = self.figures(feed, density)
+        share = hydrocyclone_efficiency(jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share)
+        share = share.reshape(share.shape + (1,) * len(m.axes))
+        under = feed.part(solid=share, liquid=jnp.ravel(found.underflow_share)[0])
+        over = feed.replace(solid=feed.solid - under.solid, liquid=feed.liquid - under.liquid)
+        lower = jnp.maximum(feed.pressure - jnp.ravel(found.pressure_drop)[0], 1e3)
+        return Split(under.replace(pressure=lower), over.replace(pressure=lower))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Split) -> SplitFigures:
+        feed = inlets["feed"]
+        return SplitFigures(*self.figures(feed, feed.solid_density), safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Split) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        drop = self.figures(feed, feed.solid_density).pressure_drop
+        return (
+            Check("pressure drop", drop, 3e4, 4e5, "Pa", "svarovsky2001"),
+            Check("solids by volume in the feed", feed.solids_volume_fraction, 0.0, 0.1, "dimensionless", "castilho2000"),
+        )

@@ -1,0 +1,100 @@
+"""Shapes of gas cyclones as ratios to the body diameter: the standard designs and free ones."""
+
+from __future__ import annotations
+
+import csv
+from functools import cache
+from importlib.resources import files
+from typing import Any, Literal, NamedTuple
+
+import equinox as eqx
+
+from granum.core import law
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import Length, PositiveNumber
+
+STANDARDS = Literal[
+    "stairmand_high_efficiency",
+    "swift_high_efficiency",
+    "lapple",
+    "swift_general_purpose",
+    "peterson_whitby",
+    "stairmand_high_throughput",
+    "swift_high_throughput",
+]
+
+
+class Dimensions(NamedTuple):
+    """Lengths of a cyclone, in the order that the efficiency and pressure-drop laws take them."""
+
+    diameter: Length
+    inlet_height: Length
+    inlet_width: Length
+    outlet_diameter: Length
+    finder_length: Length
+    cylinder_height: Length
+    height: Length
+    dust_outlet_diameter: Length
+
+
+@cache
+def standard_ratios() -> dict[str, tuple[float, ...]]:
+    """Ratios of the standard designs by name."""
+    text = (files("granum") / "cyclones" / "data" / "geometries_leith1973.csv").read_text(encoding="utf-8")
+    return {row[0]: tuple(map(float, row[1:])) for row in list(csv.reader(text.splitlines()))[1:]}
+
+
+@law("cyclone_geometry", name="standard_cyclone", source="leith1973; cooper2011", title="Standard cyclone")
+class StandardCyclone(eqx.Module):
+    """A standard tangential-entry design: Stairmand, Swift, Lapple, Peterson and Whitby.
+
+    >>> float(StandardCyclone("lapple")(2.0).inlet_height)
+    1.0
+    """
+
+    standard: STANDARDS = "stairmand_high_efficiency"
+
+    def __call__(self, diameter: Length) -> Dimensions:
+        """Lengths for a body diameter."""
+        return Dimensions(diameter, *(ratio * diameter for ratio in standard_ratios()[self.standard]))
+
+
+@law("cyclone_geometry", name="free_cyclone", source="hoffmann2008", title="Cyclone of free proportions")
+class FreeCyclone(eqx.Module):
+    """Proportions of one's own, each length over the body diameter; what cannot be built is refused.
+
+    >>> float(FreeCyclone(0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375)(2.0).inlet_width)
+    0.4
+    """
+
+    inlet_height_ratio: PositiveNumber
+    inlet_width_ratio: PositiveNumber
+    outlet_diameter_ratio: PositiveNumber
+    finder_length_ratio: PositiveNumber
+    cylinder_height_ratio: PositiveNumber
+    height_ratio: PositiveNumber
+    dust_outlet_ratio: PositiveNumber
+
+    def __check_init__(self) -> None:
+        values = (self.inlet_width_ratio, self.outlet_diameter_ratio, self.finder_length_ratio, self.cylinder_height_ratio,
+                  self.height_ratio, self.dust_outlet_ratio)  # fmt: skip
+        if not all(isinstance(v, (int, float)) for v in values):
+            return
+        rules = (
+            (self.outlet_diameter_ratio < 1, _("the vortex finder must be narrower than the body")),
+            (self.dust_outlet_ratio <= 1, _("the dust outlet must not be wider than the body")),
+            (self.inlet_width_ratio <= (1 - self.outlet_diameter_ratio) / 2 + 1e-9, _("the inlet must fit between wall and vortex finder")),
+            (self.cylinder_height_ratio < self.height_ratio, _("the cylinder must be shorter than the cyclone")),
+            (self.finder_length_ratio < self.height_ratio, _("the vortex finder must end inside the cyclone")),
+            (self.inlet_height_ratio <= self.cylinder_height_ratio, _("the inlet must fit into the cylinder")),
+        )
+        broken = [text for kept, text in rules if not kept]
+        if broken:
+            raise InputError(_("This cyclone cannot be built: {reasons}.").format(reasons="; ".join(broken)))
+
+    def __call__(self, diameter: Length) -> Dimensions:
+        """Lengths for a body diameter."""
+        ratios: tuple[Any, ...] = (self.inlet_height_ratio, self.inlet_width_ratio, self.outlet_diameter_ratio, self.finder_length_ratio,
+                                   self.cylinder_height_ratio, self.height_ratio, self.dust_outlet_ratio)  # fmt: skip
+        return Dimensions(diameter, *(ratio * diameter for ratio in ratios))

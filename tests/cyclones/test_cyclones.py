@@ -1,0 +1,181 @@
+"""Cyclones against printed constants and examples, hand calculation, limits; equipment conserves mass."""
+
+from __future__ import annotations
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum.core import flags
+from granum.core.errors import InputError
+from granum.cyclones.charts import gas_cyclone_chart
+from granum.cyclones.equipment.gas import GasCyclone
+from granum.cyclones.equipment.liquid import Hydrocyclone
+from granum.cyclones.formulas import efficiency, hydrocyclones, pressure
+from granum.cyclones.geometry import FreeCyclone, StandardCyclone
+from granum.streams.audit import closure
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import empty
+
+AIR = (2000.0, 1.2, 1.8e-5)
+STAIRMAND = StandardCyclone()(1.0)
+
+
+def test_the_exercise_of_the_notes() -> None:
+    # V = 14.5 cm/s, d_c = 0.7 m, 19 g/cm³, 0.018 mPa s: 28.6 µm as printed, from the short form ¾ (η d_c/(π V ρ))^½
+    found = efficiency.cut_size_turns(0.145, 0.7, 19000.0, 1.2, 1.8e-5)
+    assert found == pytest.approx(28.6e-6, abs=0.05e-6)
+    assert found == pytest.approx(0.75 * (1.8e-5 * 0.7 / (np.pi * 0.145 * 18998.8)) ** 0.5, rel=1e-9)
+
+
+def test_leith_licht_configuration_numbers() -> None:
+    # printed for the standard designs: 551.3, 699.2, 402.9 (general purpose and Lapple: 381.8 and 402.9 by different tables)
+    for name, printed in (("stairmand_high_efficiency", 551.3), ("swift_high_efficiency", 699.2), ("lapple", 402.9)):
+        G = efficiency.configuration_number_leith_licht(*StandardCyclone(name)(2.0))
+        assert pytest.approx(printed, rel=2e-3) == G, name
+    # Alexander's exponent at 283 K is 0.67 D^0.14
+    assert efficiency.vortex_exponent_alexander(0.5, 283.0) == pytest.approx(0.67 * 0.5**0.14)
+    # by hand: n = 0.67 at D = 1 m and 283 K
+    tau = 1998.8 * 1e-10 / (18 * 1.8e-5)
+    by_hand = 1 - np.exp(-2 * (551.2 * tau * 1.5 * 1.67) ** (0.5 / 1.67))
+    assert efficiency.cyclone_efficiency_leith_licht(1e-5, 1.5, *AIR, *STAIRMAND, 283.0) == pytest.approx(by_hand, rel=1e-4)
+
+
+def test_lapple() -> None:
+    # classic exercise: b = 15 cm, N = 8, 20 m/s, 1 g/cm³, air at 350 K (2.08e-5 Pa s): 5.3 µm
+    assert efficiency.cut_size_lapple(20.0, 0.15, 1001.0, 1.0, 2.08e-5, 8.0) == pytest.approx(5.28e-6, rel=5e-3)
+    assert efficiency.turn_number_lapple(0.5, 2.0, 4.0) == 6.0
+
+
+def test_barth_and_muschelknautz() -> None:
+    # Barth by hand for Stairmand's design of 1 m at 15 m/s: v_x = 7.639, α = 0.747, H_c = 3 m
+    u = 1 / ((1 - 0.4 * 0.4**0.5) * 0.1 / (np.pi * 0.25 * 0.4) + 0.005 * 3 / 0.25)
+    cut = (9 * 1.8e-5 * 1.5 / (np.pi * 3 * 1998.8 * (u * 1.5 / (np.pi / 16)) ** 2)) ** 0.5
+    assert efficiency.cut_size_barth(1.5, *AIR, *STAIRMAND) == pytest.approx(cut, rel=1e-9)
+    # Stairmand's own scaling: 50 % at 1.4 µm for 203 mm, 223 m³/h, 2000 kg/m³ (as commonly reprinted); both models within a factor 1.6
+    small = StandardCyclone()(0.203)
+    for found in (
+        efficiency.cut_size_barth(223 / 3600, *AIR, *small),
+        efficiency.cut_size_muschelknautz(223 / 3600, *AIR, *small),
+    ):
+        assert 1.4e-6 / 1.6 < found < 1.4e-6 * 1.6
+    # dust brakes the swirl: coarser cut, lower pressure drop
+    loads = np.array([0.0, 0.01, 0.1, 0.5])
+    cuts = efficiency.cut_size_muschelknautz(1.5, *AIR, *STAIRMAND, loads)
+    drops = pressure.pressure_drop_muschelknautz(1.5, 2000.0, 1.2, *STAIRMAND, loads)
+    assert np.all(np.diff(cuts) > 0)
+    assert drops[1] < drops[0]
+    # by hand: 0.025·0.1·(10·0.5)^0.15 and the other branch at 0.01: k = -0.11 + 0.4605
+    limit = efficiency.limit_loading_muschelknautz(np.array([0.5, 0.01]), 2e-6, 2e-5)
+    np.testing.assert_allclose(limit, [0.0025 * 5**0.15, 0.0025 * 0.1**0.350517], rtol=1e-6)
+
+
+def test_pressure_drops() -> None:
+    lapple = StandardCyclone("lapple")(0.6)
+    # printed: Lapple's design loses 8 heads, Stairmand's two 6.4 by Shepherd and Lapple and about 5.4 by Stairmand
+    assert pressure.inlet_heads_shepherd_lapple(*lapple) == pytest.approx(8.0)
+    assert pressure.inlet_heads_shepherd_lapple(*STAIRMAND) == pytest.approx(6.4)
+    assert pressure.inlet_heads_stairmand(*STAIRMAND) == pytest.approx(5.4, abs=0.4)
+    # by hand: 20·0.4·(0.5/(4·1.5·0.375))^⅓
+    assert pressure.inlet_heads_ramachandran(*STAIRMAND) == pytest.approx(8 * (0.5 / 2.25) ** (1 / 3))
+    assert pressure.inlet_heads_casal_martinez(*STAIRMAND) == pytest.approx(11.3 * 0.16 + 3.33)
+    # the laws agree within a factor of two, in Pa
+    head = 0.5 * 1.2 * 15.0**2
+    for found in (pressure.pressure_drop_barth(1.5, 1.2, *STAIRMAND), pressure.pressure_drop_muschelknautz(1.5, 2000.0, 1.2, *STAIRMAND)):
+        assert 0.5 * 5.4 < found / head < 2.0 * 5.4
+    # Kalen and Zenz in the original feet: 2.055 W K^0.4 D^0.067 v^⅔/(1-K)^⅓
+    feet, W = 0.3048, (4 * 9.80665 * 1.8e-5 * 1998.8 / (3 * 1.44)) ** (1 / 3)
+    v = 2.055 * W / feet * 0.2**0.4 * (1 / feet) ** 0.067 * (15 / feet) ** (2 / 3) / 0.8 ** (1 / 3) * feet
+    assert pressure.saltation_velocity_kalen_zenz(15.0, 1.0, 0.2, *AIR) == pytest.approx(v, rel=2e-3)
+
+
+def test_hydrocyclones() -> None:
+    # Plitt's own constant 50.5 with (ρs - ρ) in g/cm³, by hand in the units of the print
+    args = (0.1 / 60, 0.1, 0.03, 0.035, 0.02, 0.4, 0.05, 2650.0, 1000.0, 1e-3)
+    found = hydrocyclones.hydrocyclone_plitt(*args)
+    cut = 50.5 * 10**0.46 * 3**0.6 * 3.5**1.21 * np.exp(0.315) / (2**0.71 * 40**0.38 * 100**0.45 * 1.65**0.5)
+    assert 1e6 * found.cut_size == pytest.approx(cut, rel=1e-2)
+    kPa = 1.88 * 100**1.78 * np.exp(0.0275) / (10**0.37 * 3**0.94 * 40**0.28 * 16.25**0.87)
+    assert found.pressure_drop == pytest.approx(1e3 * kPa, rel=1e-9)
+    assert found.sharpness == pytest.approx(1.94 * np.exp(-1.58 * found.underflow_share) * 40**0.15, rel=1e-9)
+    # Castilho and Medronho by hand: v = 0.12732 m/s, Re = 12 732
+    small = hydrocyclones.hydrocyclone_castilho_medronho(1e-3, 0.1, 0.015, 0.01, 2650.0, 1000.0, 1e-3)
+    v = 4e-3 / (np.pi * 0.01)
+    Eu = 371.5 * (v * 1e5) ** 0.116 * np.exp(-0.0212)
+    water = 1218 * 0.15**4.75 * Eu**-0.3
+    stokes = 0.0474 * np.log(1 / water) ** 0.742 * np.exp(0.0896) / Eu
+    assert small.pressure_drop == pytest.approx(Eu * 1000 * v**2 / 2)
+    assert small.underflow_share == pytest.approx(water)
+    assert 1650 * v * small.cut_size**2 / (18e-3 * 0.1) == pytest.approx(stokes)
+    assert hydrocyclones.hydrocyclone_efficiency(1e-5, 1e-5, 2.5, 0.2) == pytest.approx(0.6)
+
+
+def test_bad_geometry_and_light_dust() -> None:
+    with pytest.raises(InputError, match="inlet must fit"):
+        FreeCyclone(0.5, 0.3, 0.5, 0.5, 1.5, 4.0, 0.375)
+    with pytest.raises(InputError):
+        StandardCyclone("no such")
+    light = efficiency.cut_size_barth.evaluate(1.5, np.array([1.0, 2000.0]), 1.2, 1.8e-5, *STAIRMAND)
+    assert np.isnan(light.value[0])
+    assert light.flags[0] & flags.LIMIT_ACTIVE
+    assert np.isfinite(light.value[1])
+
+
+EDGES = tuple(np.geomspace(5e-7, 2e-4, 13))
+GAS = Mixture(
+    solids=(Species("dust", (("dust", 1.0),), (2000.0,), (800.0,)),),
+    liquids=(),
+    gases=(Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896),),
+    size_edges=EDGES,
+    gas_viscosity=lambda T: 1.8e-5,
+)
+
+
+def dusty(dust: float):
+    return empty(GAS).replace(solid=jnp.full((1, 12), dust / 12), gas=jnp.array([1.8]))
+
+
+def test_gas_cyclone_closes_and_overload_helps() -> None:
+    feed = dusty(0.01)
+    unit = GasCyclone(1.0)
+    run = eqx.filter_jit(unit)
+    out = run(feed)
+    found = closure([feed], list(out))
+    assert float(found.mass) < 1e-12
+    np.testing.assert_allclose(np.asarray(out.gas.solid + out.dust.solid), np.asarray(feed.solid), rtol=1e-14)
+    share = np.asarray(out.dust.solid / feed.solid)[0]
+    assert np.all(np.diff(share) >= 0)
+    assert float(out.gas.pressure) < float(feed.pressure)
+    figures = unit.results({"feed": feed}, out)
+    assert all(np.isfinite(float(x)) for x in figures)
+    assert next(check.ok for check in unit.checks({"feed": feed}, out))
+    # a heavy load falls out at the inlet whatever its size: more of the finest class is collected
+    assert float((run(dusty(1.0)).dust.solid / dusty(1.0).solid)[0, 0]) > share[0]
+
+
+def test_hydrocyclone_closes() -> None:
+    water = Mixture(
+        solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),),
+        liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+        gases=(),
+        size_edges=EDGES,
+        liquid_viscosity=lambda w, T: 1e-3,
+    )
+    feed = empty(water).replace(solid=jnp.full((1, 12), 0.01), liquid=jnp.array([3.0]), pressure=jnp.asarray(4e5))
+    unit = Hydrocyclone(0.1, 0.02)
+    out = eqx.filter_jit(unit)(feed)
+    assert float(closure([feed], list(out)).mass) < 1e-12
+    share = np.asarray(out.underflow.solid / feed.solid)[0]
+    water_split = float(out.underflow.liquid[0] / feed.liquid[0])
+    assert np.all(np.diff(share) >= 0)
+    assert water_split < share[0] < water_split + 0.05
+    assert share[-1] > 0.99
+    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed}, out))
+    assert unit.checks({"feed": feed}, out)
+
+
+def test_chart() -> None:
+    drawing = gas_cyclone_chart(1.5, 2000.0, 1.0)
+    assert len(drawing.data) == 4
+    assert all(np.all(np.diff(trace.y) >= 0) for trace in drawing.data)
