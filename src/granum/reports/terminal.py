@@ -118,6 +118,7 @@ def print_list(cards: Sequence[Card]) -> None:
     """The outcome of ``granum list``."""
     console = _console()
     table = _table((_("card"), "left"), (_("sort"), "left"), (_("title"), "left"))
+    table.columns[0].no_wrap = True  # a key is copied from here
     for card in cards:
         table.add_row(card.key, _(card.sort), card.title)
     console.print(table)
