@@ -1,0 +1,129 @@
+"""A gas-fluidized bed in streams: entrainment by size class, bubbles, pressure drop, distributor, checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import Area, Distance, Fraction, Law, Length, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
+from granum.fluidization.formulas.bubbles import (
+    bubble_diameter_darton,
+    bubble_fraction_davidson_harrison,
+    bubble_rise_velocity_davidson_harrison,
+)
+from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
+from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
+from granum.numerics import find_root
+from granum.numerics.smooth import safe_divide
+from granum.particles.formulas.terminal import terminal_velocity
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+LEAST = 1e-12
+
+
+class BedOutlets(NamedTuple):
+    """Gas with the entrained fines, and the solid that overflows the bed."""
+
+    gas: Stream
+    product: Stream
+
+
+class BedFigures(NamedTuple):
+    """Figures of a fluidized bed."""
+
+    superficial_velocity: Speed
+    minimum_fluidization_velocity: Speed
+    pressure_drop: PressureDrop
+    bubble_diameter: Length
+    bubble_fraction: Fraction
+    height: Distance
+    disengaging_height: Length
+    entrained_share: Fraction
+
+
+@equipment("fluidized_bed", source="kunii1991; geldart1979", title="Fluidized bed")
+class FluidizedBed(Unit):
+    """Well-mixed gas-fluidized bed of fixed solid mass: every size class leaves with the gas by its elutriation constant, the rest overflows.
+
+    In steady state the class of mass fraction x in the bed loses K* A x to the gas and P x with the product, P being whatever closes the
+    balance. A bed that cannot keep its solid against the gas empties upwards: the product is then nothing. Holds above the
+    disengaging height.
+    """
+
+    area: Area
+    mass: Mass
+    void_fraction: VoidFraction = 0.45
+    minimum_fluidization: Annotated[Any, Law("minimum_fluidization_velocity")] = minimum_fluidization_velocity_wen_yu
+    distributor_ratio: PositiveNumber = 0.3
+
+    @classmethod
+    def size(cls, gas_volume_flow: Any, superficial_velocity: Any, residence_time: Any, solid_mass_flow: Any, **more: Any) -> FluidizedBed:
+        """The bed that gives a gas velocity and a residence time of the solid."""
+        return cls(gas_volume_flow / superficial_velocity, solid_mass_flow * residence_time, **more)
+
+    def _velocity(self, feed: Stream) -> Any:
+        return feed.gas_volume_flow / self.area
+
+    def rates(self, feed: Stream) -> Any:
+        """Elutriation of each species and size class per mass fraction in the bed, kg/s."""
+        m = feed.mixture
+        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
+        size = jnp.asarray(m.sizes) + 0.0 * density
+        fall = terminal_velocity(size, density, feed.gas_density, feed.gas_viscosity)
+        U = jnp.maximum(self._velocity(feed), LEAST)
+        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), feed.gas_density), 0.0) * self.area
+
+    def entrained(self, feed: Stream) -> Any:
+        """Share of each species and size class that leaves with the gas."""
+        rates, flows = self.rates(feed), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
+        total = jnp.maximum(jnp.sum(flows), LEAST)
+        # x_i = F_i/(P + K_i); the mass fractions sum to one. With P = total the sum is at most one; with P = 0 at least one, or none stays
+        overflow = find_root(lambda P: jnp.sum(flows / (P + rates + LEAST * total)) - 1.0, 0.0, total, start=0.5 * total).value
+        overflow = jnp.where(jnp.isfinite(overflow), overflow, 0.0)
+        return rates / (overflow + rates + LEAST * total)
+
+    def _drop(self, feed: Stream) -> Any:
+        weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - feed.gas_density / feed.solid_density)
+        return weight * (1.0 + self.distributor_ratio)
+
+    def __call__(self, feed: Stream) -> BedOutlets:
+        share = self.entrained(feed)
+        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+        carried = feed.solid * share
+        moist = safe_divide(jnp.sum(carried), feed.solid_flow)
+        gas = feed.part(solid=share, liquid=moist, gas=1.0)
+        lower = jnp.maximum(feed.pressure - self._drop(feed), 1.0)
+        product = feed.replace(solid=feed.solid - carried, liquid=feed.liquid - gas.liquid, gas=0.0 * feed.gas)
+        return BedOutlets(gas.replace(pressure=lower), product.replace(pressure=lower))
+
+    def _mean_size(self, feed: Stream) -> Any:
+        return 1.0 / jnp.maximum(jnp.sum(feed.size_fractions / jnp.asarray(feed.mixture.sizes)), 1e-9)
+
+    def _minimum(self, feed: Stream) -> Any:
+        return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, feed.gas_density, feed.gas_viscosity)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> BedFigures:
+        feed = inlets["feed"]
+        U, first = self._velocity(feed), self._minimum(feed)
+        settled = self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
+        bubble = jnp.minimum(bubble_diameter_darton(U, first, 0.5 * settled, 1e-4), jnp.sqrt(4.0 * self.area / jnp.pi))
+        share = bubble_fraction_davidson_harrison(U, first, bubble_rise_velocity_davidson_harrison(U, first, bubble))
+        return BedFigures(
+            U, first, self._drop(feed), bubble, share, settled / (1.0 - share), disengaging_height_smolders(U, first, bubble),
+            safe_divide(outlets.gas.solid_flow, feed.solid_flow),
+        )  # fmt: skip
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        U = self._velocity(feed)
+        fall = terminal_velocity(self._mean_size(feed), feed.solid_density, feed.gas_density, feed.gas_viscosity)
+        return (
+            Check("gas velocity over minimum fluidization velocity", U / self._minimum(feed), 1.5, 100.0, "dimensionless", "kunii1991"),
+            Check("gas velocity over terminal velocity of the mean size", U / fall, 0.0, 1.0, "dimensionless", "kunii1991"),
+            Check("distributor to bed pressure drop", jnp.asarray(self.distributor_ratio), 0.2, 0.4, "dimensionless", "kunii1991"),
+        )
