@@ -19,7 +19,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 NEEDED = "these tests need Debian's packages chromium and chromium-driver: apt-get install chromium chromium-driver"
-PATIENCE = 25.0  # seconds: a first calculation compiles, and continuous integration is slow
+PATIENCE = 240.0  # seconds: a first calculation compiles, and continuous integration is slow
 LANGUAGES = ("en", "fr")
 CASE = "examples:grinding-circuit/circuit.toml"
 SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"
@@ -83,9 +83,11 @@ class Page:
         field.send_keys(Keys.CONTROL, "a")
         field.send_keys(text)
 
-    def check(self) -> None:
-        """No word on the console, nothing wider than the page, no complaint of axe."""
+    def check(self, refused: bool = False) -> None:
+        """No word on the console (but for refusals where they are wanted), nothing wider than the page, no complaint of axe."""
         complaints = [e["message"] for e in self.browser.get_log("browser") if e["level"] in ("SEVERE", "WARNING")]
+        if refused:
+            complaints = [text for text in complaints if "status of 422" not in text]
         assert not complaints
         assert self.browser.execute_script("return document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window"
         self.browser.execute_script(Path(axe_selenium_python.axe._DEFAULT_SCRIPT).read_text(encoding="utf-8"))
@@ -131,19 +133,19 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     page.write("#field-particle_diameter", "-3")
     page.until(lambda: page.all("[aria-invalid=true]"))
     assert page.one(".message.out").text
-    page.button("Undo" if language == "en" else "Annuler").click()
+    for _ in range(3):
+        page.button("Undo" if language == "en" else "Annuler").click()
+    page.until(lambda: not page.all("[aria-invalid=true]"))
     page.settle()
-    page.check()
+    page.check(refused=True)
 
 
 def test_choosing_another_unit_reads_the_same_number_in_it(page: Page) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
-    Select(page.one("#field-particle_diameter ~ select")).select_by_visible_text("nm")
+    Select(page.one("#field-particle_diameter ~ select")).select_by_visible_text("mm")
     page.until(
-        lambda: (
-            page.one("[data-output=terminal_velocity]").text.endswith("m/s") and "10⁻" in page.one("[data-output=terminal_velocity]").text
-        )
-    )
+        lambda: page.one("[data-output=terminal_velocity]").text.startswith("5281 m/s")
+    )  # a thousand times wider, a million times faster
 
 
 def test_values_survive_reloading_and_changing_the_language(page: Page) -> None:
@@ -216,7 +218,8 @@ def test_a_line_is_solved_and_its_diagram_answers_clicks(page: Page, language: s
     page.write("#case", "title = ")
     page.button("Solve" if language == "en" else "Résoudre").click()
     page.one("[role=alert]")
-    assert [e for e in page.browser.get_log("browser") if "422" not in e["message"] and e["level"] == "SEVERE"] == []
+    page.settle()
+    page.check(refused=True)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -179,6 +179,11 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
             raise unknown_name(_("Example"), name, _examples())
         return Answer({"path": name, "text": _examples()[name].read_text(encoding="utf-8")})
 
+    @app.get("/favicon.ico")
+    async def icon() -> FileResponse:
+        """The icon, under the name browsers try by themselves."""
+        return FileResponse(STATIC / "icon.svg", media_type="image/svg+xml")
+
     @app.get("/vendor/plotly.js")
     async def plotly() -> FileResponse:
         """Plotly, as the installed Python package ships it."""

@@ -1,0 +1,79 @@
+"""A class of students at one server: many users who calculate at the same time, on the loopback address.
+
+    python benchmarks/app_load.py --users 200 --seconds 20
+
+Each user changes a value, waits for the answer, thinks for a second, and starts again. Prints answers, refusals, p50 and p95.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import random
+import subprocess
+import sys
+import time
+
+import httpx
+
+CARDS = {
+    "particles.terminal_velocity": {"particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"},
+    "particles.terminal_velocity_stokes": {"particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"},
+    "filtration.cake_resistance_kozeny_carman": {"void_fraction": "0.38", "solid_density": "2630 kg/m3"},
+}
+
+
+async def user(client: httpx.AsyncClient, number: int, until: float, times: list[float], lost: list[str]) -> None:
+    """One user until the end: a value, an answer, a second of thought."""
+    draw = random.Random(number)
+    await asyncio.sleep(draw.random())
+    while time.monotonic() < until:
+        card, inputs = draw.choice(list(CARDS.items()))
+        start = time.perf_counter()
+        try:
+            answer = await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": f"{draw.uniform(20, 200):.3g} um"})
+            if answer.status_code == 200:
+                times.append(time.perf_counter() - start)
+            else:
+                lost.append(f"{answer.status_code} {answer.text[:120]}")
+        except httpx.HTTPError as problem:
+            lost.append(repr(problem))
+        await asyncio.sleep(draw.uniform(0.5, 1.5))
+
+
+async def crowd(address: str, users: int, seconds: float) -> int:
+    """All users at once; gives the exit status."""
+    limits = httpx.Limits(max_connections=users, max_keepalive_connections=users)
+    times: list[float] = []
+    lost: list[str] = []
+    async with httpx.AsyncClient(base_url=address, limits=limits, timeout=60.0) as client:
+        for card, inputs in CARDS.items():  # the first call of each card compiles
+            (await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": "85 um"})).raise_for_status()
+        until = time.monotonic() + seconds
+        await asyncio.gather(*(user(client, number, until, times, lost) for number in range(users)))
+    times.sort()
+    median, p95 = times[len(times) // 2], times[int(len(times) * 0.95)]
+    print(f"{users} users, {seconds:g} s: {len(times)} answers, {len(lost)} lost, p50 {1e3 * median:.0f} ms, p95 {1e3 * p95:.0f} ms")
+    for reason in sorted(set(lost))[:5]:
+        print("  lost:", reason)
+    return 0 if not lost and p95 <= 1.0 else 1
+
+
+def main() -> int:
+    """Start a server, send the crowd, stop the server."""
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--users", type=int, default=200)
+    words.add_argument("--seconds", type=float, default=20.0)
+    options = words.parse_args()
+    command = [sys.executable, "-m", "granum.cli", "app", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            assert server.stdout is not None
+            address = next(word for word in server.stdout.readline().split() if word.startswith("http"))
+            return asyncio.run(crowd(address, min(options.users, 1000), min(options.seconds, 120.0)))
+        finally:
+            server.terminate()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
