@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from granum.core import flags
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.cyclones.charts import gas_cyclone_chart
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.cyclones.formulas import efficiency, hydrocyclones, pressure
 from granum.cyclones.geometry import FreeCyclone, StandardCyclone
+from granum.cyclones.sizing import cyclone_sizing
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
@@ -179,3 +180,13 @@ def test_chart() -> None:
     drawing = gas_cyclone_chart(1.5, 2000.0, 1.0)
     assert len(drawing.data) == 4
     assert all(np.all(np.diff(trace.y) >= 0) for trace in drawing.data)
+
+
+def test_sizing_meets_what_it_was_asked() -> None:
+    found = cyclone_sizing(4.0, 3e-6, 900.0, 2000.0)
+    shape = StandardCyclone()(found.diameter)
+    each = 4.0 / found.parallel_number
+    assert efficiency.cut_size_muschelknautz(each, *AIR, *shape) == pytest.approx(3e-6, rel=1e-6)
+    assert pressure.inlet_heads_stairmand(*shape) * 0.6 * found.inlet_velocity**2 == pytest.approx(900.0)
+    with pytest.raises(ApplicabilityError, match="No cyclone"):
+        cyclone_sizing(4.0, 1e-7, 100.0, 2000.0)
