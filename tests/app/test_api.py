@@ -187,6 +187,17 @@ def test_charts_are_plotly_json(client: httpx.Client) -> None:
     assert "cannot be used here" in message(client.post("/api/chart/particles.reynolds_number", json={}))
 
 
+def test_every_selection_guide_answers_its_own_example(client: httpx.Client) -> None:
+    guides = [c["card"] for c in client.get("/api/cards?sort=procedure").json()["cards"] if c["card"].split(".")[1].startswith("choose")]
+    assert guides
+    for guide in guides:
+        form = client.get(f"/api/cards/{guide}").json()
+        values = {p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip() for p in form["parameters"] if p["example"]}
+        answer = client.post(f"/api/calc/{guide}", json=values)
+        assert answer.status_code == 200, answer.text[:300]
+    assert "JSON" in message(client.post(f"/api/calc/{guides[0]}", json={"solubility": "{law"}))
+
+
 def test_other_laws_answer_the_same_question(client: httpx.Client) -> None:
     rows = client.post("/api/spread/particles.terminal_velocity_stokes", json=SPHERE).json()["rows"]
     assert len(rows) >= 3

@@ -107,6 +107,7 @@ PLACES = {
     "lab": "lab/filtration.leaf_test",
     "lines": "lines",
     "charts": "charts/particles.drag_chart",
+    "select": "select",
     "exercises": "exercises/buchner-to-filter",
     "questions": "exercises/quizzes",
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import doctest
+import json
 import math
 from typing import Any
 
@@ -51,6 +52,8 @@ def same_dimension(unit: str, kind: Kind) -> bool:
 
 def entry(p: Parameter, value: Any) -> dict[str, str]:
     """A value as a form holds it: number and unit, both text; words and laws without unit."""
+    if isinstance(value, dict):  # a law with its parameters
+        return {"number": json.dumps(value, ensure_ascii=False), "unit": ""}
     if p.kind is None or isinstance(value, str):
         return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
     array = np.atleast_1d(np.asarray(value, dtype=float))

@@ -48,7 +48,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     """
     app = FastAPI(title="Granum", version=granum.__version__, docs_url=None, redoc_url=None)
     app.add_middleware(Guard, token=token)
-    quick = Workers(count=4, waiting=400, longest=60.0)
+    quick = Workers(count=2, waiting=400, longest=60.0)
     patient = Workers(count=2, waiting=24, longest=300.0)
     _refusals(app)
     _calculations(app, quick, patient)
@@ -242,9 +242,19 @@ def _given(inputs: dict[str, Any]) -> dict[str, Any]:
     for name, value in inputs.items():
         if isinstance(value, dict) and set(value) <= {"value", "unit"}:
             value = f"{value.get('value', '')} {value.get('unit', '')}".strip()
+        if isinstance(value, str) and value.lstrip().startswith("{"):
+            value = _law(name, value)
         if value not in ("", None):
             values[name] = value
     return values
+
+
+def _law(name: str, text: str) -> Any:
+    """A law with its parameters, written as JSON in a form or a link."""
+    try:
+        return json.loads(text)
+    except (json.JSONDecodeError, RecursionError):
+        raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
 
 
 def _calc(key: str, inputs: dict[str, Any]) -> dict[str, Any]:
@@ -260,10 +270,10 @@ def _fit(key: str, content: bytes, name: str, conditions: str) -> dict[str, Any]
     test_type = _evaluable(key, ("lab test",))
     try:
         given = json.loads(conditions)
-    except json.JSONDecodeError:
-        raise InputError(_("'conditions' is not valid JSON.")) from None
+    except (json.JSONDecodeError, RecursionError):
+        raise InputError(_("'{name}' is not valid JSON.").format(name="conditions")) from None
     if not isinstance(given, dict):
-        raise InputError(_("'conditions' is not valid JSON."))
+        raise InputError(_("'{name}' is not valid JSON.").format(name="conditions"))
     source = io.BytesIO(content)
     source.name = name
     test = test_type.read(source, **_given(given))
