@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -39,6 +40,11 @@ def denser(particle_density: float, fluid_density: float) -> None:
                 particle=format_number(particle_density), fluid=format_number(fluid_density)
             )
         )
+
+
+def _words(words: Iterable[str]) -> Any:
+    """A column of words."""
+    return tuple(words)
 
 
 class FluidizationSpread(NamedTuple):
@@ -86,7 +92,7 @@ def minimum_fluidization_spread(
     values = np.array([row[0] for row in rows])
     trusted = values[[row[2] for row in rows]]
     return FluidizationSpread(
-        tuple(row[1] for row in rows), values, np.array([float(row[2]) for row in rows]), tuple(row[3] for row in rows),
+        _words(row[1] for row in rows), values, np.array([float(row[2]) for row in rows]), _words(row[3] for row in rows),
         float(np.median(trusted)), float(trusted.max() / trusted.min()),
     )  # fmt: skip
 
@@ -110,7 +116,7 @@ def disengaging_height_spread(superficial_velocity: Speed, minimum_fluidization_
     known = {"superficial_velocity": superficial_velocity, "minimum_fluidization_velocity": minimum_fluidization_velocity,
              "bubble_diameter": bubble_diameter}  # fmt: skip
     rows = _every(freeboard, "disengaging_height_", known)
-    return Spread(tuple(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
+    return Spread(_words(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
 
 
 class ElutriationSpread(NamedTuple):
@@ -139,7 +145,7 @@ def elutriation_spread(
     """
     denser(particle_density, fluid_density)
     rows = _every(freeboard, "elutriation_flux_", locals())
-    return ElutriationSpread(tuple(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
+    return ElutriationSpread(_words(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
 
 
 def _every(module: Any, start: str, known: dict[str, Any]) -> list[tuple[float, str]]:
@@ -242,5 +248,5 @@ def fluidization_regime(
             regime = name
     at = regimes.grace_coordinates(superficial_velocity, *fluid)
     return Regime(
-        regime, tuple(n for _v, n in limits), np.array([v for v, _n in limits]), at.dimensionless_diameter, at.dimensionless_velocity
+        regime, _words(n for _v, n in limits), np.array([v for v, _n in limits]), at.dimensionless_diameter, at.dimensionless_velocity
     )
