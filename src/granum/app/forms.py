@@ -54,6 +54,8 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
     """A value as a form holds it: number and unit, both text; words and laws without unit."""
     if isinstance(value, dict):  # a law with its parameters
         return {"number": json.dumps(value, ensure_ascii=False), "unit": ""}
+    if isinstance(value, bool):
+        return {"number": "yes" if value else "no", "unit": ""}
     if p.kind is None or isinstance(value, str):
         return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
     array = np.atleast_1d(np.asarray(value, dtype=float))

@@ -11,6 +11,7 @@ import numpy as np
 from granum.app.forms import law_label
 from granum.core.cards import Card
 from granum.core.glossary import quantity_in, term
+from granum.core.i18n import _
 from granum.core.parameters import default_as_json
 from granum.core.results import Result
 from granum.reports.html import note_step
@@ -55,6 +56,24 @@ def _typed(value: Any) -> str:
     return " ".join(map(_typed, value)) if isinstance(value, (list, tuple)) else str(default_as_json(value))
 
 
+def _input_text(value: Any, text: str) -> str:
+    if isinstance(value, bool):
+        return _("yes") if value else _("no")
+    return law_label(value.card) if hasattr(value, "card") else text
+
+
+def ranking(result: Result) -> dict[str, Any] | None:
+    """Outputs that run side by side, such as names, marks and reasons of a choice, as one table; None when there are none."""
+    items = {p: list(value) for p in result.card.outputs if np.ndim(value := result.outputs[p.name]) == 1}
+    if len(items) < 2 or len({len(found) for found in items.values()}) > 1 or not any(p.kind is None for p in items):
+        return None
+    columns = [{"name": p.name, "label": p.label, "number": p.kind is not None} for p in items]
+    return {
+        "columns": columns,
+        "rows": [[value_text(x, p) for p, x in zip(items, row, strict=True)] for row in zip(*items.values(), strict=True)],
+    }
+
+
 def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     """The stable calc shape, with what a page shows beside it."""
     step = note_step(result)
@@ -62,13 +81,14 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
         {"name": p.name, "label": p.label, "text": value_text(result.outputs[p.name], p), "symbol": row["symbol"]}
         for p, row in zip(result.card.outputs, step["outputs"], strict=True)
     ]
+    table = ranking(result)
     used = [p for p in result.card.parameters if result.inputs[p.name] is not None]
     inputs = [
-        row | ({"text": law_label(result.inputs[p.name].card)} if hasattr(result.inputs[p.name], "card") else {}) | {"name": p.name}
-        for p, row in zip(used, step["inputs"], strict=True)
+        row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"])} for p, row in zip(used, step["inputs"], strict=True)
     ]
     return result.as_json() | {
-        "shown": rows,
+        "shown": [row for row in rows if table is None or row["name"] not in {c["name"] for c in table["columns"]}],
+        "table": table,
         "inputs_shown": inputs,
         "equation": step["equation"] if result.card.equation else "",
         "citation": step["source"],

@@ -53,18 +53,24 @@ function Work({ page, card, given }) {
 function Result({ card, values, data, kept, keep, clear, choose }) {
   const bad = data.flags.length > 0;
   const single = data.shown.length <= 3;
-  return html`${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
+  return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
     : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class=${isPlain(data.outputs[row.name].value) ? 'n' : ''} data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></td></tr>`)}</tbody></table></div>`}
-    <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${t('inside the range the source covers')}</p>`}</div>
+    <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <div class="row"><button class="button" disabled=${kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
     ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} />`}
     ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}
-    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: row.symbol }} /> = ${row.text}</span>`)}</p>`}
+    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
     <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
     <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>
     <details><summary>${t('About')}</summary><pre lang="en">${card.doc}</pre></details>`;
+}
+
+/** Choices in order, the best first. */
+function Ranking({ table }) {
+  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Choices')}><table data-ranking><thead><tr>${table.columns.map((c) => html`<th scope="col" class=${c.number ? 'n' : ''}>${c.label}</th>`)}</tr></thead>
+    <tbody>${table.rows.map((row) => html`<tr>${row.map((text, i) => html`<td class=${table.columns[i].number ? 'n' : i === 0 ? 'first' : 'small'}>${text}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 
 function Comparison({ cases, clear }) {
