@@ -218,7 +218,7 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
         {"card": c.key, "sort": c.sort, "domain": c.domain, "title": c.title, "summary": c.summary}
         for c in (t.card for t in registry.everything().values())
     ]
-    return found, Answer({"cards": found}).body
+    return found, bytes(Answer({"cards": found}).body)
 
 
 def _cards() -> list[dict[str, Any]]:
