@@ -144,3 +144,14 @@ def test_isotherm_test_recovers_gab() -> None:
 def test_residual_runs() -> None:
     assert residual_runs(np.array([1.0, 1, 1, 1, 1, -1, -1, -1, -1, -1])) < 0.01
     assert residual_runs(np.array([1.0, -1, 1, -1, 1, -1, 1, -1])) > 0.9
+
+
+def test_foodstuff_of_geankoplis() -> None:
+    # problem 9.7-2: printed answers R_c = 0.996 kg/(m² h), free critical moisture 0.12
+    t = np.array([0, 0.4, 0.8, 1.4, 2.2, 3.0, 4.2, 5.0, 7.0, 9.0, 12.0]) * 3600
+    mass = np.array([4.944, 4.885, 4.808, 4.699, 4.554, 4.404, 4.241, 4.150, 4.019, 3.978, 3.955])
+    found = DryingCurve(
+        time=t, mass=mass, dry_solid_mass=3.765, area=0.186, equilibrium_moisture=0.190 / 3.765, warm_up_time=0.4 * 3600
+    ).fit()
+    assert 3600 * found["drying_rate_constant"].value == pytest.approx(0.996, rel=0.03)
+    assert found["critical_moisture"].value - 0.190 / 3.765 == pytest.approx(0.12, abs=0.02)

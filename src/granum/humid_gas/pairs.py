@@ -57,6 +57,10 @@ class AbstractPair(eqx.Module):
     def vapor_partial_enthalpy(self, T: Any, P: Any, y: Any) -> Any:
         """Partial molar enthalpy of the vapor, J/mol; with the condensate's it gives the heat of vaporization."""
 
+    def simplified(self) -> AbstractPair | None:
+        """A cheaper pair with nearly the same derivatives, for pairs whose functions cost much."""
+        return None
+
     @property
     def molar_mass_ratio(self) -> float:
         """Vapor over gas."""

@@ -10,14 +10,14 @@ import jax.numpy as jnp
 import granum.humid_gas.virials as vi
 from granum.core import law
 from granum.core.kinds import Number
-from granum.humid_gas.pairs import ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, ice_vapor_pressure, polynomial
+from granum.humid_gas.pairs import AIR_WATER, ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, ice_vapor_pressure, polynomial
 from granum.humid_gas.search import newton_root
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
 
 R = 8.314472  # J/(mol K), the report's own
 ICE_VOLUME = (1.96521e-5, 3.144e-9, 5.5e-12)  # m³/mol in °C, IAPWS-06 within 1e-5 from −60 °C
 ICE_COMPRESSIBILITY = 1.18e-10  # 1/Pa at 0 °C, IAPWS-06
-PASSES = 3
+PASSES = 8
 
 
 @law(
@@ -45,6 +45,9 @@ class AirWaterReal(AbstractPair):
 
     def lewis_factor(self) -> Any:
         return None
+
+    def simplified(self) -> AbstractPair | None:
+        return AIR_WATER
 
     def boiling_temperature(self, P: Any) -> Any:
         return water_boiling_temperature.function(P)
@@ -121,7 +124,7 @@ class AirWaterReal(AbstractPair):
             third = third - 0.5 * (share * share - (4.0 - 3.0 * y) * y * y * y) * a.Bww * a.Bww
             return poynting + jnp.log1p(-beta * z * P) + second + r2 * third - x
 
-        return jnp.exp(jnp.maximum(newton_root(rest, jnp.zeros_like(share), PASSES, None), 0.0))
+        return jnp.exp(jnp.maximum(newton_root(rest, jnp.zeros_like(share), PASSES), 0.0))
 
 
 AIR_WATER_REAL = AirWaterReal()

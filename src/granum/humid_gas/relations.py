@@ -5,6 +5,7 @@ Every unknown is sought between physical ends at which the balance has opposite 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax
@@ -80,6 +81,22 @@ def wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     return blockwise(lambda T, P, y, lewis: _wet_bulb(pair, T, P, y, lewis), T, P, y, lewis)
 
 
+def wet_bulb_of_total(pair: AbstractPair, T: Any, P: Any, w: Any, lewis: Any) -> Any:
+    """Wet bulb from the humidity ratio, fog included, block by block."""
+
+    def one(T: Any, P: Any, w: Any, *factor: Any) -> Any:
+        y = pair.fraction(w) + 0.0 * T
+        cheap = pair.simplified()
+        if cheap is None or y.size < LARGE:
+            y = settled(pair, T, P, y).y
+        else:  # the cheaper saturation lies below the true one: where nothing passes it there is no fog to look for
+            doubtful = jnp.any(y > saturated_fraction(cheap, T, P))
+            y = jax.lax.cond(doubtful, lambda T, P, y: settled(pair, T, P, y).y, lambda T, P, y: y, T, P, y)
+        return _wet_bulb(pair, T + 0.0 * y, P, y, factor[0] if factor else None)
+
+    return blockwise(one, T, P, w) if lewis is None else blockwise(one, T, P, w, lewis)
+
+
 def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     Tf = pair.freezing_temperature
     boiling = pair.boiling_temperature(P)
@@ -87,14 +104,14 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     h = pair.molar_enthalpy(T, P, y)
     liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), h, P, y, False, lewis) >= 0)
     frozen = jax.lax.stop_gradient(~liquid)
-    guess = _wet_bulb_guess(pair, T, P, y, boiling)
+    guess = _refined_guess(pair, T, P, y, boiling)
     lower = jnp.minimum(Tf, top) * (1 - SLACK)
 
     def over_liquid(h: Any, P: Any, y: Any) -> Any:
         def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
             return wet_bulb_balance(pair, Ts, h, P, y, False, lewis)
 
-        return falling_root(balance, lower, top * (1 + SLACK), h, P, y, start=guess)
+        return falling_root(balance, lower, top * (1 + SLACK), h, P, y, start=guess, rough_slope=_rough_slope(pair, T, P, y, lewis))
 
     def over_either(h: Any, P: Any, y: Any) -> Any:
         def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
@@ -107,6 +124,28 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     if frozen.size < LARGE:
         return over_either(h, P, y)
     return jax.lax.cond(jnp.any(frozen), over_either, over_liquid, h, P, y)
+
+
+def _refined_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:
+    """Start value, brought by two Newton steps to the wet bulb of the cheaper pair if there is one."""
+    cheap = pair.simplified()
+    guess = _wet_bulb_guess(cheap or pair, T, P, y, boiling)
+    if cheap is None:
+        return guess
+    h = cheap.molar_enthalpy(T, P, y)
+    for _pass in range(2):
+        value, slope = jax.jvp(lambda t: wet_bulb_balance(cheap, t, h, P, y, False, None), (guess,), (jnp.ones_like(guess),))
+        guess = jnp.clip(guess - value / slope, guess - 5.0, jnp.minimum(guess + 5.0, jnp.minimum(T, boiling)))
+    return guess
+
+
+def _rough_slope(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Callable[[Any], Any] | None:
+    """Derivative of the balance over liquid with respect to the surface temperature, from the cheaper pair if there is one."""
+    cheap = pair.simplified()
+    if cheap is None:
+        return None
+    h = cheap.molar_enthalpy(T, P, y)
+    return lambda Ts: jax.jvp(lambda t: wet_bulb_balance(cheap, t, h, P, y, False, lewis), (Ts,), (jnp.ones_like(Ts),))[1]
 
 
 def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:

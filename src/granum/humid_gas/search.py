@@ -13,15 +13,18 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
-TOLERANCE = 1e-10  # relative to the unknown; Newton's last step leaves far less
+TOLERANCE = 1e-7  # of the last Newton step, relative to the unknown: its square, some 1e-13, is what is left
 MOST = 120
 
 
-def falling_root(balance: Callable[..., Any], lower: Any, upper: Any, *arguments: Any, start: Any = None) -> Any:
+def falling_root(
+    balance: Callable[..., Any], lower: Any, upper: Any, *arguments: Any, start: Any = None, rough_slope: Callable[[Any], Any] | None = None
+) -> Any:
     """The root of an elementwise function that is positive at ``lower`` and negative at ``upper``, both greater than zero.
 
     Newton's step where it stays inside the shrinking bracket and at least halves the one before, bisection otherwise. Derivatives are
-    exact (implicit function theorem).
+    exact (implicit function theorem). With ``rough_slope``, a cheap approximate derivative, secants take the place of tangents: better for
+    functions that cost much, whose derivative would cost as much again.
     """
     lower, upper = (lax.stop_gradient(jnp.asarray(x, dtype=float)) for x in (lower, upper))
     shape = jnp.broadcast_shapes(lower.shape, upper.shape, *(jnp.shape(a) for a in arguments))
@@ -29,9 +32,12 @@ def falling_root(balance: Callable[..., Any], lower: Any, upper: Any, *arguments
     guess = 0.5 * (lower + upper)
     if start is not None:
         start = lax.stop_gradient(jnp.broadcast_to(start, shape))
-        guess = jnp.where((start > lower) & (start < upper), start, guess)
+        guess = jnp.where(jnp.isfinite(start), jnp.clip(start, lower, upper), guess)
 
     def search(f: Callable[..., Any], first: Any) -> Any:
+        if rough_slope is not None:
+            return _secant(f, rough_slope, first, lower, upper)
+
         def advance(carry: tuple) -> tuple:
             x, low, high, size, count = carry
             value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
@@ -39,8 +45,10 @@ def falling_root(balance: Callable[..., Any], lower: Any, upper: Any, *arguments
             ahead = x - value / jnp.where(slope == 0, -1e-300, slope)
             fits = (ahead >= low) & (ahead <= high) & (jnp.abs(ahead - x) <= 0.5 * jnp.abs(size))
             following = jnp.where(fits, ahead, 0.5 * (low + high))
+            # bisection leaves its whole interval, so it has to go on until that is a thousand times smaller
+            next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
             moving = jnp.abs(size) > TOLERANCE * x
-            return jnp.where(moving, following, x), low, high, jnp.where(moving, following - x, size), count + 1
+            return jnp.where(moving, following, x), low, high, jnp.where(moving, next_size, size), count + 1
 
         def unfinished(carry: tuple) -> Any:
             x, _low, _high, size, count = carry
@@ -55,18 +63,47 @@ def falling_root(balance: Callable[..., Any], lower: Any, upper: Any, *arguments
     return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide)
 
 
-def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None) -> Any:
-    """A fixed number of Newton steps on a function known to be smooth and steep near its root; implicit derivatives.
+def _secant(f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any, lower: Any, upper: Any) -> Any:
+    def advance(carry: tuple) -> tuple:
+        x, low, high, size, slope, last, before, count = carry
+        value = f(x)
+        chord = (value - before) / jnp.where(last == 0, 1.0, last)
+        # a chord that rises, or none yet, says nothing: keep the last slope
+        slope = jnp.where((count > 0) & (chord < 0), chord, slope)
+        low, high = jnp.where(value > 0, x, low), jnp.where(value < 0, x, high)
+        ahead = x - value / slope
+        fits = (ahead >= low) & (ahead <= high) & (jnp.abs(ahead - x) <= 0.5 * jnp.abs(size))
+        following = jnp.where(fits, ahead, 0.5 * (low + high))
+        next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
+        moving = jnp.abs(size) > TOLERANCE * x
+        keep = lambda new, old: jnp.where(moving, new, old)  # noqa: E731
+        return keep(following, x), low, high, keep(next_size, size), slope, keep(following - x, last), keep(value, before), count + 1
+
+    def unfinished(carry: tuple) -> Any:
+        return jnp.any(jnp.abs(carry[3]) > TOLERANCE * carry[0]) & (carry[7] < MOST)
+
+    zero = jnp.zeros_like(first)
+    start = (first, lower, upper, 4.0 * (upper - lower), rough_slope(first), zero, zero, 0)
+    return lax.while_loop(unfinished, advance, start)[0]
+
+
+def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None = None) -> Any:
+    """Newton steps on a function known to be smooth and steep near its root, until they are small; implicit derivatives.
 
     ``least_slope`` keeps a slope from falling below it; None for functions that fall.
     """
 
-    def solve(f: Callable[..., Any], x: Any) -> Any:
-        def step(_i: Any, x: Any) -> Any:
+    def solve(f: Callable[..., Any], first: Any) -> Any:
+        def step(carry: tuple) -> tuple:
+            x, _largest, count = carry
             value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
-            return x - value / (slope if least_slope is None else jnp.maximum(slope, least_slope))
+            move = value / (slope if least_slope is None else jnp.maximum(slope, least_slope))
+            return x - move, jnp.max(jnp.abs(move) / (jnp.abs(x) + 1e-2)), count + 1
 
-        return lax.fori_loop(0, passes, step, x)
+        def unfinished(carry: tuple) -> Any:
+            return (carry[1] > 1e-5) & (carry[2] < passes)
+
+        return lax.while_loop(unfinished, step, (first, jnp.inf, 0))[0]
 
     def divide(linear: Callable[..., Any], right: Any) -> Any:
         slope = linear(jnp.ones_like(right))

@@ -169,9 +169,7 @@ def adiabatic_saturation_temperature(
     >>> round(adiabatic_saturation_temperature(temperature="150 degC", humidity_ratio=1.0) - 273.15, 1)
     87.7
     """
-    P = jnp.asarray(pressure, dtype=float)
-    gas = _gas(pair, temperature, humidity_ratio, P)
-    return rel.wet_bulb(pair, gas.T, P, gas.y, None)
+    return rel.wet_bulb_of_total(pair, temperature, pressure, humidity_ratio, None)
 
 
 @formula(
@@ -196,6 +194,5 @@ def wet_bulb_temperature(
     >>> round(wet_bulb_temperature(temperature="22.2 degC", humidity_ratio=0.01) - 273.15, 1)
     17.0
     """
-    P = jnp.asarray(pressure, dtype=float)
-    gas = _gas(pair, temperature, humidity_ratio, P)
-    return rel.wet_bulb(pair, gas.T, P, gas.y, pair.lewis_factor() if lewis_factor is None else lewis_factor)
+    lewis = pair.lewis_factor() if lewis_factor is None else lewis_factor
+    return rel.wet_bulb_of_total(pair, temperature, pressure, humidity_ratio, lewis)

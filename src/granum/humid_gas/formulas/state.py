@@ -80,7 +80,7 @@ def state(
 
     >>> air = state(temperature="22.2 degC", wet_bulb_temperature="17 degC")
     >>> round(air.relative_humidity, 2), round(air.enthalpy / 1e3, 1), round(air.dew_point_temperature - 273.15)
-    (0.59, 47.6, 14)
+    (0.6, 47.6, 14)
     """
     given = {
         "temperature": temperature, "humidity_ratio": humidity_ratio, "vapor_pressure": vapor_pressure,
