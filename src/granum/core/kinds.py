@@ -150,6 +150,7 @@ TemperatureDifference = Annotated[Any, _any("temperature difference", "delta_deg
 Energy = Annotated[Any, _any("energy", "J", "kJ", "MJ", "kWh", "kcal")]
 Power = Annotated[Any, _any("power", "W", "kW", "MW", "kcal/hour")]
 SpecificEnergy = Annotated[Any, _any("energy per mass", "J/kg", "kJ/kg", "kWh/tonne", "kcal/kg")]
+SpecificPower = Annotated[Any, _nonnegative("power per mass", "W/kg", "kW/kg")]
 HeatCapacity = Annotated[Any, _positive("specific heat capacity", "J/(kg*K)", "kJ/(kg*K)", "kcal/(kg*K)")]
 MolarEnergy = Annotated[Any, _any("energy per amount", "J/mol", "kJ/mol", "kcal/mol")]
 ThermalConductivity = Annotated[Any, _positive("thermal conductivity", "W/(m*K)", "mW/(m*K)")]

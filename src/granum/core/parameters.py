@@ -76,7 +76,8 @@ class Parameter:
         if self.kind is None:
             return ()
         found = self.term
-        usual = (found.unit,) if found and found.unit else ()
+        fits = found is not None and found.unit is not None and units.same_dimension(found.unit, self.kind.unit)
+        usual = (found.unit,) if found and found.unit and fits else ()
         return usual + tuple(u for u in self.kind.units if u not in usual)
 
     def ordinary(self) -> tuple[float, float]:

@@ -52,7 +52,8 @@ def parse_unit(text: str) -> Any:
 
 
 @cache
-def _same_dimension(unit: str, kind_unit: str) -> bool:
+def same_dimension(unit: str, kind_unit: str) -> bool:
+    """Whether two units measure the same sort of quantity."""
     return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
 
 
@@ -61,7 +62,7 @@ def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     """(factor, offset) such that SI = factor·value + offset."""
     ureg = registry()
     source, target = parse_unit(unit), ureg.Unit(kind_unit)
-    if not _same_dimension(unit, kind_unit):
+    if not same_dimension(unit, kind_unit):
         raise UnitError("dimension")
     zero = ureg.Quantity(0.0, source).to(target).magnitude
     one = ureg.Quantity(1.0, source).to(target).magnitude
@@ -101,7 +102,7 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
 
 def from_si(value: Any, unit: str, kind: Kind) -> Any:
     """SI floats of a kind expressed in another unit of the same dimension."""
-    if not _same_dimension(unit, kind.unit):
+    if not same_dimension(unit, kind.unit):
         to_si(1.0, unit, kind)
     factor, offset = _affine(unit, kind.unit)
     return (value - offset) / factor

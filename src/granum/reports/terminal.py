@@ -42,7 +42,7 @@ def value_text(value: Any, parameter: Parameter) -> str:
         return str(default_as_json(value))
     array = np.asarray(value, dtype=float)
     if array.ndim == 0:
-        preferred = parameter.term.unit if parameter.term else None
+        preferred = parameter.units[0] if parameter.term and parameter.term.unit else None
         number = float(array)
         if preferred and number and 0.05 <= abs(from_si(number, preferred, parameter.kind)) < 1e4:
             return show(number, parameter.kind, preferred)
@@ -131,6 +131,7 @@ def print_card(card: Card) -> None:
     console.print(Text(card.title, style="bold"), Text(f"  {card.key} · {_(card.sort)}", style="dim"))
     console.print(card.summary)
     table = _table((_("input"), "left"), (_("quantity"), "left"), (_("units"), "left"), (_("allowed"), "left"), (_("default"), "left"))
+    table.columns[0].no_wrap = True
     for p in card.parameters:
         allowed = ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
         default = _("required") if p.required else ("—" if p.default is None else value_text(p.default, p))

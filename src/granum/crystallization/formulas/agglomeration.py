@@ -18,7 +18,7 @@ from granum.core.kinds import (
     Length,
     PositiveNumber,
     Ratio,
-    SpecificEnergy,
+    SpecificPower,
     Temperature,
 )
 
@@ -107,7 +107,7 @@ def agglomeration_coefficient_turbulent(
 
 
 @formula(source="saffman1956", equation=r"\dot\gamma = \sqrt{\varepsilon/\nu}", output="shear_rate")
-def shear_rate_turbulent(specific_power_input: SpecificEnergy, kinematic_viscosity: KinematicViscosity) -> Frequency:
+def shear_rate_turbulent(specific_power_input: SpecificPower, kinematic_viscosity: KinematicViscosity) -> Frequency:
     """Mean shear rate in the smallest eddies of a stirred suspension, from the power per mass in W/kg.
 
     >>> round(shear_rate_turbulent(specific_power_input=1.0, kinematic_viscosity=1e-6))

@@ -20,7 +20,7 @@ from granum.core.kinds import (
     MolarEnergy,
     PositiveNumber,
     Ratio,
-    SpecificEnergy,
+    SpecificPower,
     Temperature,
 )
 from granum.crystallization.formulas.growth import GrowthLaw, arrhenius
@@ -107,7 +107,7 @@ def sherwood_number_ranz_marshall(reynolds_number: Ratio, schmidt_number: Positi
 )
 def sherwood_number_levins_glastonbury(
     crystal_size: Length,
-    specific_power_input: SpecificEnergy,
+    specific_power_input: SpecificPower,
     kinematic_viscosity: KinematicViscosity,
     schmidt_number: PositiveNumber,
     agitator_to_tank: PositiveNumber = 0.5,

@@ -91,18 +91,6 @@ def nusselt_number_impinging(
     return K * G * reynolds ** (2.0 / 3.0) * prandtl_number**0.42
 
 
-@formula(source="ranz1952", equation=r"\mathrm{Nu} = 2 + 0.6\,\mathrm{Re}^{1/2}\,\mathrm{Pr}^{1/3}", fitted={"reynolds": (0.0, 200.0)},
-         typical={"reynolds": (0.5, 150.0)}, output="nusselt_number", title="Convection to a particle or drop (Ranz–Marshall)")  # fmt: skip
-def nusselt_number_ranz_marshall(reynolds: Ratio, prandtl_number: PositiveNumber) -> PositiveNumber:
-    """Nusselt number of a single sphere on its diameter; with the Schmidt number for Prandtl's it is the Sherwood number.
-
-    >>> round(nusselt_number_ranz_marshall(reynolds=100.0, prandtl_number=1.0), 6)
-    8.0
-    """
-    root = jnp.sqrt(jnp.where(reynolds > 0, reynolds, 1.0)) * (reynolds > 0)
-    return 2.0 + 0.6 * root * prandtl_number ** (1.0 / 3.0)
-
-
 @formula(source="treybal1980, ch. 12", equation=r"j_D = \frac{2.06}{\varepsilon}\,\mathrm{Re}^{-0.575}", fitted={"reynolds": (90.0, 4000.0)},
          typical={"reynolds": (100.0, 3000.0)}, title="Through-circulation of a bed of particles")  # fmt: skip
 def colburn_factor_through_circulation(reynolds: PositiveNumber, void_fraction: VoidFraction) -> PositiveNumber:
