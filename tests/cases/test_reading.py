@@ -74,7 +74,7 @@ def test_wrong_cases_say_what_to_do(old: str, new: str, message: str) -> None:
 
 
 def test_unconverged_names_stream_and_unit_and_keeps_the_last_iterate() -> None:
-    with pytest.raises(ConvergenceError, match="back.*split.*purge") as caught:
+    with pytest.raises(ConvergenceError, match=r"back.*split.*purge") as caught:
         read_text(GOOD.replace('"50 %"', "1.0")).solve()
     assert caught.value.last is not None
     assert caught.value.exit_code == 3

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import jax
 import pytest
+
 from granum.particles import nusselt_number_ranz_marshall
 
 
