@@ -168,6 +168,7 @@ class Solver:
         phi = self.given.get("relative_humidity")
         low, high = pair.lowest_temperature, pair.highest_temperature
         if phi is None:
+            assert h is not None
             T = self._root(
                 lambda T: pair.molar_enthalpy(T, P, self._at_volume(T)) - h * Mg * (1.0 - self._at_volume(T)), *self._volume_bracket()
             )
@@ -176,9 +177,10 @@ class Solver:
         def fraction(T: Any) -> Any:
             return jnp.minimum(phi * self._ys(T), 1.0)
 
-        if v is None:
+        if h is not None:
             T = self._root(lambda T: pair.molar_enthalpy(T, P, fraction(T)) - h * Mg * (1.0 - fraction(T)), low, high)
         else:
+            assert v is not None
             T = self._root(lambda T: pair.molar_volume(T, P, fraction(T)) - v * Mg * (1.0 - fraction(T)), low, high)
         return self._bounded(T, phi * self._ys(T))
 
