@@ -79,7 +79,9 @@ def main() -> None:
         found, seconds = clock(lambda method=method: peer(method), 1)
         print(f"SciPy {method:<14} {1e3 * seconds:8.1f} ms   underflow {found.y[-1, -1]:.4f} kg/m³, {found.nfev} evaluations")
 
-    slope = jax.jit(lambda v: jax.jvp(lambda u: ours(Suspension(Takacs(takacs_velocity=u), STRESS)).underflow_concentration[-1], (v,), (1.0,)))
+    slope = jax.jit(
+        lambda v: jax.jvp(lambda u: ours(Suspension(Takacs(takacs_velocity=u), STRESS)).underflow_concentration[-1], (v,), (1.0,))
+    )
     jax.block_until_ready(slope(5e-3))
     out, seconds = clock(lambda: jax.block_until_ready(slope(5e-3)))
     print(f"with exact derivative {1e3 * seconds:7.1f} ms   d(underflow)/d(v0) = {float(out[1]):.2f}")

@@ -21,7 +21,9 @@ def main() -> None:
 
     run = gr.read(Path(__file__).parent / "separator.toml").solve()
     oil, left = (float(run.streams[name].solid_by_species[0]) for name in ("oil", "treated"))
-    print(f"{100 * oil / (oil + left):.0f} % of the oil is skimmed; {1e6 * left / float(run.streams['treated'].liquid_flow):.0f} mg/kg left")
+    print(
+        f"{100 * oil / (oil + left):.0f} % of the oil is skimmed; {1e6 * left / float(run.streams['treated'].liquid_flow):.0f} mg/kg left"
+    )
     assert 0.5 < oil / (oil + left) < 0.95
     assert run.audit["mass_closure"] < 1e-10
 

@@ -14,7 +14,12 @@ sigma = centrifuges.sigma_factor_tubular_half_thickness(
     bowl_length="0.1970 m", radius_inner="7.16 mm", radius_outer="22.25 mm", rotation_speed="23000 rpm"
 )
 cut = centrifuges.cut_size_centrifuge(
-    volume_flow="0.002832 m3/hour", sigma_factor=sigma, particle_density=1461, fluid_density=801, dynamic_viscosity="100 cP", flow_multiple=2.0
+    volume_flow="0.002832 m3/hour",
+    sigma_factor=sigma,
+    particle_density=1461,
+    fluid_density=801,
+    dynamic_viscosity="100 cP",
+    flow_multiple=2.0,
 )
 print(f"Sigma {sigma:.1f} m2 (printed 196.3), critical diameter {1e6 * cut:.3f} um (printed 0.746)")
 assert abs(sigma / 196.3 - 1) < 0.002
