@@ -100,7 +100,8 @@ def test_steffen_slopes_of_his_rule() -> None:
     np.testing.assert_allclose(slopes[1:4], [(1.0 * 2.0 + 2.0 * 1.0) / 3.0, 0.2, 0.0])
 
 
-STEPS = st.lists(st.tuples(st.floats(1e-3, 10.0), st.floats(0.0, 10.0)), min_size=3, max_size=8)
+# Subnormal steps are left out: compiled code rounds them to zero.
+STEPS = st.lists(st.tuples(st.floats(1e-3, 10.0), st.floats(0.0, 10.0, allow_subnormal=False)), min_size=3, max_size=8)
 
 
 @pytest.mark.parametrize("slopes", SLOPES)

@@ -14,7 +14,7 @@ from granum.core import registry
 from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import Kind
-from granum.core.parameters import Parameter
+from granum.core.parameters import Parameter, convert
 from granum.core.units import best_unit, format_number, from_si, parse_unit, show
 from granum.reports.mathml import mathml
 
@@ -58,6 +58,8 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         return {"number": "yes" if value else "no", "unit": ""}
     if p.kind is None or isinstance(value, str):
         return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
+    if isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):  # each with its own unit
+        value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = usual_unit(p, float(np.median(np.abs(array))) if array.size else 0.0)
     shown = (f"{float(x):.6g}" for x in np.atleast_1d(from_si(array, unit, p.kind)))
