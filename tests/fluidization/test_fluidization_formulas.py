@@ -8,7 +8,7 @@ import pytest
 from granum.core import flags
 from granum.core.errors import ApplicabilityError
 from granum.fluidization import ranking
-from granum.fluidization.formulas import bubbles, expansion, freeboard, heat, minimum, regimes
+from granum.fluidization.formulas import bubbles, expansion, freeboard, heat, minimum, minimum_beds, minimum_powers, regimes
 
 SAND = {"particle_diameter": 2e-4, "particle_density": 2600.0, "fluid_density": 1.2, "dynamic_viscosity": 1.8e-5}
 
@@ -16,13 +16,13 @@ SAND = {"particle_diameter": 2e-4, "particle_density": 2600.0, "fluid_density": 
 def test_minimum_fluidization_of_printed_examples() -> None:
     # Kunii and Levenspiel, chapter 3: sharp irregular sand, measured and calculated 4.0 cm/s
     sharp = {**SAND, "particle_diameter": 1.6e-4}
-    assert minimum.minimum_fluidization_velocity_ergun(**sharp, void_fraction=0.55, sphericity=0.67) == pytest.approx(0.040, abs=5e-4)
+    assert minimum_beds.minimum_fluidization_velocity_ergun(**sharp, void_fraction=0.55, sphericity=0.67) == pytest.approx(0.040, abs=5e-4)
     # Coulson and Richardson, volume 2, example 6.1: 3 mm spheres of 4200 kg/m³ in a liquid: Re = 40.0, 0.0364 m/s
     heavy = {"particle_diameter": 3e-3, "particle_density": 4200.0, "fluid_density": 1100.0, "dynamic_viscosity": 3e-3}
-    assert minimum.minimum_fluidization_velocity_ergun(**heavy, void_fraction=0.4) == pytest.approx(0.0364, abs=1e-4)
+    assert minimum_beds.minimum_fluidization_velocity_ergun(**heavy, void_fraction=0.4) == pytest.approx(0.0364, abs=1e-4)
     # example 6.2: catalyst in oil, mass flux 0.059 kg/m² s
     oil = {"particle_diameter": 1e-4, "particle_density": 2600.0, "fluid_density": 900.0, "dynamic_viscosity": 3e-3}
-    assert 900 * minimum.minimum_fluidization_velocity_kozeny_carman(**oil, void_fraction=0.48) == pytest.approx(0.059, abs=1e-3)
+    assert 900 * minimum_beds.minimum_fluidization_velocity_kozeny_carman(**oil, void_fraction=0.48) == pytest.approx(0.059, abs=1e-3)
 
 
 def test_two_constant_forms_by_hand() -> None:
@@ -41,17 +41,17 @@ def test_two_constant_forms_by_hand() -> None:
 
 def test_leva_and_fine_powders() -> None:
     # the notes' general form at ε = 0.4, by hand: 0.005·0.064/0.6 = 5.333e-4 (the print says 0.006)
-    U = minimum.minimum_fluidization_velocity_leva(**{**SAND, "particle_diameter": 1e-4})
+    U = minimum_beds.minimum_fluidization_velocity_leva(**{**SAND, "particle_diameter": 1e-4})
     assert pytest.approx(5.3333e-4 * 1e-8 * 9.80665 * 2598.8 / 1.8e-5, rel=1e-4) == U
     # the two forms of one author agree within the usual 30 % at ε = 0.4
-    power = minimum.minimum_fluidization_velocity_leva_power(**{**SAND, "particle_diameter": 1e-4})
+    power = minimum_powers.minimum_fluidization_velocity_leva_power(**{**SAND, "particle_diameter": 1e-4})
     assert power == pytest.approx(9.30e-3 * 1e-4**1.82 * 2598.8**0.94 / (1.8e-5**0.88 * 1.2**0.06), rel=2e-3)  # converted by hand
     # Baeyens and Geldart: 9e-4 [gΔρ]^0.934 d^1.8/(η^0.87 ρ^0.066), the constant rounded
-    fine = minimum.minimum_fluidization_velocity_baeyens_geldart(**{**SAND, "particle_diameter": 6e-5})
+    fine = minimum_powers.minimum_fluidization_velocity_baeyens_geldart(**{**SAND, "particle_diameter": 6e-5})
     assert fine == pytest.approx(9e-4 * (9.80665 * 2598.8) ** 0.934 * 6e-5**1.8 / (1.8e-5**0.87 * 1.2**0.066), rel=1e-3)
-    assert fine < minimum.minimum_bubbling_velocity_abrahamsen_geldart(6e-5, 1.2, 1.8e-5)  # 60 µm is aeratable
+    assert fine < minimum_powers.minimum_bubbling_velocity_abrahamsen_geldart(6e-5, 1.2, 1.8e-5)  # 60 µm is aeratable
     # Riba: 2 mm glass in water by hand, Ga = 78 453, Mv = 1.5
-    riba = minimum.minimum_fluidization_velocity_riba(2e-3, 2500.0, 1000.0, 1e-3)
+    riba = minimum_powers.minimum_fluidization_velocity_riba(2e-3, 2500.0, 1000.0, 1e-3)
     assert riba == pytest.approx(0.0154 * 78453.2**0.66 * 1.5**0.7 * 5e-4, rel=1e-6)
 
 

@@ -11,7 +11,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Density, DynamicViscosity, Length, PositiveNumber, PressureDrop, Series, Speed, Sphericity, VoidFraction
-from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_ergun
+from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
 from granum.fluidization.formulas.regimes import grace_coordinates
 from granum.fluidization.ranking import denser, fluidization_regime, geldart_group
 from granum.particles.formulas.terminal import terminal_velocity

@@ -25,7 +25,7 @@ from granum.core.kinds import (
     VoidFraction,
 )
 from granum.core.units import format_number
-from granum.fluidization.formulas import freeboard, minimum, regimes
+from granum.fluidization.formulas import freeboard, minimum, minimum_beds, minimum_powers, regimes
 
 GEL_LIQUID = 100.0  # kg/m³: above it the fluid counts as a liquid
 GROUP_A_B, GROUP_B_D = 0.225, 1e-3  # kg/m² and kg/m, Geldart's lines 225 g/cm³ µm and 10⁶ g/cm³ µm²
@@ -80,7 +80,7 @@ def minimum_fluidization_spread(
     fluid = {"particle_diameter": particle_diameter, "particle_density": particle_density, "fluid_density": fluid_density,
              "dynamic_viscosity": dynamic_viscosity}  # fmt: skip
     rows = []
-    for name, law in sorted(vars(minimum).items()):
+    for name, law in [pair for module in (minimum, minimum_beds, minimum_powers) for pair in vars(module).items()]:
         if not name.startswith("minimum_fluidization_velocity_"):
             continue
         asked = {p.name for p in law.card.parameters}
@@ -198,8 +198,12 @@ def geldart_group(
         "B": _("sand-like: bubbles from minimum fluidization on"),
         "D": _("spoutable: large slow bubbles, spouts in a cone"),
     }
-    first = minimum.minimum_fluidization_velocity_baeyens_geldart(particle_diameter, particle_density, fluid_density, dynamic_viscosity)
-    bubbling = minimum.minimum_bubbling_velocity_abrahamsen_geldart(particle_diameter, fluid_density, dynamic_viscosity, fines_fraction)
+    first = minimum_powers.minimum_fluidization_velocity_baeyens_geldart(
+        particle_diameter, particle_density, fluid_density, dynamic_viscosity
+    )
+    bubbling = minimum_powers.minimum_bubbling_velocity_abrahamsen_geldart(
+        particle_diameter, fluid_density, dynamic_viscosity, fines_fraction
+    )
     return GeldartGroup(group, words[group], borders, bubbling / first)
 
 

@@ -22,7 +22,7 @@ from granum.core.kinds import (
     VoidFraction,
     Within,
 )
-from granum.fluidization.formulas.minimum import archimedes, excess
+from granum.fluidization.formulas.buoyancy import archimedes, excess
 
 LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
 BED = {"mass": (40.0, 60.0), "area": (0.05, 0.1), "length": (0.8, 1.2), "height": (0.8, 1.2)}

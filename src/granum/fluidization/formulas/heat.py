@@ -23,7 +23,7 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )
-from granum.fluidization.formulas.minimum import TYPICAL, archimedes
+from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
 
 GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity": (700.0, 1200.0)}
 

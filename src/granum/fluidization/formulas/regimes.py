@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Speed
-from granum.fluidization.formulas.minimum import TYPICAL, archimedes
+from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
 
 WIDE = {**TYPICAL, "superficial_velocity": (0.02, 2.0)}
 
