@@ -226,8 +226,18 @@ def serve(port: Annotated[int, typer.Option(help="Port; 0 takes a free one.")] =
     start(host, port, browser, workspace)
 
 
+def _keep_compiled_code() -> None:
+    """The second run of a line skips the compiler: what JAX compiles stays in the user's cache folder, oldest out beyond 512 MB."""
+    from platformdirs import user_cache_path
+
+    os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(user_cache_path("granum") / "compiled"))
+    os.environ.setdefault("JAX_COMPILATION_CACHE_MAX_SIZE", "512_000_000")
+    os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.2")
+
+
 def main() -> None:
     """Entry point of the ``granum`` command."""
+    _keep_compiled_code()
     app()
 
 
