@@ -10,13 +10,9 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Area, Distance, Fraction, Law, Length, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
-from granum.fluidization.formulas.bubbles import (
-    bubble_diameter_darton,
-    bubble_fraction_davidson_harrison,
-    bubble_rise_velocity_davidson_harrison,
-)
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
+from granum.fluidization.formulas.two_phase import two_phase_bed
 from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.terminal import terminal_velocity
@@ -24,6 +20,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 LEAST = 1e-12
+GAS_DIFFUSIVITY = 2.5e-5  # m²/s, of water vapor in air near 20 °C: the bypass is that of a dryer
 
 
 class BedOutlets(NamedTuple):
@@ -41,7 +38,8 @@ class BedFigures(NamedTuple):
     pressure_drop: PressureDrop
     bubble_diameter: Length
     bubble_fraction: Fraction
-    height: Distance
+    height_expanded: Distance
+    bypass_fraction: Fraction
     disengaging_height: Length
     entrained_share: Fraction
 
@@ -111,11 +109,10 @@ class FluidizedBed(Unit):
         feed = inlets["feed"]
         U, first = self._velocity(feed), self._minimum(feed)
         settled = self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
-        bubble = jnp.minimum(bubble_diameter_darton(U, first, 0.5 * settled, 1e-4), jnp.sqrt(4.0 * self.area / jnp.pi))
-        share = bubble_fraction_davidson_harrison(U, first, bubble_rise_velocity_davidson_harrison(U, first, bubble))
+        bed = two_phase_bed(U, first, settled, GAS_DIFFUSIVITY, self.void_fraction, diameter=jnp.sqrt(4.0 * self.area / jnp.pi))
         return BedFigures(
-            U, first, self._drop(feed), bubble, share, settled / (1.0 - share), disengaging_height_smolders(U, first, bubble),
-            safe_divide(outlets.gas.solid_flow, feed.solid_flow),
+            U, first, self._drop(feed), bed.bubble_diameter, bed.bubble_fraction, bed.height_expanded, bed.bypass_fraction,
+            disengaging_height_smolders(U, first, bed.bubble_diameter), safe_divide(outlets.gas.solid_flow, feed.solid_flow),
         )  # fmt: skip
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> tuple[Check, ...]:

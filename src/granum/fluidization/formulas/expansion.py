@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
@@ -18,11 +18,15 @@ from granum.core.kinds import (
     Mass,
     PositiveNumber,
     PressureDrop,
+    Ratio,
+    Series,
     Speed,
     VoidFraction,
     Within,
 )
 from granum.fluidization.formulas.buoyancy import archimedes, excess
+from granum.particles.formulas.hindered import settling_exponent_richardson_zaki
+from granum.particles.formulas.terminal import terminal_velocity
 
 LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
 BED = {"mass": (40.0, 60.0), "area": (0.05, 0.1), "length": (0.8, 1.2), "height": (0.8, 1.2)}
@@ -137,3 +141,45 @@ def bed_void_fraction_from_pressure_drop(
     0.4
     """
     return 1.0 - pressure_drop / (height * gravity * excess(particle_density, fluid_density))
+
+
+class GradedBed(NamedTuple):
+    """Expansion of a bed of graded grains, layer by layer."""
+
+    bed_void_fraction: Annotated[Fraction, Series("classes")]
+    height_expanded: Length
+    bed_expansion: Ratio
+
+
+@formula(source="richardson1954; fair1933",
+         equation=r"\varepsilon_i = (U/v_{t,i})^{1/n_i},\quad H = H_0(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i}",
+         typical={"superficial_velocity": (0.005, 0.012), "particle_density": (2500.0, 2700.0), "fluid_density": (990.0, 1000.0),
+                  "dynamic_viscosity": (8e-4, 1.5e-3), "void_fraction_settled": (0.38, 0.45), "class_sizes": (5e-4, 1.5e-3)})  # fmt: skip
+def graded_bed_expansion(
+    class_sizes: Annotated[Length, Series("classes")],
+    class_fractions: Annotated[Fraction, Series("classes")],
+    height: Length,
+    superficial_velocity: Speed,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    void_fraction_settled: VoidFraction = 0.42,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> GradedBed:
+    """Expansion of a liquid-fluidized bed of graded grains that lie in layers, as a sand filter under backwash.
+
+    Each class expands by Richardson and Zaki; a class not yet fluidized keeps the settled void fraction. Fractions by mass. Height is
+    that of the settled bed.
+
+    >>> x = graded_bed_expansion(class_sizes=[0.5e-3, 1e-3], class_fractions=[0.5, 0.5], height=0.7, superficial_velocity="36 m/hour",
+    ...                          particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
+    >>> bool(x.bed_void_fraction[0] > x.bed_void_fraction[1]), 0.0 < x.bed_expansion < 1.0
+    (True, True)
+    """
+    d, share = jnp.asarray(class_sizes), jnp.asarray(class_fractions)
+    heavy = excess(particle_density, fluid_density)
+    fall = terminal_velocity(d, fluid_density + heavy, fluid_density, dynamic_viscosity, gravity=gravity)
+    n = settling_exponent_richardson_zaki(fluid_density * fall * d / dynamic_viscosity)
+    e = jnp.maximum(_carried((superficial_velocity / fall) ** (1.0 / n)), void_fraction_settled)
+    expanded = height * (1.0 - void_fraction_settled) * jnp.sum(share / (1.0 - jnp.minimum(e, 0.999))) / jnp.sum(share)
+    return GradedBed(e, expanded, expanded / height - 1.0)

@@ -1,0 +1,104 @@
+"""A bed fluidized by a liquid: expansion, pressure drop, limits. Ion exchangers, backwashed filters, growing crystals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Area, Density, Fraction, Length, Mass, PressureDrop, Speed, VoidFraction
+from granum.fluidization.formulas.expansion import (
+    bed_void_fraction_richardson_zaki,
+    pressure_drop_fluidized_bed,
+)
+from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
+from granum.particles.formulas.hindered import settling_exponent_richardson_zaki
+from granum.particles.formulas.terminal import terminal_velocity
+from granum.porous.formulas.packed_beds import pressure_gradient_ergun
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+LEAST, FULLEST = 1e-12, 0.999
+
+
+class LiquidOutlets(NamedTuple):
+    """The liquid above the bed."""
+
+    liquid: Stream
+
+
+class LiquidBedFigures(NamedTuple):
+    """Figures of a liquid-fluidized bed."""
+
+    superficial_velocity: Speed
+    minimum_fluidization_velocity: Speed
+    terminal_velocity: Speed
+    bed_void_fraction: Fraction
+    height_settled: Length
+    height_expanded: Length
+    pressure_drop: PressureDrop
+
+
+@equipment("liquid_fluidized_bed", source="richardson1954; ergun1952; kunii1991, ch. 3", title="Liquid-fluidized bed",
+           typical={"particle_density": (2400.0, 2700.0)})  # fmt: skip
+class LiquidFluidizedBed(Unit):
+    """Bed of equal grains fluidized upwards by the liquid of a stream: expansion, pressure drop, and what would be carried off.
+
+    The grains stay and are no part of the stream; the void fraction is that of the settled bed, below which the bed does not contract.
+    For graded grains see ``graded_bed_expansion``. The pressure of the liquid falls by the buoyant weight of the grains.
+    """
+
+    area: Area
+    mass: Mass
+    particle_diameter: Length
+    particle_density: Density
+    void_fraction: VoidFraction = 0.42
+
+    @classmethod
+    def size(cls, liquid_volume_flow: Any, bed_void_fraction: Any, terminal_velocity: Any, settling_exponent: Any, mass: Any,
+             particle_diameter: Any, particle_density: Any, **more: Any) -> LiquidFluidizedBed:  # fmt: skip
+        """The bed whose section expands it to a void fraction: U = v_t ε^n."""
+        area = liquid_volume_flow / (terminal_velocity * bed_void_fraction**settling_exponent)
+        return cls(area, mass, particle_diameter, particle_density, **more)
+
+    def __call__(self, feed: Stream) -> LiquidOutlets:
+        return LiquidOutlets(feed.replace(pressure=jnp.maximum(feed.pressure - self._drop(feed), 1.0)))
+
+    def _velocity(self, feed: Stream) -> Any:
+        return jnp.maximum(feed.slurry_volume_flow / self.area, LEAST)
+
+    def _drop(self, feed: Stream) -> Any:
+        """Ergun's pressure drop of the settled bed, at most the buoyant weight over the section."""
+        d, density, rho, eta = self._fluid(feed)
+        fixed = pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta) * self._settled
+        return jnp.minimum(fixed, pressure_drop_fluidized_bed(self.mass, self.area, density, rho))
+
+    @property
+    def _settled(self) -> Any:
+        return self.mass / (self.particle_density * (1.0 - self.void_fraction) * self.area)
+
+    def _fluid(self, feed: Stream) -> tuple[Any, Any, Any, Any]:
+        return self.particle_diameter, self.particle_density, feed.liquid_density, feed.liquid_viscosity
+
+    def results(self, inlets: Mapping[str, Stream], outlets: LiquidOutlets) -> LiquidBedFigures:
+        feed = inlets["feed"]
+        U, fluid = self._velocity(feed), self._fluid(feed)
+        first = minimum_fluidization_velocity_ergun(*fluid, self.void_fraction)
+        fall = terminal_velocity(*fluid)
+        n = settling_exponent_richardson_zaki(feed.liquid_density * jnp.abs(fall) * self.particle_diameter / feed.liquid_viscosity)
+        e = jnp.maximum(bed_void_fraction_richardson_zaki(U, jnp.abs(fall), n), self.void_fraction)
+        settled = self._settled
+        expanded = settled * (1.0 - self.void_fraction) / (1.0 - jnp.minimum(e, FULLEST))
+        return LiquidBedFigures(U, first, fall, e, settled, expanded, self._drop(feed))
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: LiquidOutlets) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        found = self.results(inlets, outlets)
+        U = self._velocity(feed)
+        return (
+            Check("liquid velocity over minimum fluidization velocity", U / found.minimum_fluidization_velocity, 1.0, 1e3, "dimensionless",
+                  "kunii1991"),
+            Check("liquid velocity over terminal velocity", U / found.terminal_velocity, 0.0, 1.0, "dimensionless", "richardson1954"),
+        )  # fmt: skip

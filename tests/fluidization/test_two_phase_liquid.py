@@ -1,0 +1,86 @@
+"""Two-phase theory against its differential balance, graded expansion by hand, the liquid bed against a printed example."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum.fluidization.equipment.liquid import LiquidFluidizedBed
+from granum.fluidization.formulas import expansion, two_phase
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import empty
+
+
+def test_two_phase_bed_by_hand_and_limits() -> None:
+    # Darton, u_b = U - Umf + 0.711 (g d)^½, exchange of Kunii and Levenspiel, summed by trapezoids; catchment area 1 cm²
+    found = two_phase.two_phase_bed(0.5, 0.1, 0.3, 2.5e-5, 0.45, 1e-4)
+    g, z = 9.80665, np.linspace(0.0, 0.3, 40001)
+    d = 0.54 * 0.4**0.4 * (z + 0.04) ** 0.8 / g**0.2
+    u = 0.4 + 0.711 * (g * d) ** 0.5
+    K_bc = 4.5 * 0.1 / d + 5.85 * 2.5e-5**0.5 * g**0.25 / d**1.25
+    K_ce = 6.77 * (0.45 * 2.5e-5 * 0.711 * (g * d) ** 0.5 / d**3) ** 0.5
+    K, share = 1 / (1 / K_bc + 1 / K_ce), 0.4 / u
+    X, H = np.trapezoid(K / u / (1 - share), z), np.trapezoid(1 / (1 - share), z)
+    half = 20000
+    np.testing.assert_allclose(found, [d[half], u[half], share[half], H, K[half], X, 0.8 * np.exp(-X)], rtol=1e-6)
+    # deeper beds and faster diffusion bypass less; a narrow vessel cannot hold larger bubbles
+    assert two_phase.two_phase_bed(0.5, 0.1, 0.6, 2.5e-5).transfer_units > found.transfer_units
+    assert two_phase.two_phase_bed(0.5, 0.1, 0.3, 1e-4).bypass_fraction < found.bypass_fraction
+    assert two_phase.two_phase_bed(0.5, 0.1, 2.0, 2.5e-5, diameter=0.1).bubble_diameter == pytest.approx(0.1)
+
+
+def test_davidson_harrison_closes_the_balance() -> None:
+    # bubbles: dc_b/dz = -X (c_b - c_p); emulsion: U_mf (1 - c_p) + gas exchanged = k H c_p, by midpoint sums
+    U, first, X, k, H = 0.5, 0.2, 1.3, 2.0, 0.4
+    B = (1 - first / U) * np.exp(-X)
+    c = two_phase.unconverted_fraction_davidson_harrison(B, k, H, U)
+    steps = 20000
+    z = (np.arange(steps) + 0.5) / steps
+
+    def residual(c_p):
+        c_b = c_p + (1 - c_p) * np.exp(-X * z)
+        exchanged = (U - first) * X * np.mean(c_b - c_p)
+        return first * (1 - c_p) + exchanged - k * H * c_p
+
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if residual(middle) > 0 else (low, middle)
+    leaving = (first * low + (U - first) * (low + (1 - low) * np.exp(-X))) / U
+    assert c == pytest.approx(leaving, rel=1e-7)
+
+
+def test_graded_bed() -> None:
+    # one class is Richardson and Zaki's bed; mass is kept; a class that does not move keeps the settled void fraction
+    sand = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
+    one = expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, **sand)
+    assert one.height_expanded * (1 - one.bed_void_fraction[0]) == pytest.approx(0.7 * 0.58, rel=1e-9)
+    # by hand: Schiller and Naumann's sphere of 0.6 mm falls at 0.095 m/s: 24·57·3.412 = 4668 against 4660; n = 4.45·57^-0.1
+    assert one.bed_void_fraction[0] == pytest.approx((0.01 / 0.095) ** (1 / 2.970), rel=0.005)
+    both = expansion.graded_bed_expansion(np.array([6e-4, 5e-3]), np.array([0.25, 0.75]), 0.7, 0.01, **sand)
+    assert both.bed_void_fraction[1] == pytest.approx(0.42)
+    assert both.bed_expansion == pytest.approx(0.25 * one.bed_expansion, rel=1e-9)
+    assert np.isnan(expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, 900.0, 1000.0, 1e-3).bed_expansion)
+
+
+def test_liquid_bed_of_coulson_and_richardson() -> None:
+    # example 6.1: 3 mm glass-like spheres of 4200 kg/m³, liquid of 1100 kg/m³ and 3 mPa s: U_mf = 0.0364 m/s
+    oil = Mixture(solids=(), liquids=(Species("liquid", (("liquid", 1.0),), (1100.0,), (2000.0,)),), gases=(), size_edges=(1e-5, 1e-3),
+                  liquid_viscosity=lambda w, T: 3e-3)  # fmt: skip
+    bed = LiquidFluidizedBed(area=0.01, mass=10.0, particle_diameter=3e-3, particle_density=4200.0, void_fraction=0.4)
+    weight = 10 * 9.80665 * (1 - 1100 / 4200) / 0.01
+    drops = []
+    for U in (0.01, 0.0364, 0.1, 0.2):
+        feed = empty(oil).replace(liquid=jnp.array([1100.0 * U * 0.01]), pressure=jnp.asarray(2e5))
+        out = bed(feed)
+        figures = bed.results({"feed": feed}, out)
+        assert figures.minimum_fluidization_velocity == pytest.approx(0.0364, abs=1e-4)
+        assert figures.height_expanded * (1 - figures.bed_void_fraction) == pytest.approx(figures.height_settled * 0.6)
+        assert float(feed.pressure - out.liquid.pressure) == pytest.approx(float(figures.pressure_drop))
+        drops.append(float(figures.pressure_drop))
+        assert [c.ok for c in bed.checks({"feed": feed}, out)] == [U > 0.0364, True]
+    assert drops[0] < drops[1] == pytest.approx(weight, rel=2e-3)
+    assert drops[2:] == pytest.approx([weight, weight])
+    sized = LiquidFluidizedBed.size(1e-3, 0.7, 0.36, 2.4, 10.0, 3e-3, 4200.0)
+    assert 1e-3 / sized.area == pytest.approx(0.36 * 0.7**2.4)
