@@ -168,14 +168,27 @@ def pretty_unit(unit: str) -> str:
     return text.replace("*", "·")
 
 
+CUSTOMARY = frozenset(
+    ("inch", "ft", "ft^2", "ft^3", "lb", "lb/hour", "gallon/min", "ft/s", "lb/ft^3", "psi", "mmHg", "degF", "kcal", "kcal/hour", "kcal/kg")
+)
+"""Units that people type and that are never chosen to print a value."""
+
+
 def best_unit(value: float, kind: Kind) -> str:
-    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred."""
-    units = kind.units
+    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred, then one below 1000.
+
+    Customary units are offered for typing, not chosen for printing.
+    """
+    units = [u for u in kind.units if u not in CUSTOMARY] or list(kind.units)
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
-    for unit in units:
-        if 0.1 <= abs(from_si(value, unit, kind)) < 10_000:
-            return unit
+    sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
+    if 0.1 <= sizes[units[0]] < 10_000:
+        return units[0]
+    for low, high in ((1.0, 1_000), (0.1, 10_000)):
+        for unit in units:
+            if low <= sizes[unit] < high:
+                return unit
     return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
 
 

@@ -40,7 +40,7 @@ class _Load(NamedTuple):
     cut: Length
 
 
-@equipment("vibrating_screen", source="karra1979; king2012, section 4.2.3", title="Vibrating screen (Karra)")
+@equipment("vibrating_screen", source="karra1979; king2012", title="Vibrating screen (Karra)")
 class VibratingScreen(Unit):
     """A deck of given area: the more undersize it is fed, the finer it cuts. The cut size never exceeds the aperture.
 

@@ -50,7 +50,7 @@ _WET = ((0.0, 1.0), (1.0, 1.0), (2.0, 2.0), (4.0, 2.5), (6.0, 2.5), (10.0, 2.0),
 
 
 @formula(
-    source="karra1979; king2012, section 4.2.3",
+    source="karra1979; king2012",
     equation=r"\dot m''_U = A\,B\,C\,D\,E\,F\,G,\quad A = 12.1286\,h_T^{0.3162} - 10.2991\ (h_T < 50.8),\ 0.3388\,h_T + 14.4122;\quad"
     r" G = 0.844\,(1 - X_n)^{3.453}\qquad h_T\ \text{in mm},\ \mathrm{t\,h^{-1}\,m^{-2}}",
     fitted={"throughfall_aperture": (1e-3, 0.1)},
@@ -86,7 +86,7 @@ def screening_capacity_karra(
     return jnp.maximum(A, 0.0) * factors * 0.844 * (1.0 - X) ** 3.453 * TONNE_PER_HOUR
 
 
-@formula(source="karra1979; king2012, section 4.2.3", equation=r"\frac{d_{50}}{h_T} = \left(\frac{\dot m''}{\dot m''_U}\right)^{-0.148}",
+@formula(source="karra1979; king2012", equation=r"\frac{d_{50}}{h_T} = \left(\frac{\dot m''}{\dot m''_U}\right)^{-0.148}",
          typical={"mass_flux_undersize": (1.0, 8.0), "screening_capacity": (1.0, 8.0), "throughfall_aperture": (3e-3, 5e-2)})  # fmt: skip
 def cut_size_karra(throughfall_aperture: Length, mass_flux_undersize: MassFlux, screening_capacity: MassFlux) -> Length:
     """Size that half passes a loaded vibrating screen: the more undersize per area, the finer the cut.
