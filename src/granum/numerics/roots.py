@@ -81,10 +81,13 @@ def find_root(
     def equation(x: jax.Array) -> jax.Array:
         return jnp.asarray(function(x, *args), dtype=x.dtype)
 
+    # Python runs the function once here; what follows replays the trace, which matters where roots are nested.
+    traced, closed_over = jax.closure_convert(equation, guess)
+
     def search(f: Callable, initial: jax.Array) -> tuple[jax.Array, tuple]:
         return _search(f, lower, upper, initial, tolerance, max_steps)
 
-    value, (status, steps) = lax.custom_root(equation, guess, search, _divide_by_slope, has_aux=True)
+    value, (status, steps) = lax.custom_root(lambda x: traced(x, *closed_over), guess, search, _divide_by_slope, has_aux=True)
     value = jnp.where(status >= 0, value, jnp.nan)
     return Root(value, status > 0, steps.astype(int), lax.stop_gradient(equation(value)))
 
@@ -97,37 +100,46 @@ def _divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
 
 def _search(f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int) -> tuple[jax.Array, tuple]:
     """Roots, with status 1 found, 0 kept but not found, -1 no root; and the number of passes."""
-    ends = jax.vmap(f)(jnp.stack([jnp.broadcast_to(end, guess.shape) for end in (lower, upper)]))
-    at_lower, at_upper = ends[0] == 0, ends[1] == 0
-    # A product of the two would underflow to zero.
-    crossing = jnp.where(ends[0] < 0, ends[1] > 0, (ends[0] > 0) & (ends[1] < 0))
-    crossing = crossing & jnp.isfinite(lower) & jnp.isfinite(upper)
-    inside = (guess - lower) * (guess - upper) < 0
-    x = jnp.where(inside, guess, _middle(lower, upper))
-    x = jnp.where(at_lower, lower, jnp.where(at_upper, upper, x))
     floor = jnp.minimum(abs(lower), abs(upper))
 
     def slack(x: jax.Array) -> jax.Array:
         return tolerance * jnp.maximum(abs(x), floor)
 
-    status = jnp.where(at_lower | at_upper, 1, jnp.where(crossing, OPEN, -1)).astype(jnp.int8)
-    if x.size < LARGE:
-        x, status, steps = _safe(f, lower, upper, ends, x, status, jnp.zeros((), x.dtype), slack, most)
+    lower, upper = jnp.broadcast_to(lower, guess.shape), jnp.broadcast_to(upper, guess.shape)
+    if guess.size < LARGE:  # the ends are the first two passes of the one loop, so that the function is compiled once
+        nothing = jnp.zeros_like(guess)
+        carry = (lower, lower, upper, nothing, nothing, jnp.full(guess.shape, OPEN, jnp.int8), jnp.zeros((), guess.dtype))
+        x, status, steps = _safe(f, lower, upper, guess, carry, slack, most)
         return x, (status.astype(x.dtype), steps)
+    ends = jax.vmap(f)(jnp.stack([lower, upper]))
+    x, status, below, above = _bracketed(lower, upper, ends[0], ends[1], guess)
+    crossing = status == OPEN
     x, lost, steps = _newton(f, lower, upper, x, crossing, slack, min(FAST_STEPS, most))
     # A small step is no proof: the function may turn away within it.
     low, high = jnp.minimum(lower, upper), jnp.maximum(lower, upper)
     around = jnp.sign(jax.vmap(f)(jnp.clip(jnp.stack([x - slack(x), x + slack(x)]), low, high)))
     failed = lost | (crossing & ~(around[0] * around[1] <= 0))
-    status = jnp.where(at_lower | at_upper | crossing, 1, -1).astype(jnp.int8)
-    status = jnp.where(failed, OPEN, status)
-    x, status, steps = lax.cond(
-        jnp.any(failed),
-        lambda x, status, steps: _safe(f, lower, upper, ends, x, status, steps, slack, most),
-        lambda *found: found,
-        *(x, status, steps),
-    )
+    status = jnp.where(failed, OPEN, jnp.where(crossing, 1, status)).astype(jnp.int8)
+    ceiling = jnp.maximum(abs(ends[0]), abs(ends[1]))
+
+    def again(x: jax.Array, status: jax.Array, steps: jax.Array) -> tuple:
+        return _safe(f, lower, upper, guess, (x, below, above, ceiling, abs(upper - lower), status, steps + 2), slack, most)
+
+    x, status, steps = lax.cond(jnp.any(failed), again, lambda *found: found, *(x, status, steps))
     return x, (status.astype(x.dtype), steps)
+
+
+def _bracketed(lower: jax.Array, upper: jax.Array, first: jax.Array, second: jax.Array, guess: jax.Array) -> tuple:
+    """Where to start, the status so far, and the ends where the function is below and above zero."""
+    at_lower, at_upper = first == 0, second == 0
+    # A product of the two would underflow to zero.
+    crossing = jnp.where(first < 0, second > 0, (first > 0) & (second < 0))
+    crossing = crossing & jnp.isfinite(lower) & jnp.isfinite(upper)
+    inside = (guess - lower) * (guess - upper) < 0
+    x = jnp.where(inside, guess, _middle(lower, upper))
+    x = jnp.where(at_lower, lower, jnp.where(at_upper, upper, x))
+    status = jnp.where(at_lower | at_upper, 1, jnp.where(crossing, OPEN, -1)).astype(jnp.int8)
+    return x, status, jnp.where(first < 0, lower, upper), jnp.where(first < 0, upper, lower)
 
 
 def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
@@ -161,29 +173,26 @@ def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
     return x, size > 0, steps
 
 
-def _safe(f, lower, upper, ends, x, status, steps, slack, most) -> tuple:
+def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
     """Newton or bisection in a shrinking bracket; in the end, bisection of the numbers themselves.
 
-    It ends only when the bracket itself is narrow. Newton's method comes from one side and would
-    leave the other end where it is, so its small steps go a little too far on purpose.
+    Passes 0 and 1 evaluate the ends; a carry that knows them starts at 2. It ends only when the bracket itself is narrow. Newton's
+    method comes from one side and would leave the other end where it is, so its small steps go a little too far on purpose.
     """
-    below = jnp.where(ends[0] < 0, lower, upper)
-    above = jnp.where(ends[0] < 0, upper, lower)
-    ceiling = jnp.maximum(abs(ends[0]), abs(ends[1]))
 
-    def judge(y: jax.Array, small: jax.Array) -> jax.Array:
+    def judge(y: jax.Array, small: jax.Array, ceiling: jax.Array) -> jax.Array:
         # A pole changes sign too, but the function grows towards it.
         closed = jnp.where(abs(y) <= ceiling, 1, 0)
         result = jnp.where(y == 0, 1, jnp.where(small, closed, OPEN))
         return jnp.where(jnp.isnan(y), -1, result).astype(jnp.int8)
 
     def advance(carry: tuple) -> tuple:
-        x, below, above, size, status, steps = carry
+        x, below, above, ceiling, size, status, steps = carry
         y, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
         low, high = jnp.where(y < 0, x, below), jnp.where(y > 0, x, above)
         ahead = x - y / slope
         within = ((ahead - low) * (ahead - high) <= 0) & (abs(slope) < jnp.inf)
-        late = steps >= GUARDED_STEPS
+        late = steps >= GUARDED_STEPS + 2
         middle = jnp.where(late, _middle_number(low, high), _middle(low, high))
         narrow = abs(high - low) <= 2.0 * slack(middle)
         fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
@@ -192,23 +201,24 @@ def _safe(f, lower, upper, ends, x, status, steps, slack, most) -> tuple:
         overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
         following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
         exhausted = ~fast & ((middle == low) | (middle == high))
-        result = judge(y, narrow | exhausted)
+        result = judge(y, narrow | exhausted, ceiling)
         going = status == OPEN
-        return (
-            jnp.where(going & (y != 0), following, x),
-            jnp.where(going, low, below),
-            jnp.where(going, high, above),
-            abs(following - x),
-            jnp.where(going, result, status),
-            steps + 1,
-        )
+        onward = (
+            jnp.where(going & (y != 0), following, x), jnp.where(going, low, below), jnp.where(going, high, above), ceiling,
+            abs(following - x), jnp.where(going, result, status),
+        )  # fmt: skip
+        # At the first end `ceiling` keeps the value there for the second.
+        start, begun, under, over = _bracketed(lower, upper, ceiling, y, guess)
+        first_end = (upper, below, above, y, size, status)
+        second_end = (start, under, over, jnp.maximum(abs(ceiling), abs(y)), abs(upper - lower), begun)
+        chosen = tuple(jnp.where(steps == 0, a, jnp.where(steps == 1, b, c)) for a, b, c in zip(first_end, second_end, onward, strict=True))
+        return *chosen, steps + 1
 
     def unfinished(carry: tuple) -> jax.Array:
-        return jnp.any(carry[4] == OPEN) & (carry[5] < most)
+        return jnp.any(carry[5] == OPEN) & (carry[6] < most + 2)
 
-    size = jnp.broadcast_to(abs(upper - lower), x.shape)
-    x, _, _, _, status, steps = lax.while_loop(unfinished, advance, (x, below, above, size, status, steps))
-    return x, jnp.where(status == OPEN, 0, status).astype(jnp.int8), steps
+    x, _, _, _, _, status, steps = lax.while_loop(unfinished, advance, carry)
+    return x, jnp.where(status == OPEN, 0, status).astype(jnp.int8), steps - 2
 
 
 def _middle(first: jax.Array, second: jax.Array) -> jax.Array:
