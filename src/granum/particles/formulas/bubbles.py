@@ -179,13 +179,8 @@ def terminal_velocity_grace(
 ) -> GraceVelocity:
     """Terminal velocity of deformed drops and bubbles in liquids that are not surface-clean, by Grace, Wairegi and Nguyen.
 
-    0.1343
-    2.54
-    1.714
-    1.73
-    10.9
-        For ellipsoidal globules above about 1 mm; 15 % root-mean-square deviation. In thoroughly purified systems they go faster.
-        Below H = 2 the globule is a sphere: use the drag laws or Hadamard's factor.
+    For ellipsoidal globules above about 1 mm; 15 % root-mean-square deviation. In thoroughly purified systems they go faster.
+    Below H = 2 the globule is a sphere: use the drag laws or Hadamard's factor.
 
     >>> found = terminal_velocity_grace(particle_diameter="5 mm", particle_density=1.2, fluid_density=998, dynamic_viscosity="1 cP",
     ...                                 surface_tension="72.8 mN/m")
@@ -238,7 +233,7 @@ def terminal_velocity_davies_taylor(
 ) -> Velocity:
     """Terminal velocity of a large spherical-cap bubble or drop by Davies and Taylor, on the volume-equivalent diameter.
 
-        Eötvös number above 40 and Reynolds number above 150.
+    Eötvös number above 40 and Reynolds number above 150.
 
     >>> round(terminal_velocity_davies_taylor(particle_diameter="20 mm", particle_density=1.2, fluid_density=998), 3)
     -0.315

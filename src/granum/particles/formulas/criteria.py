@@ -126,10 +126,8 @@ def terminal_velocity_by_regime(
 ) -> FallByRegime:
     """Terminal velocity by Stokes, Allen or Newton, whichever the criterion X selects; positive downwards.
 
-        The hand method of the courses. It jumps by a factor 1.9 at X = 4.8, where Allen's law is far too low in drag.
-        Differs from the print: the course gives Newton's velocity as √(3 g (ρ_p/ρ_f − 1) d); 3 stands for 4/(3·0.44) = 3.03.
-
-    0.2
+    The hand method of the courses. It jumps by a factor 1.9 at X = 4.8, where Allen's law is far too low in drag.
+    Differs from the print: the course gives Newton's velocity as √(3 g (ρ_p/ρ_f − 1) d); 3 stands for 4/(3·0.44) = 3.03.
 
     >>> found = terminal_velocity_by_regime(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
     >>> round(1000 * found.terminal_velocity, 3), round(found.velocity_criterion, 2)
@@ -165,9 +163,6 @@ def terminal_diameter_by_regime(
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> SizeByRegime:
     """Diameter of the particle with a given terminal speed by Stokes, Allen or Newton, whichever the criterion Y selects.
-
-    0.2
-    500.0
 
     >>> found = terminal_diameter_by_regime(velocity="2.247 mm/s", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
     >>> round(1e6 * found.terminal_diameter, 1), round(found.diameter_criterion, 6)

@@ -84,7 +84,7 @@ def drag_coefficient_turton_levenspiel(reynolds: PositiveNumber) -> PositiveNumb
 def drag_coefficient_cheng(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere, fitted to the data that Brown and Lawler freed of the wall effect.
 
-        Stated mean error 2.5 %.
+    Stated mean error 2.5 %.
 
     >>> round(drag_coefficient_cheng(reynolds=200.0), 4)
     0.7939
@@ -103,7 +103,7 @@ def drag_coefficient_cheng(reynolds: PositiveNumber) -> PositiveNumber:
 def drag_coefficient_barati(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere, found by genetic programming on the corrected measurements.
 
-        Stated sum of squared errors smaller than that of 20 other laws.
+    Stated sum of squared errors smaller than that of 20 other laws.
 
     >>> round(drag_coefficient_barati(reynolds=200.0), 4)
     0.7682
@@ -128,7 +128,7 @@ def drag_coefficient_barati(reynolds: PositiveNumber) -> PositiveNumber:
 def drag_coefficient_mikhailov_freire(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere, a rational function from Goldstein's series by a Shanks transform.
 
-        Beyond its range it has a pole, near Re = 990 000; there it is held at its last fitted slope.
+    Beyond its range it has a pole, near Re = 990 000; there it is held at its last fitted slope.
 
     >>> round(drag_coefficient_mikhailov_freire(reynolds=200.0), 4)
     0.7514
@@ -147,8 +147,8 @@ def drag_coefficient_mikhailov_freire(reynolds: PositiveNumber) -> PositiveNumbe
 def drag_coefficient_khan_richardson(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere by two added powers of the Reynolds number.
 
-        The form C_D = 2 R'/(ρu²) of the original's R'/(ρu²) = (1.84 Re^-0.31 + 0.293 Re^0.06)^3.45 as later refitted. It does not
-        tend to Stokes' law: 10 % off at Re = 1e-3 and more below.
+    The form C_D = 2 R'/(ρu²) of the original's R'/(ρu²) = (1.84 Re^-0.31 + 0.293 Re^0.06)^3.45 as later refitted. It does not
+    tend to Stokes' law: 10 % off at Re = 1e-3 and more below.
 
     >>> round(drag_coefficient_khan_richardson(reynolds=200.0), 4)
     0.7748
@@ -184,7 +184,7 @@ def drag_coefficient_swamee_ojha(reynolds: PositiveNumber) -> PositiveNumber:
 def drag_coefficient_flemmer_banks(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere by Flemmer and Banks.
 
-        It falls far below the measured drag beyond its range (45 % at Re = 200 000).
+    It falls far below the measured drag beyond its range (45 % at Re = 200 000).
 
     >>> round(drag_coefficient_flemmer_banks(reynolds=200.0), 3)
     0.747
@@ -261,7 +261,7 @@ def drag_coefficient_almedeij(reynolds: PositiveNumber) -> PositiveNumber:
 def drag_coefficient_clift_grace_weber(reynolds: PositiveNumber) -> PositiveNumber:
     """Standard drag curve of a smooth sphere, ten expressions over the whole range with the drag crisis.
 
-        The usual reference for rigid spheres; the pieces meet within 1 %.
+    The usual reference for rigid spheres; the pieces meet within 1 %.
 
     >>> round(drag_coefficient_clift_grace_weber(reynolds=200.0), 4)
     0.7756
@@ -308,7 +308,7 @@ MORSI = (
 def drag_coefficient_morsi_alexander(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere by eight quadratics in 1/Re, common in programs that track particles.
 
-        Jumps of up to 2 % where the ranges meet.
+    Jumps of up to 2 % where the ranges meet.
 
     >>> round(drag_coefficient_morsi_alexander(reynolds=200.0), 4)
     0.7866

@@ -44,8 +44,8 @@ def drag_coefficient_haider_levenspiel(reynolds: PositiveNumber, sphericity: Sph
 def drag_coefficient_ganser(reynolds: PositiveNumber, sphericity: Sphericity = 1.0) -> PositiveNumber:
     """Drag coefficient of an isometric particle of any sphericity by Ganser's similarity of Stokes and Newton regimes.
 
-        The range holds for Re·K₁·K₂. Fitted to all shapes at once it is up to 26 % below the measured drag of a sphere near Re = 100;
-        a sphere law carried over to the shape (sphericity in ``terminal_velocity``) does better close to a sphere.
+    The range holds for Re·K₁·K₂. Fitted to all shapes at once it is up to 26 % below the measured drag of a sphere near Re = 100;
+    a sphere law carried over to the shape (sphericity in ``terminal_velocity``) does better close to a sphere.
 
     >>> round(drag_coefficient_ganser(reynolds=200.0), 4)
     0.5798
@@ -81,8 +81,8 @@ def drag_coefficient_holzer_sommerfeld(
 ) -> PositiveNumber:
     """Drag coefficient of a particle of any shape and orientation.
 
-        The crosswise sphericity is the cross-section of the sphere of equal volume over the projected area of the particle in the
-        direction of motion; it carries the orientation and may exceed one. Mean error 14 % over spheres, cuboids, cylinders and disks.
+    The crosswise sphericity is the cross-section of the sphere of equal volume over the projected area of the particle in the
+    direction of motion; it carries the orientation and may exceed one. Mean error 14 % over spheres, cuboids, cylinders and disks.
 
     >>> round(drag_coefficient_holzer_sommerfeld(reynolds=100.0), 2)
     0.96

@@ -176,7 +176,7 @@ def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: Positive
 def hindrance_barnea_mizrahi(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
     """Hindered over terminal velocity by Barnea and Mizrahi, from creeping to turbulent flow.
 
-        Solved in closed form. Creeping limit (1 − φ)/[(1 + φ^⅓) exp(5φ/3(1 − φ))].
+    Solved in closed form. Creeping limit (1 − φ)/[(1 + φ^⅓) exp(5φ/3(1 − φ))].
 
     >>> round(hindrance_barnea_mizrahi(solids_volume_fraction=0.1, reynolds=1e-9), 4)
     0.5108

@@ -171,7 +171,7 @@ def brownian_diameter(
 ) -> Length:
     """Diameter at which Brownian motion displaces a particle as far as it settles in a given time: finer ones do not settle.
 
-        Creeping flow without slip. Infinite at equal densities.
+    Creeping flow without slip. Infinite at equal densities.
 
     >>> round(1e6 * brownian_diameter(temperature="20 degC", particle_density=2650, fluid_density=998, dynamic_viscosity="1 cP",
     ...                               time=1.0), 2)

@@ -174,9 +174,9 @@ def hindrance_apparent_medium(
 ) -> Ratio:
     """Velocity of a crowd in its own apparent density and viscosity over the terminal velocity, for a drag law a Re⁻ⁿ.
 
-        With n = 1 (creeping flow) it is (1 − φ)η/η_a. It is the velocity relative to the liquid; multiply by 1 − φ for a vessel
-        without net flow. Differs from the print: the course's ratio has exp(+4.2nφ/(1 − φ)), which would speed the crowd up, and
-        applies the exponent 2 − n to one side only.
+    With n = 1 (creeping flow) it is (1 − φ)η/η_a. It is the velocity relative to the liquid; multiply by 1 − φ for a vessel
+    without net flow. Differs from the print: the course's ratio has exp(+4.2nφ/(1 − φ)), which would speed the crowd up, and
+    applies the exponent 2 − n to one side only.
 
     >>> round(hindrance_apparent_medium(solids_volume_fraction=0.1, reynolds=0.01), 4)
     0.6741
@@ -201,7 +201,7 @@ def terminal_velocity_collective(
 ) -> Velocity:
     """Velocity of a crowd of particles relative to the liquid: terminal velocity in the apparent density and viscosity.
 
-        Any regime and any drag law. Multiply by 1 − φ for the velocity relative to a vessel without net flow.
+    Any regime and any drag law. Multiply by 1 − φ for the velocity relative to a vessel without net flow.
 
     >>> round(1e3 * terminal_velocity_collective(particle_diameter="10 um", particle_density=2650, fluid_density=1000,
     ...                                          dynamic_viscosity="1 cP", solids_volume_fraction=0.1), 4)
@@ -238,13 +238,9 @@ def diluted_suspension(
 ) -> DilutedSuspension:
     """Apparent density and kinematic viscosity of a suspension from its dilution, and the creeping velocity in them.
 
-    1.9775
-    0.001984
-    0.6741
-    0.0605
-        Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where compression starts).
-        At the limit the viscosity is infinite and the velocity zero; below it there is no value.
-        Differs from the print: the course writes the last bracket as D + (1 + ρ_p) where D + 1/ρ_p follows from its own ν_a and ρ_a.
+    Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where compression starts).
+    At the limit the viscosity is infinite and the velocity zero; below it there is no value.
+    Differs from the print: the course writes the last bracket as D + (1 + ρ_p) where D + 1/ρ_p follows from its own ν_a and ρ_a.
 
     >>> found = diluted_suspension(particle_diameter="20 um", particle_density=2650, fluid_density=1000, kinematic_viscosity=1e-6,
     ...                            liquid_volume_per_solid_mass=2e-3, dilution_limit=2e-4)

@@ -107,7 +107,7 @@ def terminal_velocity_newton(
 ) -> Velocity:
     """Terminal velocity of a sphere in the turbulent regime with Newton's constant drag.
 
-        Differs from the print: the course writes the factor 4/(3·0.44) = 3.03 as 3 and once ρ_f as ρ_f^1.44.
+    Differs from the print: the course writes the factor 4/(3·0.44) = 3.03 as 3 and once ρ_f as ρ_f^1.44.
 
     >>> round(terminal_velocity_newton(particle_diameter="10 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"), 3)
     0.7
@@ -239,7 +239,7 @@ def terminal_velocity_zigrang_sylvester(
 ) -> Velocity:
     """Terminal velocity of a sphere, explicit in the Archimedes number, by Zigrang and Sylvester.
 
-        The two constants do not cancel exactly, which spoils it for very small particles (Ar below 1e-2).
+    The two constants do not cancel exactly, which spoils it for very small particles (Ar below 1e-2).
 
     >>> round(terminal_velocity_zigrang_sylvester(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
     ...                                           dynamic_viscosity="1 cP"), 3)
@@ -266,8 +266,8 @@ def terminal_velocity_ferguson_church(
 ) -> Velocity:
     """Terminal velocity of sediment grains by Ferguson and Church.
 
-        The drag at high Reynolds number is 0.4 for smooth spheres, 1.0 for natural sand by sieve diameter, 1.2 for angular grains;
-        Stokes' constant is 18.
+    The drag at high Reynolds number is 0.4 for smooth spheres, 1.0 for natural sand by sieve diameter, 1.2 for angular grains;
+    Stokes' constant is 18.
 
     >>> round(1000 * terminal_velocity_ferguson_church(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
     ...                                                dynamic_viscosity="1 cP"), 0)

@@ -168,8 +168,7 @@ def settling_distance(
 ) -> Settled:
     """Horizontal distance and time in which a particle settles (or rises) through a height, under any drag law.
 
-    8.9
-        With equal densities it never does: not a number, flagged.
+    With equal densities it never does: not a number, flagged.
 
     >>> found = settling_distance(particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP", height=1.0,
     ...                           stream_velocity=0.1, initial_horizontal_velocity=0.1)
