@@ -1,0 +1,223 @@
+"""Makes the generated part of the documentation while mkdocs builds: a page of cards per domain in both languages, and the
+plots and tables of the theory pages, which name them as ``[[validation NAME]]``, ``[[printed DOMAIN]]``, ``[[chart CARD name=value]]``,
+``[[card CARD]]``, ``[[source MODULE CLASS]]`` or ``[[include FILE]]``. Everything comes from the registry and from data of the repository; a name that does not exist ends the build.
+"""
+
+from __future__ import annotations
+
+import html
+import importlib
+import inspect
+import re
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import validation
+from mkdocs.structure.files import File
+
+from granum.app.forms import bounds_text, range_text
+from granum.core import registry
+from granum.core.cards import Card
+from granum.core.i18n import _, language
+from granum.core.parameters import Parameter, default_as_json
+from granum.core.units import pretty_unit
+from granum.reports.mathml import mathml
+from granum.reports.terminal import value_text
+
+ROOT = Path(__file__).parent.parent
+WORDS = {
+    "en": ["Cards", "input", "symbol", "units", "allowed", "default", "required", "result", "Source", "covers", "Kind", "formula", "cards"],
+    "fr": ["Cartes", "donnée", "symbole", "unités", "permis", "par défaut", "obligatoire", "résultat", "Source", "couvre", "Sorte", "formule", "cartes"],
+}  # fmt: skip
+FOLDERS = {"en": "cards", "fr": "cards-fr"}
+DOMAIN_TITLES = {
+    "en": {"materials": "Materials", "particles": "Particles", "porous": "Porous media", "humid_gas": "Humid gas", "streams": "Streams",
+           "comminution": "Comminution and screening", "settling": "Settling", "cyclones": "Cyclones", "fluidization": "Fluidization",
+           "filtration": "Filtration", "centrifuges": "Centrifuges", "crystallization": "Crystallization", "drying": "Drying", "studies": "Studies"},
+    "fr": {"materials": "Matériaux", "particles": "Particules", "porous": "Milieux poreux", "humid_gas": "Gaz humide", "streams": "Courants",
+           "comminution": "Broyage et criblage", "settling": "Décantation", "cyclones": "Cyclones", "fluidization": "Fluidisation",
+           "filtration": "Filtration", "centrifuges": "Centrifugation", "crystallization": "Cristallisation", "drying": "Séchage", "studies": "Études"},
+}  # fmt: skip
+
+
+def on_config(config: Any) -> Any:
+    """List the pages of cards in the navigation."""
+    places = {f"{FOLDERS[code]}/index.md": code for code in FOLDERS}
+
+    def filled(entry: Any) -> Any:
+        if isinstance(entry, dict):
+            return {title: filled(item) for title, item in entry.items()}
+        if isinstance(entry, list):
+            return [filled(item) for item in entry]
+        code = places.get(entry)
+        return [entry, *({DOMAIN_TITLES[code][d]: f"{FOLDERS[code]}/{d}.md"} for d in _domains())] if code else entry
+
+    config["nav"] = filled(config["nav"])
+    return config
+
+
+def _domains() -> list[str]:
+    return [domain for domain in registry.DOMAINS if registry.everything((domain,))]
+
+
+def on_files(files_: Any, config: Any) -> Any:
+    """Add the generated pages and Plotly, as its Python package ships it."""
+    for code in ("en", "fr"):
+        with language(code):
+            pages = _card_pages(code)
+        for name, text in pages.items():
+            files_.append(File.generated(config, f"{FOLDERS[code]}/{name}.md", content=text))
+    plotly = files("plotly") / "package_data" / "plotly.min.js"
+    files_.append(File.generated(config, "assets/plotly.min.js", abs_src_path=str(plotly)))
+    return files_
+
+
+def on_page_markdown(markdown: str, **_more: Any) -> str:
+    """Replace ``[[word name …]]`` on a line of its own."""
+    return re.sub(r"^\[\[(\w+) (.+?)\]\]$", lambda found: PARTS[found[1]](found[2]), markdown, flags=re.MULTILINE)
+
+
+# ---- parts of theory pages -------------------------------------------------------------------------
+def _figure(figure: Any, label: str) -> str:
+    data = figure.to_json().replace("</", "<\\/")
+    return (
+        f'<div class="plot" role="img" aria-label="{html.escape(label)}"><script type="application/json">{data}</script>'
+        f"<noscript>{html.escape(label)}</noscript></div>"
+    )
+
+
+def _validation(name: str) -> str:
+    found = validation.FIGURES[name]()
+    return f"{_figure(found.figure, found.caption)}\n\n*{found.caption}*\n\n{found.table}"
+
+
+def _printed(domain: str) -> str:
+    rows = ["| worked example | printed | Granum | difference |", "|---|--:|--:|--:|"]
+    for row in validation.PRINTED[domain]:
+        rows.append(
+            f"| {row.what} | {row.printed:g} {row.unit} | {row.found:.4g} {row.unit} | {100 * (row.found / row.printed - 1):+.2g} % |"
+        )
+    return "\n".join(rows)
+
+
+def _chart(text: str) -> str:
+    key, *pairs = text.split(" ")
+    thing = registry.find(key)
+    return _figure(thing(**dict(pair.split("=", 1) for pair in pairs)), thing.card.title) + f"\n\n*{thing.card.title}.*"
+
+
+def _one_card(key: str) -> str:
+    card = registry.find(key.strip()).card
+    place = f"../cards/{card.domain}.md#{card.name.replace('_', '-')}"
+    return f"{_equation(card)}\n\n[{card.title}]({place}): {_escape(card.citation)}\n"
+
+
+def _include(name: str) -> str:
+    """A file of the repository without its first heading."""
+    return (ROOT / name).read_text(encoding="utf-8").split("\n", 1)[1]
+
+
+def _source(text: str) -> str:
+    """The source of a class of the package."""
+    module, name = text.split()
+    return f"```python\n{inspect.getsource(getattr(importlib.import_module(module), name))}```"
+
+
+PARTS = {"include": _include, "source": _source, "validation": _validation, "printed": _printed, "chart": _chart, "card": _one_card}
+
+
+# ---- pages of cards --------------------------------------------------------------------------------
+def _card_pages(code: str) -> dict[str, str]:
+    words, pages, total = WORDS[code], {}, 0
+    lines = []
+    for domain in _domains():
+        cards = [thing.card for thing in registry.everything((domain,)).values()]
+        total += len(cards)
+        title = DOMAIN_TITLES[code][domain]
+        pages[domain] = f"# {title}\n\n" + "\n".join(part for name, found in _by_module(cards) for part in _room(name, found, words))
+        lines.append(f"* [{title}]({domain}.md): {len(cards)} {words[12]}")
+    pages["index"] = f"# {words[0]}\n\n{total} {words[12]}.\n\n" + "\n".join(lines) + "\n"
+    return pages
+
+
+def _by_module(cards: list[Card]) -> list[tuple[str, list[Card]]]:
+    rooms: dict[str, list[Card]] = {}
+    for card in cards:
+        rooms.setdefault(card.module, []).append(card)
+    return sorted(rooms.items(), key=lambda room: ("formulas" not in room[0], "charts" in room[0], room[0]))
+
+
+def _room(module: str, cards: list[Card], words: list[str]) -> list[str]:
+    """One section per file of the package."""
+    parts = module.split(".")[2:]
+    title = parts[-1].replace("_", " ").capitalize()
+    if len(parts) > 1:
+        title += f" · {parts[0].replace('_', ' ')}"
+    return [f"## {title}\n", *(_section(card, words) for card in cards)]
+
+
+def _section(card: Card, words: list[str]) -> str:
+    anchor = card.name.replace("_", "-")
+    parts = [
+        f"### {_escape(card.title)} {{ #{anchor} }}\n",
+        f"`{card.key}` · {_(card.sort)}\n",
+        _escape(card.summary) + "\n",
+    ]
+    if card.equation:
+        parts.append(_equation(card) + "\n")
+    if card.parameters:
+        parts.append(_inputs(card, words))
+    if card.outputs:
+        shown = "; ".join(f"{html.escape(p.label)} {_symbol(p)}{_unit(p)}" for p in card.outputs)
+        parts.append(f"<p><strong>{words[7]}</strong>: {shown}</p>\n")
+    for name, limits in card.fitted.items():
+        p = next((p for p in (*card.parameters, *card.outputs) if p.name == name), None)
+        text = range_text(p, limits) if p else " … ".join(f"{x:g}" for x in limits)
+        parts.append(f"<p>{words[8]} {words[9]}: {html.escape(p.label if p else name.replace('_', ' '))} {html.escape(text)}</p>\n")
+    parts.append(f"<p class='source'>{words[8]}: {html.escape(card.citation)}</p>\n")
+    rest = card.doc.split("\n\n", 1)[1] if "\n\n" in card.doc else ""
+    if rest:
+        parts.append(
+            f"<details><summary>{'Example and remarks' if words is WORDS['en'] else 'Exemple et remarques'}</summary><pre lang='en'><code>{html.escape(rest)}</code></pre></details>\n"
+        )
+    return "\n".join(parts)
+
+
+def _inputs(card: Card, words: list[str]) -> str:
+    rows = []
+    for p in card.parameters:
+        allowed = ", ".join(map(str, p.choices)) if p.choices else bounds_text(p)
+        if p.law:
+            allowed = f"{_('law')}: {p.law.replace('_', ' ')}"
+        if p.fitted:
+            allowed += f" ({words[9]} {range_text(p, p.fitted)})"
+        default = words[6] if p.required else ("—" if p.default is None else _default(p))
+        units = ", ".join(pretty_unit(u) or "1" for u in p.units[:4])
+        rows.append(
+            f"<tr><td><code>{p.name}</code><br>{html.escape(p.label)}</td><td>{_symbol(p)}</td><td>{html.escape(units)}</td>"
+            f"<td>{html.escape(allowed)}</td><td>{html.escape(default)}</td></tr>"
+        )
+    head = "".join(f"<th>{word}</th>" for word in words[1:6])
+    return f"<table class='inputs'><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>\n"
+
+
+def _default(p: Parameter) -> str:
+    return value_text(p.default, p) if p.kind else str(default_as_json(p.default))
+
+
+def _unit(p: Parameter) -> str:
+    return f" / {pretty_unit(p.units[0])}" if p.units and pretty_unit(p.units[0]) else ""
+
+
+def _symbol(p: Parameter) -> str:
+    return mathml(p.term.symbol) if p.term and p.term.symbol else ""
+
+
+def _equation(card: Card) -> str:
+    return f'<div class="equation">{mathml(card.equation, display=True)}</div>' if card.equation else ""
+
+
+def _escape(text: str) -> str:
+    """Plain text in Markdown: characters with a meaning are escaped."""
+    return re.sub(r"([\\`*_\[\]<>#|])", r"\\\1", text)
