@@ -11,8 +11,8 @@ import granum.humid_gas.virials as vi
 from granum.core import law
 from granum.core.kinds import Number
 from granum.humid_gas.pairs import AIR_WATER, ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, ice_vapor_pressure, polynomial
-from granum.humid_gas.search import newton_root
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
+from granum.numerics.quick_roots import newton_root
 
 R = 8.314472  # J/(mol K), the report's own
 ICE_VOLUME = (1.96521e-5, 3.144e-9, 5.5e-12)  # m³/mol in °C, IAPWS-06 within 1e-5 from −60 °C

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.humid_gas.blocks import blockwise
 from granum.humid_gas.pairs import SLACK, AbstractPair
-from granum.humid_gas.search import falling_root
+from granum.numerics.blocks import blockwise
+from granum.numerics.quick_roots import falling_root
 
 LARGE = 1000  # elements from which a second, ice-free copy of the search is worth compiling
 

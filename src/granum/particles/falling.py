@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import jax
 import jax.numpy as jnp
-from jax import lax
 
-from granum.numerics.roots import find_root
+from granum.numerics.quick_roots import likely_root
 
-NEWTON_STEPS = 3
-SETTLED = 1e-6  # a last Newton step this small leaves an error of its square
 LEAST = 1e-30  # criteria below this are in the limit of infinitely slow fall
 
 
@@ -68,28 +64,6 @@ def reynolds_from_velocity(drag: Callable[[Any], Any], criterion: Any) -> tuple[
 
 
 def _balance(equation: Callable[[Any], Any], start: Any) -> tuple[Any, Any]:
-    """Root in ln Re: three Newton steps serve smooth laws to the last digit, a bracket the others; exact derivatives."""
-
-    def search(f: Callable[[Any], Any], y: Any) -> tuple[Any, Any]:
-        guess, step = y, jnp.inf
-        for _ in range(NEWTON_STEPS):
-            value, slope = jax.jvp(f, (y,), (jnp.ones_like(y),))
-            step = value / slope
-            y = y - step
-        settled = abs(step) < SETTLED
-        return lax.cond(jnp.all(settled), lambda: (y, jnp.ones_like(y)), lambda: _bracketed(f, guess, y, settled))
-
-    def divide(linear: Callable[[Any], Any], right: Any) -> Any:
-        return right / linear(jnp.ones_like(right))
-
-    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide, has_aux=True)
-    return jnp.exp(value), found > 0.0
-
-
-def _bracketed(f: Callable[[Any], Any], guess: Any, reached: Any, settled: Any) -> tuple[Any, Any]:
-    low, high = guess - 3.0, guess + 3.0
-    low = jnp.where(f(low) < 0.0, low, guess - 60.0)
-    high = jnp.where(f(high) > 0.0, high, guess + 60.0)
-    root = find_root(f, low, high, start=guess)
-    value = jnp.where(settled, reached, root.value)
-    return value, jnp.where(settled | root.converged, 1.0, 0.0)
+    """Root in ln Re."""
+    value, found = likely_root(equation, start, near=3.0, far=60.0)
+    return jnp.exp(value), found

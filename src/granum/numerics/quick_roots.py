@@ -1,7 +1,8 @@
-"""Roots of balances known to change sign between their ends.
+"""Roots of functions about which something is known, found with less work than by ``find_root``.
 
-``numerics.find_root`` serves every function and pays for it with three stages and both ends evaluated. The balances of humid gas are
-monotone between physical ends, so one safeguarded Newton loop finds every root, compiles three times faster and halves the work.
+``find_root`` serves every function and pays for it with three stages and both ends evaluated. Where a function is known to fall through
+zero between two ends (``falling_root``), to be steep and smooth near a start (``newton_root``), or nearly always so (``likely_root``), one
+Newton loop compiles three times faster and halves the work.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 from jax import lax
+
+from granum.numerics.roots import find_root
 
 TOLERANCE = 1e-7  # of the last Newton step, relative to the unknown: its square, some 1e-13, is what is left
 MOST = 120
@@ -110,3 +113,38 @@ def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slo
         return right / jnp.where(slope == 0, jnp.inf, slope)
 
     return lax.custom_root(function, lax.stop_gradient(first), solve, divide)
+
+
+LIKELY_STEPS = 3
+SETTLED = 1e-6  # a last Newton step this small leaves an error of its square
+
+
+def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: float) -> tuple[Any, Any]:
+    """Root of an elementwise rising function from a good start, and whether it was found; exact derivatives.
+
+    Three Newton steps serve smooth functions to the last digit. Where one element does not settle, all those that did not are bracketed
+    within ``near`` of the start, or within ``far`` where the function has no change of sign there.
+    """
+
+    def search(f: Callable[[Any], Any], x: Any) -> tuple[Any, Any]:
+        guess, step = x, jnp.inf
+        for _pass in range(LIKELY_STEPS):
+            value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
+            step = value / slope
+            x = x - step
+        settled = abs(step) < SETTLED
+        return lax.cond(jnp.all(settled), lambda: (x, jnp.ones_like(x)), lambda: _bracketed(f, guess, x, settled, near, far))
+
+    def divide(linear: Callable[[Any], Any], right: Any) -> Any:
+        return right / linear(jnp.ones_like(right))
+
+    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide, has_aux=True)
+    return value, found > 0.0
+
+
+def _bracketed(f: Callable[[Any], Any], guess: Any, reached: Any, settled: Any, near: float, far: float) -> tuple[Any, Any]:
+    low, high = guess - near, guess + near
+    low = jnp.where(f(low) < 0.0, low, guess - far)
+    high = jnp.where(f(high) > 0.0, high, guess + far)
+    root = find_root(f, low, high, start=guess)
+    return jnp.where(settled, reached, root.value), jnp.where(settled | root.converged, 1.0, 0.0)
