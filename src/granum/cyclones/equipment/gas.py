@@ -8,12 +8,13 @@ from typing import Annotated, Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Fraction, Law, Length, MassRatio, PositiveNumber, PressureDrop, Speed, Within
+from granum.core.kinds import Fraction, Law, Length, MassRatio, PositiveNumber, Pressure, PressureDrop, Speed, Within
 from granum.cyclones.formulas.efficiency import (
     cut_size_muschelknautz,
     cyclone_efficiency_muschelknautz,
     limit_loading_muschelknautz,
 )
+from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
@@ -21,6 +22,8 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 LEAST = 1e-9
+MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
+YEAR, ALLOWANCE = 8000.0 * 3600.0, 3.0  # s of operation, mm of steel that may be worn off in them
 
 
 class CycloneOutlets(NamedTuple):
@@ -40,6 +43,7 @@ class CycloneFigures(NamedTuple):
     saltation_velocity: Speed
     dust_loading: MassRatio
     limit_loading: MassRatio
+    wear_velocity: Speed
 
 
 @equipment("gas_cyclone", source="hoffmann2008; muschelknautz1972; stairmand1949", title="Gas cyclone")
@@ -47,7 +51,8 @@ class GasCyclone(Unit):
     """One or several equal cyclones in parallel: a grade efficiency for every size class, and the overload that falls out at the inlet.
 
     What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the grade efficiency. Liquid
-    travels with the dust. The pressure drop is taken from the gas. In series: connect the gas of one to the feed of the next.
+    travels with the dust. The pressure drop is taken from the gas. In series: connect the gas of one to the feed of the next. The wear is
+    that of a ductile wall of the given hardness, an upper estimate for sharp dust.
     """
 
     diameter: Length
@@ -55,6 +60,7 @@ class GasCyclone(Unit):
     parallel_number: Annotated[PositiveNumber, Within(1.0, 1000.0)] = 1.0
     cyclone_efficiency: Annotated[Any, Law("cyclone_efficiency")] = cyclone_efficiency_muschelknautz
     inlet_heads: Annotated[Any, Law("inlet_heads")] = inlet_heads_stairmand
+    wall_hardness: Pressure = MILD_STEEL
 
     @property
     def dimensions(self) -> Dimensions:
@@ -109,7 +115,7 @@ class GasCyclone(Unit):
         cut, carried = self.limit(feed)
         return CycloneFigures(
             self._velocity(feed), safe_divide(outlets.dust.solid_flow, feed.solid_flow), cut, self._pressure_drop(feed),
-            self._saltation(feed), self._loading(feed), carried,
+            self._saltation(feed), self._loading(feed), carried, self._wear(feed),
         )  # fmt: skip
 
     def _saltation(self, feed: Stream) -> Any:
@@ -117,10 +123,16 @@ class GasCyclone(Unit):
             self._velocity(feed), self.diameter, self.dimensions.inlet_width, feed.solid_density, feed.gas_density, feed.gas_viscosity
         )
 
+    def _wear(self, feed: Stream) -> Any:
+        shape = self.dimensions
+        flux = feed.solid_flow / (self.parallel_number * shape.inlet_height * shape.inlet_width)
+        return wear_velocity_cyclone_inlet(self._velocity(feed), flux, self.diameter, shape.inlet_width, self.wall_hardness)
+
     def checks(self, inlets: Mapping[str, Stream], outlets: CycloneOutlets) -> tuple[Check, ...]:
         feed = inlets["feed"]
         v = self._velocity(feed)
         return (
             Check("inlet velocity", v, 10.0, 27.0, "m/s", "hoffmann2008"),
             Check("inlet velocity over saltation velocity", v / self._saltation(feed), 0.8, 1.36, "dimensionless", "kalen1974"),
+            Check("wear of the wall in a year of operation", 1e3 * YEAR * self._wear(feed), 0.0, ALLOWANCE, "mm", "finnie1960"),
         )
