@@ -16,6 +16,7 @@ import numpy as np
 import granum  # noqa: F401  (double precision)
 from granum.humid_gas import relations as rel
 from granum.humid_gas.formulas.properties import wet_bulb_temperature
+from granum.humid_gas.formulas.state import state
 from granum.humid_gas.pairs import AIR_WATER
 from granum.humid_gas.real_air import AIR_WATER_REAL
 from granum.humid_gas.solvents import NitrogenEthanol
@@ -41,6 +42,29 @@ def states(pair, count: int) -> tuple[np.ndarray, np.ndarray]:
     return T, np.asarray(pair.humidity_ratio(y))
 
 
+def psychrolib(compiled: bool):
+    """The peer with or without the compiler that it uses when one is installed; None where that mode cannot be had."""
+    import importlib.util
+    import sys
+
+    spec = importlib.util.find_spec("psychrolib")
+    if spec is None or spec.loader is None or (compiled and importlib.util.find_spec("numba") is None):
+        return None
+    module = importlib.util.module_from_spec(spec)
+    hidden = {} if compiled else {"numba": sys.modules.get("numba")}
+    if not compiled:
+        sys.modules["numba"] = None  # type: ignore[assignment]
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        for name, was in hidden.items():
+            sys.modules.pop(name)
+            if was is not None:
+                sys.modules[name] = was
+    module.SetUnitSystem(module.SI)
+    return module
+
+
 def main() -> None:
     ours = {}
     for name, pair in (("ideal air", AIR_WATER), ("real air", AIR_WATER_REAL), ("nitrogen and ethanol", NitrogenEthanol())):
@@ -52,17 +76,29 @@ def main() -> None:
         print(f"granum, {name:22s} {ours[name][0]:8.3f} s best, {ours[name][1]:8.3f} s median, first call {first:.1f} s")
     T, w = states(AIR_WATER, COUNT)
     found = np.asarray(wet_bulb_temperature(temperature=T, humidity_ratio=w))
-    try:
-        import psychrolib as ps
-    except ImportError:
-        print("psychrolib is not installed")
-    else:
-        ps.SetUnitSystem(ps.SI)
-        start = time.perf_counter()
-        peer = np.array([ps.GetTWetBulbFromHumRatio(T[i] - 273.15, w[i], P) for i in range(SAMPLE)])
-        taken = (time.perf_counter() - start) * COUNT / SAMPLE
-        print(f"psychrolib, scaled            {taken:8.1f} s, ratio {taken / ours['ideal air'][1]:.0f}")
-        print(f"largest difference            {np.abs(peer + 273.15 - found[:SAMPLE]).max():8.4f} K")
+    for mode in ("plain", "compiled"):
+        peer = psychrolib(mode == "compiled")
+        if peer is None:
+            print(f"psychrolib, {mode}: not to be had here")
+            continue
+        many = COUNT if mode == "compiled" else SAMPLE
+        if mode == "compiled":
+            peer.GetTWetBulbFromHumRatio(T[:10] - 273.15, w[:10], P)  # compilation does not count
+            start = time.perf_counter()
+            values = peer.GetTWetBulbFromHumRatio(T - 273.15, w, P)
+        else:
+            start = time.perf_counter()
+            values = np.array([peer.GetTWetBulbFromHumRatio(T[i] - 273.15, w[i], P) for i in range(many)])
+        taken = (time.perf_counter() - start) * COUNT / many
+        print(f"psychrolib, {mode:9s}         {taken:8.2f} s, ratio {taken / ours['ideal air'][1]:.1f}")
+        print(f"largest difference            {np.abs(values + 273.15 - found[:many]).max():8.4f} K")
+    some = np.random.default_rng(1).uniform(0.1, 0.9, COUNT)
+    for second, given in (("relative_humidity", {"relative_humidity": some}), ("humidity_ratio", {"humidity_ratio": w})):
+        job = jax.jit(lambda T, x, second=second: state(temperature=T, pressure=P, **{second: x}))
+        x = next(iter(given.values()))
+        jax.block_until_ready(job(T, x))
+        taken = best_of(lambda job=job, x=x: job(T, x), 5)
+        print(f"full state, temperature and {second:18s} {taken[0]:.3f} s best, {taken[1]:.3f} s median")
     try:
         from CoolProp.CoolProp import HAPropsSI
     except ImportError:
