@@ -9,6 +9,7 @@ import numpy as np
 from granum.core import chart
 from granum.core.i18n import _
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, VolumeFlow
+from granum.core.units import format_number
 from granum.cyclones.formulas import efficiency, mothes
 from granum.cyclones.geometry import StandardCyclone
 from granum.particles.size_laws import RosinRammler
@@ -62,7 +63,7 @@ def cyclone_distributions_chart(
         cyclone_efficiency(size, volume_flow, particle_density, fluid_density, dynamic_viscosity, *cyclone_geometry(diameter))
     )
     total = float(np.mean(grade))
-    title = _("Feed, dust and what escapes: {share} % collected").format(share=f"{100.0 * total:.1f}")
+    title = _("Feed, dust and what escapes: {share} % collected").format(share=format_number(100.0 * total, 3))
     drawing = figure(axis_title("particle_diameter", "um"), _("share") + " / %", x_log=True, title=title)
     add_line(drawing, size * 1e6, 100.0 * grade, _("grade efficiency"), color=ACCENT, width=3)
     add_line(drawing, size * 1e6, 100.0 * part, _("feed, below the size"), color=INK)

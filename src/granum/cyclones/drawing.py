@@ -20,7 +20,7 @@ def cyclone_drawing(diameter: Length, cyclone_geometry: Annotated[Any, Law("cycl
     D, a, b, De, S, h, H, B = (1e3 * float(x) for x in cyclone_geometry(diameter))
     R, out = D / 2.0, 0.25 * D
     drawing = figure("mm", "mm", title=_("Cyclone drawn to scale"), showlegend=False)
-    plan = 0.75 * D + out  # height of the center of the plan above the roof
+    right, plan = 2.4 * D, -0.75 * D  # center of the plan, beside the elevation
 
     def path(x: Any, y: Any, color: str = INK, dash: str = "solid") -> None:
         drawing.add_scatter(x=x, y=y, mode="lines", line={"color": color, "width": 1.6, "dash": dash}, hoverinfo="skip")
@@ -33,31 +33,32 @@ def cyclone_drawing(diameter: Length, cyclone_geometry: Annotated[Any, Law("cycl
     path([-De / 2, De / 2], [-S, -S], GAS, "dash")
     path([-R, -R + b, -R + b, -R, -R], [0, 0, -a, -a, 0], ACCENT)  # mouth of the inlet, seen along the gas
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
-    path(R * np.cos(turn), plan + R * np.sin(turn))
-    path(De / 2 * np.cos(turn), plan + De / 2 * np.sin(turn), GAS)
+    path(right + R * np.cos(turn), plan + R * np.sin(turn))
+    path(right + De / 2 * np.cos(turn), plan + De / 2 * np.sin(turn), GAS)
     reach = np.sqrt(max(R**2 - (R - b) ** 2, 0.0))  # where the inner wall of the inlet meets the body
-    path([-R, -R, -R + b, -R + b], [plan, plan - R - out, plan - R - out, plan - reach], ACCENT)
+    side = right - R
+    path([side, side, side + b, side + b], [plan, plan - R - out, plan - R - out, plan - reach], ACCENT)
 
     def dimension(x0: float, y0: float, x1: float, y1: float, symbol: str, color: str = INK) -> None:
         value = f"{abs(x1 - x0) + abs(y1 - y0):.0f}"
         drawing.add_annotation(x=x1, y=y1, ax=x0, ay=y0, xref="x", yref="y", axref="x", ayref="y", text="", showarrow=True,
                                arrowhead=2, arrowside="end+start", arrowsize=0.8, arrowwidth=1, arrowcolor=color)  # fmt: skip
-        upright = x0 == x1
-        add_label(drawing, (x0 + x1) / 2, (y0 + y1) / 2, f"<i>{symbol}</i> {value}", color=color,
-                  xanchor="left" if upright else "center", yanchor="middle" if upright else "bottom", xshift=4 if upright else 0)  # fmt: skip
+        upright, sign = x0 == x1, -1 if x0 < -R else 1
+        add_label(drawing, (x0 + x1) / 2, (y0 + y1) / 2, f"<i>{symbol}</i> {value}", color=color, xshift=4 * sign if upright else 0,
+                  xanchor="center" if not upright else "left" if sign > 0 else "right", yanchor="middle" if upright else "top" if symbol in "bB" else "bottom")  # fmt: skip
 
     dimension(-R, 0.25 * D - h, R, 0.25 * D - h, "D")
     dimension(-De / 2, out + 0.02 * D, De / 2, out + 0.02 * D, "D<sub>e</sub>", GAS)
     dimension(-B / 2, -H - 0.22 * D, B / 2, -H - 0.22 * D, "B", SOLID)
-    dimension(-R, -a - 0.05 * D, -R + b, -a - 0.05 * D, "b", ACCENT)
+    dimension(side, plan - R - 1.2 * out, side + b, plan - R - 1.2 * out, "b", ACCENT)
     dimension(-1.12 * R, -a, -1.12 * R, 0, "a", ACCENT)
     dimension(0, -S, 0, 0, "S", GAS)
     dimension(1.1 * R, -h, 1.1 * R, 0, "h")
     dimension(1.1 * R, -H, 1.1 * R, -h, "H − h")
-    dimension(1.6 * R, -H, 1.6 * R, 0, "H")
-    add_label(drawing, R, plan + 0.8 * R, _("plan"), xanchor="left")
-    add_label(drawing, R, 0.08 * D, _("elevation"), xanchor="left")
-    drawing.update_layout(height=900)
-    drawing.update_xaxes(range=[-1.5 * D, 1.5 * D], showgrid=False)
+    dimension(2.3 * R, -H, 2.3 * R, 0, "H")
+    add_label(drawing, 0, 0.5 * D, _("elevation"), yanchor="bottom")
+    add_label(drawing, right, plan + 1.1 * R, _("plan"), yanchor="bottom")
+    drawing.update_layout(height=720)
+    drawing.update_xaxes(range=[-1.2 * D, 3.1 * D], showgrid=False)
     drawing.update_yaxes(scaleanchor="x", scaleratio=1, showgrid=False)
     return drawing
