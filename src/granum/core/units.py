@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import threading
 from functools import cache
 from typing import Any
 
@@ -16,9 +17,17 @@ _NUMBER = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s
 _LONGEST_UNIT = 40
 
 
-@cache
+_building = threading.Lock()
+
+
 def registry() -> Any:
     """The one Pint registry, with the customary units of the field added."""
+    with _building:  # two threads must not each build one: their units would not mix
+        return _registry()
+
+
+@cache
+def _registry() -> Any:
     import pint
 
     ureg = pint.UnitRegistry(cache_folder=None)
