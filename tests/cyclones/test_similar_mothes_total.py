@@ -78,12 +78,16 @@ def test_wear() -> None:
     # Finnie: both branches meet at tan α = 1/3 with 0.3; no wear at grazing and right angles
     low, high = np.asarray(erosion.wear_velocity_finnie(20.0, 0.1, np.arctan(1 / 3) + np.array([-1e-9, 1e-9]), 1e9))
     assert low == pytest.approx(high, rel=1e-6)
-    assert low == pytest.approx(0.5 * 0.1 * 400 / 4e9 * 0.3, rel=1e-6)
+    assert low == pytest.approx(0.1 * 0.1 * 400 / 4e9 * 0.3, rel=1e-6)
     assert erosion.wear_velocity_finnie(20.0, 0.1, 0.0, 1e9) == 0.0
-    # the worst place opposite the inlet, by search over the angles reached
+    # coarse dust: the worst place opposite the inlet, by search over the angles reached
     angles = np.linspace(0.0, np.arccos(0.6), 20001)
     every = np.asarray(erosion.wear_velocity_finnie(20.0, 0.5 * np.sin(angles), angles, 1.2e9))
-    assert erosion.wear_velocity_cyclone_inlet(20.0, 0.5, 1.0, 0.2, 1.2e9) == pytest.approx(every.max(), rel=1e-6)
+    found = np.asarray(erosion.wear_velocity_cyclone_inlet(20.0, 0.5, 1.0, 0.2, np.array([1e-6, 1e-3]), 2600.0, 1.8e-5, 1.2e9))
+    assert found[1] == pytest.approx(every.max(), rel=1e-6)
+    # fine dust, by hand: St = 2 τ v/D = 3.21e-4, wear c m v²/(4p)·2 St²
+    St = 2 * 2600e-12 / (18 * 1.8e-5) * 20.0
+    assert found[0] == pytest.approx(0.1 * 0.5 * 400 / 4.8e9 * 2 * St**2, rel=2e-3)
 
 
 def test_sizing_for_a_total_efficiency() -> None:

@@ -52,7 +52,7 @@ class GasCyclone(Unit):
 
     What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the grade efficiency. Liquid
     travels with the dust. The pressure drop is taken from the gas. In series: connect the gas of one to the feed of the next. The wear is
-    that of a ductile wall of the given hardness, an upper estimate for sharp dust.
+    that of a ductile wall of the given hardness, in its order of magnitude.
     """
 
     diameter: Length
@@ -124,9 +124,13 @@ class GasCyclone(Unit):
         )
 
     def _wear(self, feed: Stream) -> Any:
-        shape = self.dimensions
-        flux = feed.solid_flow / (self.parallel_number * shape.inlet_height * shape.inlet_width)
-        return wear_velocity_cyclone_inlet(self._velocity(feed), flux, self.diameter, shape.inlet_width, self.wall_hardness)
+        shape, m = self.dimensions, feed.mixture
+        dust = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
+        flux = dust / (self.parallel_number * shape.inlet_height * shape.inlet_width)
+        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * dust
+        size = jnp.asarray(m.sizes) + 0.0 * dust
+        return jnp.sum(wear_velocity_cyclone_inlet(self._velocity(feed), flux, self.diameter, shape.inlet_width, size, density,
+                                                   feed.gas_viscosity, self.wall_hardness))  # fmt: skip
 
     def checks(self, inlets: Mapping[str, Stream], outlets: CycloneOutlets) -> tuple[Check, ...]:
         feed = inlets["feed"]
