@@ -5,12 +5,13 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import jax.numpy as jnp
 import numpy as np
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
+from granum.cases.fitted import fits_of, fitted_values
 from granum.cases.line import Line
 from granum.cases.schema import Case, FeedTable, MixtureTable, SizeTable, StreamTable
 from granum.core import registry
@@ -24,6 +25,7 @@ from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
+Shape = TypeVar("Shape", bound=BaseModel)
 LARGEST_FILE = 2_000_000  # bytes; a case is a page of text
 
 
@@ -33,28 +35,40 @@ def read(path: str | Path) -> Line:
     >>> line = read("examples/potassium-nitrate/line.toml")  # doctest: +SKIP
     """
     path = Path(path)
+    return read_text(text_of(path), folder=path.parent, name=path.name)
+
+
+def text_of(path: Path) -> str:
+    """The text of a case file."""
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise CaseError(_("'{path}' is larger than a case file can be.").format(path=path), path=str(path))
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except OSError as problem:
         raise CaseError(_("'{path}' cannot be read: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
     except UnicodeDecodeError:
         raise CaseError(_("'{path}' is not a text file in UTF-8.").format(path=path), path=str(path)) from None
-    return read_text(text, folder=path.parent, name=path.name)
 
 
 def read_text(text: str, folder: Path | None = None, name: str = "case") -> Line:
     """A line from the text of a case file; ``folder`` is where material files are looked for."""
+    return build(validated(Case, parsed(text, name), name), folder=folder, text=text)
+
+
+def parsed(text: str, name: str) -> dict[str, Any]:
+    """The tables of a TOML text."""
     try:
-        raw = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         raise CaseError(_("{name} is not valid TOML: {problem}.").format(name=name, problem=problem)) from None
+
+
+def validated(shape: type[Shape], raw: Mapping[str, Any], name: str) -> Shape:
+    """Tables checked against the shape of a file, or one clear message."""
     try:
-        case = Case.model_validate(raw)
+        return shape.model_validate(raw)
     except ValidationError as problem:
         raise CaseError(_complaint(name, problem)) from None
-    return build(case, folder=folder, text=text)
 
 
 def _complaint(name: str, problem: ValidationError) -> str:
@@ -104,6 +118,8 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
             table = StreamTable.model_validate({"from": table[0], "to": table[1] if len(table) == 2 else ""})
         links[name] = (table.origin, table.target)
     sheet = Flowsheet(units, feeds, links)
+    if case.fits:
+        sheet = sheet.with_values(fitted_values(fits_of(case.fits, folder)))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
     return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text)
 

@@ -90,7 +90,36 @@ class Project(_Strict):
     date: str = ""
 
 
-class Case(_Strict):
+class FitTable(_Strict):
+    """A lab test read from a data file beside the case; what it estimates goes into the line with its uncertainty."""
+
+    test: str = Field(description="a lab test, as domain.name")
+    data: str = Field(description="CSV or XLSX, relative to the case file")
+    conditions: dict[str, Any] = {}
+    gives: dict[str, str] = Field(description="input of the line → estimate of the test")
+
+
+class Studied(_Strict):
+    """What a file with studies may hold besides its model."""
+
+    uncertain: dict[str, dict[str, Any]] = Field(default={}, description="distributions of inputs, shared by the studies")
+    quantities: dict[str, Any] = Field(default={}, description="figures made from figures: expressions, or formulas with their inputs")
+    fits: dict[str, FitTable] = {}
+    study: dict[str, dict[str, Any]] = Field(default={}, description="studies by name, see 'granum study'")
+
+
+class StudyFile(Studied):
+    """A file of studies of a case that stands elsewhere, or of a formula."""
+
+    title: str = ""
+    description: str = ""
+    language: str | None = None
+    case: str | None = Field(default=None, description="case file of the line, relative to this file")
+    card: str | None = Field(default=None, description="formula or procedure, as domain.name")
+    inputs: dict[str, Any] = Field(default={}, description="inputs of the card that stay fixed")
+
+
+class Case(Studied):
     """A whole case file."""
 
     title: str
@@ -102,4 +131,3 @@ class Case(_Strict):
     units: dict[str, dict[str, Any]]
     streams: dict[str, StreamTable | list[str]] = {}
     specifications: dict[str, Specification] = {}
-    study: dict[str, Any] = {}

@@ -37,6 +37,7 @@ class Problem:
     scale: np.ndarray
     bounds: dict[str, tuple[float, float]]
     loss: Loss
+    derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
@@ -123,12 +124,12 @@ def fit(
         model=model, x=x, y=measured, sigma=_spread(sigma, y), names=names, loss=loss or LeastSquares(),
         keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
         scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
-        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names},
+        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived,
     )  # fmt: skip
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
     q, width, held = _settle(problem, first)
-    return _conclude(problem, q, width, held, kinds or {}, derived, card, list(flags or []))
+    return _conclude(problem, q, width, held, kinds or {}, card, list(flags or []))
 
 
 def _spread(sigma: Any, y: Any) -> np.ndarray:
@@ -195,7 +196,7 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
 
 
 def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], kinds: Mapping[str, Any],
-              derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None, card: str, flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
+              card: str, flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
     names, scale = problem.names, problem.scale
     values = {n: float(held.get(n, v)) for n, v in zip(names, q * scale, strict=True)}
     residual, jacobian = problem.residual(q), problem.jacobian(q)
@@ -235,7 +236,7 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         "condition": condition,
     }
     flags += _warnings(parameters, covariance, held, condition, card)
-    found = {} if derived is None else derive(derived, values, covariance, dof, units)
+    found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
     return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem)
 
 

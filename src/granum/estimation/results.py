@@ -112,18 +112,29 @@ class Fit:
         """Quantities computed from the parameters, with intervals by the delta method."""
         return derive(function, self.values, self.covariance, self.statistics["degrees_of_freedom"], units or {})
 
+    def at_normal(self, normal: np.ndarray, shrink: np.ndarray) -> dict[str, np.ndarray]:
+        """Parameters for standard normal numbers (n, parameters) and the square root of chi² per degree of freedom (n,)."""
+        drawn = np.array(list(self.values.values())) + normal @ _square_root(self.covariance).T / shrink[:, None]
+        return dict(zip(self.values, drawn.T, strict=True))
+
+    def derived_from(self, draws: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The derived quantities for many values of the parameters at once."""
+        function = self.problem.derived
+        if function is None:
+            return {}
+        found = jax.jit(jax.vmap(lambda p: dict(function(p))))({n: jnp.asarray(v) for n, v in draws.items()})
+        return {n: np.asarray(v) for n, v in found.items()}
+
     def sample(self, count: int, seed: int = 0) -> dict[str, np.ndarray]:
         """Draws from the joint distribution of the parameters (multivariate t), kept inside their bounds."""
         rng = np.random.default_rng(seed)
         center = np.array(list(self.values.values()))
-        root = _square_root(self.covariance)
         dof = self.statistics["degrees_of_freedom"]
         low, high = (np.array(side) for side in zip(*(self.problem.bounds[n] for n in self.values), strict=True))
         kept = np.empty((0, len(center)))
         for _round in range(100):
-            normal = rng.standard_normal((count, len(center))) @ root.T
-            shrink = np.sqrt(rng.chisquare(dof, count) / dof)
-            drawn = center + normal / shrink[:, None]
+            normal = rng.standard_normal((count, len(center)))
+            drawn = np.stack(list(self.at_normal(normal, np.sqrt(rng.chisquare(dof, count) / dof)).values()), axis=1)
             kept = np.concatenate([kept, drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]])
             if len(kept) >= count:
                 break

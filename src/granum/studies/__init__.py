@@ -1,5 +1,27 @@
-"""Studies: ensembles, sensitivity, optimization."""
+"""Studies: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization and Pareto fronts of any line or formula.
 
-from granum.core.registry import domain_names
+``monte_carlo(line, {"filter.cake_resistance": fit})`` and its neighbours take a line (``granum.read``), a flowsheet, a formula or the key of
+a card; ``Study`` is a study declared in a table (case file or form). See ``granum.studies.study``.
+"""
 
-__getattr__, __dir__ = domain_names(__name__)
+from __future__ import annotations
+
+from typing import Any
+
+_HOME = {
+    "Study": "study", "KINDS": "study", "Outcome": "outcome", "Progress": "engine", "evaluate": "engine", "subject_of": "subjects",
+    "FormulaSubject": "subjects", "LineSubject": "lines", "monte_carlo": "ensembles", "sobol": "ensembles", "sweep": "ensembles",
+    "parameter_map": "ensembles", "scenarios": "ensembles", "optimize": "optimizing", "pareto": "optimizing",
+}  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    if name in _HOME:
+        return getattr(import_module(f"granum.studies.{_HOME[name]}"), name)
+    raise AttributeError(f"granum.studies has no '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted(_HOME)

@@ -1,0 +1,303 @@
+"""Many cases of one subject: in memory-bounded chunks, over threads or Dask workers, with progress, cancelling and restart."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import os
+import shutil
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.errors import GranumError, InputError
+from granum.core.files import write_atomic
+from granum.core.i18n import _
+from granum.studies.subjects import FINE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
+
+MEMORY = 512 * 2**20
+"""Bytes of working memory that one chunk may take."""
+CHUNKS = {"batched": 16384, "line": 64, "accelerator": 2048, "python": 64}
+
+
+class Progress(NamedTuple):
+    """How far a study is: cases (or steps) done of how many, how many failed, and what is being done."""
+
+    done: int
+    total: int
+    failed: int
+    note: str = ""
+
+
+Report = Callable[[Progress], Any]
+Cancel = Callable[[], bool]
+
+
+@dataclass(frozen=True)
+class Cases:
+    """Inputs and figures of many cases, SI, with a code each (0 = fine) and texts of refusals."""
+
+    subject: Subject
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    x: np.ndarray
+    y: np.ndarray
+    codes: np.ndarray
+    texts: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def fine(self) -> np.ndarray:
+        """Which cases gave a result."""
+        return self.codes == FINE
+
+    @property
+    def complete(self) -> bool:
+        """Whether every case was run."""
+        return not np.any(self.codes == NOT_RUN)
+
+    def reason(self, case: int) -> str:
+        """Why a case failed; empty when it did not."""
+        code = int(self.codes[case])
+        return self.texts.get(case) or ("" if code == FINE else self.subject.reason(code, self.inputs, self.outputs))
+
+    def reasons(self) -> dict[str, int]:
+        """How many cases failed for which reason."""
+        counts: dict[str, int] = {}
+        for case in np.flatnonzero(~self.fine):
+            text = self.reason(int(case))
+            counts[text] = counts.get(text, 0) + 1
+        return counts
+
+
+@dataclass(frozen=True)
+class Evaluator:
+    """Computes one chunk of a fixed size; compiled once."""
+
+    subject: Subject
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    size: int
+    compiled: Any
+    arrays: Any
+
+    @staticmethod
+    def of(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], count: int) -> Evaluator:
+        """An evaluator for chunks of up to ``count`` cases, as large as memory allows."""
+        if isinstance(subject, FormulaSubject) and not subject.pure:
+            return Evaluator(subject, inputs, outputs, min(count, CHUNKS["python"]), None, None)
+        accelerator = jax.default_backend() != "cpu"
+        sort = "accelerator" if accelerator and not subject.batched else "batched" if subject.batched else "line"
+        size = min(CHUNKS[sort], 1 << max(count - 1, 0).bit_length())
+        arrays = jax.tree.map(jnp.asarray, subject.arrays())
+        one = subject.traced(inputs, outputs)
+        # one after the other in compiled code beats side by side for a line on a processor: no case waits for the slowest
+        many = jax.vmap(one, in_axes=(None, 0)) if sort != "line" else lambda a, x: jax.lax.map(lambda v: one(a, v), x)
+        while True:
+            compiled = jax.jit(many).lower(arrays, jnp.zeros((size, len(inputs)))).compile()
+            memory = compiled.memory_analysis()
+            if memory is None or memory.temp_size_in_bytes <= MEMORY or size == 1:
+                return Evaluator(subject, inputs, outputs, size, compiled, arrays)
+            size = max(1, int(size * 0.9 * MEMORY / memory.temp_size_in_bytes))
+
+    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, dict[int, str]]:
+        """Figures, codes and texts of up to ``size`` cases."""
+        codes = np.zeros(len(x), np.int32)
+        for i, path in enumerate(self.inputs):
+            kind = self.subject.input(path).parameter.kind
+            if kind is not None:
+                codes[(codes == FINE) & ~np.asarray(kind.contains(x[:, i]) & np.isfinite(x[:, i]))] = OUTSIDE + i
+        fine = np.flatnonzero(codes == FINE)
+        y = np.full((len(x), len(self.outputs)), np.nan)
+        if not len(fine):
+            return y, codes, {}
+        if self.compiled is None:
+            return self._one_by_one(x, y, codes, fine)
+        # impossible and missing cases are computed at a possible place and thrown away: one shape, one compilation
+        padded = np.repeat(x[fine[:1]], self.size, axis=0)
+        padded[fine] = x[fine]
+        figures, found = (np.asarray(part)[: len(x)] for part in self.compiled(self.arrays, jnp.asarray(padded)))
+        codes[fine] = found[fine]
+        y[codes == FINE] = figures[codes == FINE]
+        return y, codes, {}
+
+    def _one_by_one(
+        self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, dict[int, str]]:
+        texts: dict[int, str] = {}
+        run = self.subject.traced(self.inputs, self.outputs)
+        for case in fine:
+            try:
+                figures, code = run(self.subject.arrays(), [float(v) for v in x[case]])
+                codes[case] = int(code)
+                y[case] = np.asarray(figures) if int(code) == FINE else np.nan
+            except GranumError as problem:
+                codes[case], texts[int(case)] = RAISED, problem.message
+        return y, codes, texts
+
+
+_evaluators: OrderedDict[tuple[Any, ...], Evaluator] = OrderedDict()
+
+
+def evaluator(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], count: int) -> Evaluator:
+    """The evaluator of a subject; the last few are kept, compiled."""
+    kept = 1 << max(count - 1, 0).bit_length()
+    key = (id(subject), inputs, outputs, min(kept, max(CHUNKS.values())))
+    if key not in _evaluators:
+        _evaluators[key] = Evaluator.of(subject, inputs, outputs, count)
+        while len(_evaluators) > 8:
+            _evaluators.popitem(last=False)
+    _evaluators.move_to_end(key)
+    return _evaluators[key]
+
+
+class Store:
+    """Chunks on disk: each is written whole or not at all, so that a killed study continues where it was."""
+
+    def __init__(self, folder: Path, cases: Cases, size: int):
+        self.folder = folder
+        digest = hashlib.sha256(cases.subject.fingerprint().encode())
+        digest.update(repr((cases.inputs, cases.outputs, size)).encode() + np.ascontiguousarray(cases.x).tobytes())
+        manifest = {"study": digest.hexdigest(), "cases": len(cases.x), "chunk": size}
+        path = folder / "study.json"
+        if path.exists():
+            if json.loads(path.read_text(encoding="utf-8")) != manifest:
+                raise InputError(
+                    _("'{folder}' holds the cases of another study: choose another folder, or delete it.").format(folder=folder),
+                    path=str(folder),
+                )
+            return
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as problem:
+            raise InputError(_("'{path}' cannot be written: {reason}.").format(path=folder, reason=problem.strerror)) from None
+        if any(folder.iterdir()):
+            raise InputError(
+                _("'{folder}' is not empty and holds no study: choose another folder.").format(folder=folder), path=str(folder)
+            )
+        write_atomic(path, json.dumps(manifest))
+
+    def _path(self, start: int) -> Path:
+        return self.folder / f"cases-{start:09d}.npz"
+
+    def load(self, start: int) -> tuple[np.ndarray, np.ndarray, dict[int, str]] | None:
+        """A finished chunk, or None."""
+        path = self._path(start)
+        if not path.exists():
+            return None
+        with np.load(path, allow_pickle=False) as kept:
+            return kept["y"], kept["codes"], {int(k): v for k, v in json.loads(str(kept["texts"])).items()}
+
+    def save(self, start: int, y: np.ndarray, codes: np.ndarray, texts: dict[int, str]) -> None:
+        """Keep a finished chunk."""
+        buffer = io.BytesIO()
+        np.savez(buffer, y=y, codes=codes, texts=json.dumps(texts))
+        write_atomic(self._path(start), buffer.getvalue())
+
+    def clear(self) -> None:
+        """Forget the chunks once the result is written elsewhere."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], x: np.ndarray, *, progress: Report | None = None,
+             cancel: Cancel | None = None, folder: str | Path | None = None, workers: Any = None) -> Cases:  # fmt: skip
+    """Compute all cases ``x`` (cases × inputs, SI).
+
+    Parameters
+    ----------
+    progress: called with a ``Progress`` after every chunk.
+    cancel: asked after every chunk; True stops, what is not done is marked so.
+    folder: where finished chunks are kept; the same call continues there.
+    workers: number of local Dask workers, or the address of a Dask scheduler; None computes here on all cores.
+    """
+    x = np.atleast_2d(np.asarray(x, dtype=float))
+    for path in inputs:
+        subject.input(path)
+    cases = Cases(subject, inputs, outputs, x, np.full((len(x), len(outputs)), np.nan), np.full(len(x), NOT_RUN, np.int32))
+    size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).size
+    store = Store(Path(folder), cases, size) if folder is not None else None
+    todo = []
+    for start in range(0, len(x), size):
+        known = store.load(start) if store is not None else None
+        if known is None:
+            todo.append(start)
+        else:
+            _fill(cases, start, *known)
+
+    def report() -> bool:
+        if progress is not None:
+            run = cases.codes != NOT_RUN
+            progress(Progress(int(run.sum()), len(x), int((run & ~cases.fine).sum())))
+        return cancel is not None and bool(cancel())
+
+    if report() or not todo:
+        return cases
+    chunks = [(start, x[start : start + size]) for start in todo]
+    made = (
+        _remote(subject, inputs, outputs, chunks, workers)
+        if workers is not None
+        else _local(evaluator(subject, inputs, outputs, len(x)), chunks)
+    )
+    for start, found in made:
+        _fill(cases, start, *found)
+        if store is not None:
+            store.save(start, *found)
+        if report():
+            made.close()
+            break
+    return cases
+
+
+def _chunk(subject: Subject, count: int) -> int:
+    """Chunks for workers: small enough to share out, a quarter of what one process takes at once."""
+    most = CHUNKS["batched"] // 4 if subject.batched else CHUNKS["line"]
+    return max(1, min(most, -(-count // 8)))
+
+
+def _fill(cases: Cases, start: int, y: np.ndarray, codes: np.ndarray, texts: dict[int, str]) -> None:
+    cases.y[start : start + len(y)] = y
+    cases.codes[start : start + len(y)] = codes
+    cases.texts.update({start + k: v for k, v in texts.items()})
+
+
+Made = Iterator[tuple[int, tuple[np.ndarray, np.ndarray, dict[int, str]]]]
+
+
+def _local(compute: Evaluator, chunks: list[tuple[int, np.ndarray]]) -> Any:
+    """Chunks computed by threads (compiled code leaves the interpreter free), a few ahead, as they finish."""
+    threads = (
+        1
+        if compute.compiled is None or jax.default_backend() != "cpu"
+        else max(1, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
+    )
+    with ThreadPoolExecutor(threads) as pool:
+        waiting = list(reversed(chunks))
+        running: dict[Future[Any], int] = {}
+        try:
+            while waiting or running:
+                while waiting and len(running) < threads + 1:
+                    start, part = waiting.pop()
+                    running[pool.submit(compute, part)] = start
+                done, _pending = wait(running, return_when=FIRST_COMPLETED)
+                for one in done:
+                    yield running.pop(one), one.result()
+        finally:
+            for one in running:
+                one.cancel()
+
+
+def _remote(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any) -> Any:
+    if subject.recipe is None:
+        raise InputError(
+            _("Workers build the model themselves: they need a study read from a file or a table, not a model made in Python.")
+        )
+    from granum.studies.workers import computed
+
+    return computed(subject.recipe, inputs, outputs, chunks, workers)

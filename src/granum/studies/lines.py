@@ -1,0 +1,270 @@
+"""A process line as the subject of a study: any unit parameter or feed figure in, any result or stream figure out.
+
+Inputs: ``unit.parameter`` (also inside a law: ``crystallizer.growth.growth_order``, or one element of a list:
+``crystallizer.profile[2]``), ``feed.temperature``, ``feed.liquid_flow``, ``feed.solid_flow``, ``feed.gas_flow``,
+``feed.mass_flow`` (all phases in proportion) and ``feed.liquid.NAME`` (mass fraction in its phase, the others keeping
+their proportions). Figures: ``unit.result``, ``unit.parameter``, ``stream.mass_flow``, ``stream.temperature``,
+``stream.moisture_dry_basis``, ``stream.median_size``, ``stream.liquid.NAME`` and so on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.flowsheet import Flowsheet
+from granum.flowsheet.specifications import Target, design, outlets_of
+from granum.streams.stream import Stream
+from granum.studies.expressions import Lookup
+from granum.studies.subjects import FINE, NOT_CONVERGED, UNMET, Subject, Variable, as_arrays, split_index
+
+PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
+FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
+STREAM = {
+    **dict.fromkeys(FLOWS, "MassFlow"), "temperature": "Temperature", "pressure": "Pressure", "moisture_dry_basis": "MoistureDryBasis",
+    "solids_mass_fraction": "MassFraction", "solids_volume_fraction": "VolumeFraction", "slurry_volume_flow": "VolumeFlow",
+    "gas_volume_flow": "VolumeFlow", "enthalpy_flow": "Power", "median_size": "Length",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class LineSubject(Subject):
+    """A flowsheet with its design specifications."""
+
+    sheet: Flowsheet
+    targets: tuple[Target, ...]
+    name: str
+
+    @staticmethod
+    def of(line: Any, recipe: Any = None) -> LineSubject:
+        """A line as read from a case file, or a bare flowsheet."""
+        sheet = getattr(line, "sheet", line)
+        name = getattr(line, "title", "") or _("Process line")
+        return LineSubject(sheet, tuple(getattr(line, "targets", ())), name, recipe=recipe)
+
+    @property
+    def title(self) -> str:
+        return self.name
+
+    @property
+    def batched(self) -> bool:
+        return False
+
+    def input(self, path: str) -> Variable:
+        plain, index = split_index(path)
+        head, *rest = plain.split(".")
+        feed = self.sheet.feeds.get(head)
+        if feed is not None and rest:
+            return Variable(path, self._feed_input(feed, head, rest))
+        keys = self.sheet.locate(plain)
+        parameter = _declared(self.sheet.units[keys[0]], keys[1:])
+        value = self.sheet.value(plain)
+        if value is None:
+            raise InputError(_("'{name}' has no value in the case: give it one to start from.").format(name=plain), name=plain)
+        if isinstance(value, (bool, int, str)) or not (np.issubdtype(np.asarray(value).dtype, np.floating) if _numeric(value) else False):
+            raise InputError(
+                _("'{name}' is not a quantity that can vary continuously: it is a choice, a law or a whole number.").format(name=plain),
+                name=plain,
+            )
+        if (index is None) != (np.ndim(value) == 0):
+            raise InputError(
+                _("'{name}' is a list: vary one element, as in '{name}[0]'.").format(name=plain)
+                if index is None
+                else _("'{name}' is a single value: leave out the index.").format(name=plain)
+            )
+        if index is not None and not -len(value) <= index < len(value):
+            raise InputError(
+                _("'{name}' has {count} elements: index {index} is none of them.").format(name=plain, count=len(value), index=index)
+            )
+        if any(t.vary == plain for t in self.targets):
+            raise InputError(_("'{name}' is found by a design specification of the case: it cannot be varied as well.").format(name=plain))
+        return Variable(path, parameter)
+
+    def _feed_input(self, feed: Stream, head: str, rest: list[str]) -> Parameter:
+        where = _("of feed '{feed}'").format(feed=head)
+        fields = ["temperature", "pressure", *FLOWS, *(f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(feed.mixture, own))]
+        word = ".".join(rest)
+        if word not in fields:
+            raise unknown_name(_("Input"), word, fields, where)
+        phase = rest[0].removesuffix("_flow")
+        if (len(rest) == 2 or phase in PHASES) and float(getattr(feed, f"{phase}_flow")) <= 0:
+            raise InputError(_("Feed '{feed}' carries no {phase}: its flow cannot be varied.").format(feed=head, phase=_(phase)))
+        return Parameter(rest[-1] if len(rest) == 2 else word, KINDS["MassFraction" if len(rest) == 2 else STREAM[word]])
+
+    def nominal(self, path: str) -> Any:
+        plain, index = split_index(path)
+        head, *rest = plain.split(".")
+        feed = self.sheet.feeds.get(head)
+        if feed is not None:
+            if len(rest) == 2:
+                flows = _flows(feed, rest[0])
+                return float(flows[feed.mixture.index(PHASES[rest[0]], rest[1])] / jnp.sum(flows))
+            return float(getattr(feed, rest[0]))
+        value = self.sheet.value(plain)
+        return float(value if index is None else value[index])
+
+    def own_output(self, path: str) -> Variable:
+        plain, index = split_index(path)
+        unit, _dot, name = plain.partition(".")
+        if unit in self.sheet.units:
+            card = type(self.sheet.units[unit]).card
+            known = {p.name: p for p in (*card.parameters, *card.outputs) if p.kind is not None}
+            known |= {n: Parameter(n, KINDS["Power"]) for n in self.sheet.units[unit].power_names() if n not in known}
+            if name in known:
+                if known[name].series and index is None:
+                    raise InputError(_("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=plain))
+                return Variable(path, known[name])
+        streams = {k.name for k in self.sheet.links}
+        for cut in (plain.rpartition("."), _before_species(plain)):
+            if cut[0] in streams:
+                return Variable(path, self._stream_figure(cut[0], cut[2]))
+        if unit in self.sheet.units and "." in plain:
+            raise unknown_name(_("Result"), name, known, _("of unit '{unit}'").format(unit=unit))
+        raise unknown_name(_("Figure"), plain, (*self.outputs(), *self.quantities))
+
+    def _stream_figure(self, stream: str, word: str) -> Parameter:
+        mixture = next(iter(self.sheet.feeds.values())).mixture
+        species = [f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(mixture, own)]
+        if word in species:
+            return Parameter(word.partition(".")[2], KINDS["MassFraction"])
+        if word not in STREAM:
+            raise unknown_name(_("Figure"), word, (*STREAM, *species), _("of stream '{stream}'").format(stream=stream))
+        return Parameter(word, KINDS[STREAM[word]])
+
+    def outputs(self) -> tuple[str, ...]:
+        own = [
+            f"{unit}.{p.name}"
+            for unit in self.sheet.order
+            for p in type(self.sheet.units[unit]).card.outputs
+            if p.kind is not None and not p.series
+        ]
+        return tuple(dict.fromkeys((*(t.vary for t in self.targets), *own, *self.quantities)))
+
+    def arrays(self) -> Any:
+        return as_arrays(self.sheet)
+
+    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
+        found = design(self._changed(arrays, values), self.targets)
+        met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
+        code = jnp.where(found.converged, FINE, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
+        line, streams = found.line, found.solution.streams
+        results: dict[str, Any] = {}
+
+        def lookup(path: str) -> Any:
+            plain, index = split_index(path)
+            unit, _dot, name = plain.partition(".")
+            if unit in line.units:
+                thing = line.units[unit]
+                if name in {p.name for p in type(thing).card.parameters}:
+                    value = getattr(thing, name)
+                    return value if index is None else value[index]
+                if name in {p.name for p in type(thing).card.outputs}:
+                    if unit not in results:
+                        results[unit] = thing.results(line.inlets_of(unit, streams), outlets_of(line, found.solution, unit))
+                    value = getattr(results[unit], name)
+                    return value if index is None else value[index]
+                if name in thing.power_names():
+                    return found.solution.powers[unit][name]
+            stream, _dot, word = plain.rpartition(".")
+            if stream not in streams:
+                stream, _dot, word = _before_species(plain)
+            return stream_figure(streams[stream], word)
+
+        return lookup, code
+
+    def _changed(self, sheet: Flowsheet, values: Mapping[str, Any]) -> Flowsheet:
+        """The sheet with other values; figures of feeds first shares, then flows."""
+        plain: dict[str, Any] = {}
+        feeds: dict[str, dict[str, Any]] = {}
+        for path, value in values.items():
+            name, index = split_index(path)
+            head, _dot, rest = name.partition(".")
+            if head in sheet.feeds:
+                feeds.setdefault(head, {})[rest] = value
+            elif index is None:
+                plain[name] = value
+            else:
+                plain[name] = jnp.asarray(plain.get(name, sheet.value(name))).at[index].set(value)
+        sheet = sheet.with_values(plain)
+        if not feeds:
+            return sheet
+        changed = {name: refed(stream, feeds[name]) if name in feeds else stream for name, stream in sheet.feeds.items()}
+        import equinox as eqx
+
+        return eqx.tree_at(lambda s: s.feeds, sheet, changed)
+
+
+def _flows(stream: Stream, phase: str) -> Any:
+    return stream.solid_by_species if phase == "solid" else getattr(stream, phase)
+
+
+def refed(stream: Stream, values: Mapping[str, Any]) -> Stream:
+    """A feed with other shares, flows, temperature or pressure."""
+    for phase, own in PHASES.items():
+        shares = {word.partition(".")[2]: v for word, v in values.items() if word.startswith(phase + ".")}
+        if shares:
+            flows = _flows(stream, phase)
+            total = jnp.sum(flows)
+            place = np.array([stream.mixture.index(own, n) for n in shares])
+            named = jnp.zeros(flows.shape, bool).at[place].set(True)
+            rest = jnp.where(named, 0.0, flows)
+            others = jnp.sum(rest)
+            left = 1.0 - sum(shares.values())
+            new = jnp.where(others > 0, rest / jnp.where(others > 0, others, 1.0), 0.0) * left * total
+            new = new.at[place].set(jnp.stack([jnp.asarray(v) for v in shares.values()]) * total)
+            if phase == "solid":
+                ratio = jnp.where(flows > 0, new / jnp.where(flows > 0, flows, 1.0), 0.0)
+                stream = stream.replace(solid=stream.solid * ratio.reshape((-1,) + (1,) * (stream.solid.ndim - 1)))
+            else:
+                stream = stream.replace(**{phase: new})
+    for word in FLOWS:
+        if word in values:
+            now = getattr(stream, word)
+            factor = values[word] / jnp.where(now > 0, now, 1.0)
+            phases = PHASES if word == "mass_flow" else (word.removesuffix("_flow"),)
+            stream = stream.replace(**{p: getattr(stream, p) * factor for p in phases})
+    return stream.replace(**{w: jnp.asarray(values[w]) for w in ("temperature", "pressure") if w in values})
+
+
+def stream_figure(stream: Stream, word: str) -> Any:
+    """One figure of a stream; shares are mass fractions within the phase."""
+    phase, dot, species = word.partition(".")
+    if dot:
+        flows = _flows(stream, phase)
+        total = jnp.sum(flows)
+        return flows[stream.mixture.index(PHASES[phase], species)] / jnp.where(total > 0, total, 1.0)
+    if word == "median_size":
+        shares = stream.size_fractions
+        edges = jnp.log(jnp.maximum(jnp.asarray(stream.mixture.edges), 1e-12))
+        return jnp.exp(jnp.interp(0.5, jnp.concatenate([jnp.zeros(1), jnp.cumsum(shares)]), edges))
+    return getattr(stream, word)
+
+
+def _before_species(path: str) -> tuple[str, str, str]:
+    """``"purged.liquid.potassium nitrate"`` → stream, dot and ``"liquid.potassium nitrate"``."""
+    for phase in PHASES:
+        stream, dot, species = path.partition(f".{phase}.")
+        if dot:
+            return stream, ".", f"{phase}.{species}"
+    return "", "", path
+
+
+def _numeric(value: Any) -> bool:
+    return isinstance(value, float) or hasattr(value, "dtype")
+
+
+def _declared(thing: Any, names: tuple[str, ...]) -> Parameter:
+    """The declaration of a field, also inside a law."""
+    for name in names[:-1]:
+        thing = getattr(thing, name)
+    card = getattr(type(thing), "card", None)
+    found = {p.name: p for p in card.parameters} if card is not None else {}
+    return found.get(names[-1], Parameter(names[-1]))

@@ -1,0 +1,292 @@
+"""What is studied: a formula, a procedure or a process line, seen as numbers in and numbers out with a reason for each failure."""
+
+from __future__ import annotations
+
+import abc
+import hashlib
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import registry
+from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.i18n import _
+from granum.core.parameters import Parameter, convert
+from granum.studies.expressions import Expression, Lookup, Quantity, quantity
+
+FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN = 0, 1, 2, 3, 4
+NOT_FINITE, OUTSIDE = 1000, 2000
+"""Codes of a case: fine, or why it failed; from 1000 the result, from 2000 the input at fault."""
+
+_INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
+Traced = Callable[[Any, Any], tuple[Any, Any]]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """An input or a figure of a study: its path and its declaration."""
+
+    path: str
+    parameter: Parameter
+
+    @property
+    def label(self) -> str:
+        """``unit: quantity`` in the current language."""
+        owner, dot, _last = self.path.partition(".")
+        own = self.parameter.label
+        return f"{owner}: {own}" if dot else own
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return self.parameter.kind.unit if self.parameter.kind else ""
+
+
+@dataclass(frozen=True)
+class Subject(abc.ABC):
+    """A model with inputs and figures by path. ``traced`` is pure: it may be compiled, batched and differentiated."""
+
+    quantities: Mapping[str, Quantity] = field(default_factory=dict, kw_only=True)
+    recipe: Any = field(default=None, kw_only=True, compare=False)
+    """How another process can make the same subject: an object with ``build()``; None when it was made in Python."""
+
+    @property
+    @abc.abstractmethod
+    def title(self) -> str:
+        """What is studied, in words."""
+
+    @property
+    def batched(self) -> bool:
+        """Whether many cases are best computed side by side (``vmap``) rather than one after the other in compiled code."""
+        return True
+
+    @abc.abstractmethod
+    def input(self, path: str) -> Variable:
+        """An input by path, or an error that suggests the nearest one."""
+
+    @abc.abstractmethod
+    def nominal(self, path: str) -> Any:
+        """The value of an input when nothing changes it, SI; NaN when it has none."""
+
+    @abc.abstractmethod
+    def own_output(self, path: str) -> Variable:
+        """A figure of the model by path."""
+
+    @abc.abstractmethod
+    def outputs(self) -> tuple[str, ...]:
+        """Figures shown when none are asked for."""
+
+    @abc.abstractmethod
+    def arrays(self) -> Any:
+        """The numbers of the model as a pytree, handed to ``traced`` so that compiled code is reused when they change."""
+
+    @abc.abstractmethod
+    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
+        """Solves for given inputs: a function that looks up figures, and the code of the outcome. Pure."""
+
+    def fingerprint(self) -> str:
+        """A digest of the model, so that a stored study is never continued with another one."""
+        leaves = jax.tree_util.tree_leaves(self.arrays())
+        text = self.title + "".join(f"{q.name}{q.fixed}{[(n, e.text) for n, e in q.inputs]}" for q in self.quantities.values())
+        digest = hashlib.sha256(text.encode())
+        for leaf in leaves:
+            digest.update(np.asarray(leaf).tobytes() if isinstance(leaf, (np.ndarray, jax.Array, float, int)) else repr(leaf).encode())
+        return digest.hexdigest()
+
+    # -- common to all -----------------------------------------------------------------------------------------
+    def with_quantities(self, declared: Mapping[str, Any]) -> Subject:
+        """The same subject with further figures, see ``granum.studies.expressions.quantity``."""
+        made = dict(self.quantities)
+        for name, table in declared.items():
+            made[name] = table if isinstance(table, Quantity) else quantity(name, table)
+        changed = replace(self, quantities=made)
+        for name in declared:
+            changed.output(name)  # complains about unknown names
+        return changed
+
+    def output(self, path: str, trail: tuple[str, ...] = ()) -> Variable:
+        """A figure by path or by the name of a quantity."""
+        if path not in self.quantities:
+            return self.own_output(path)
+        if path in trail:
+            raise InputError(_("Quantity '{name}' is defined by itself.").format(name=path), name=path)
+        for name in self.quantities[path].names():
+            self.output(name, (*trail, path))
+        return Variable(path, self.quantities[path].parameter)
+
+    def figure(self, text: str) -> tuple[Subject, str]:
+        """A figure given by path, by quantity or as an expression; the subject gains the expression as a quantity."""
+        try:
+            self.output(text)
+            return self, text
+        except GranumError as problem:
+            try:
+                expression = Expression.read(text)
+            except GranumError:
+                raise problem from None
+            if expression.is_name:
+                raise
+            return self.with_quantities({text: Quantity(text, Parameter(text), (("", expression),))}), text
+
+    def _needed(self, paths: tuple[str, ...]) -> tuple[str, ...]:
+        """The model's own figures behind some figures."""
+        own: dict[str, None] = {}
+        for path in paths:
+            inner = self.quantities[path].names() if path in self.quantities else ()
+            own |= dict.fromkeys(self._needed(inner)) if path in self.quantities else {path: None}
+        return tuple(own)
+
+    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> Traced:
+        """A pure function (arrays, vector of inputs) → (vector of figures, code)."""
+
+        def run(arrays: Any, vector: Any) -> tuple[Any, Any]:
+            values = {path: vector[i] for i, path in enumerate(inputs)}
+            own, code = self.compute(arrays, values, self._needed(outputs))
+
+            def lookup(path: str) -> Any:
+                return self.quantities[path].value(lookup) if path in self.quantities else own(path)
+
+            figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
+            lost = ~jnp.isfinite(figures)
+            bad = jnp.where(jnp.any(lost), NOT_FINITE + jnp.argmax(lost), FINE)
+            return figures, jnp.where(code == FINE, bad, code).astype(jnp.int32)
+
+        return run
+
+    def reason(self, code: int, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> str:
+        """Why a case failed, in words."""
+        if code >= OUTSIDE:
+            return _("input '{name}' outside what is possible").format(name=inputs[code - OUTSIDE])
+        if code >= NOT_FINITE:
+            return _("result '{name}' is not a finite number").format(name=outputs[code - NOT_FINITE])
+        return {
+            NOT_CONVERGED: _("a loop did not converge"),
+            UNMET: _("the design specifications cannot be met"),
+            RAISED: _("the calculation refused the inputs"),
+            NOT_RUN: _("not run: the study was stopped"),
+        }[code]
+
+
+def split_index(path: str) -> tuple[str, int | None]:
+    """``"unit.profile[2]"`` → ``("unit.profile", 2)``."""
+    found = _INDEXED.match(path)
+    return (found.group(1), int(found.group(2))) if found else (path, None)
+
+
+@dataclass(frozen=True)
+class FormulaSubject(Subject):
+    """A formula, or a procedure (computed one by one, without derivatives), with the inputs that stay fixed."""
+
+    thing: Any
+    fixed: Mapping[str, Any]
+
+    @staticmethod
+    def of(thing: Any, fixed: Mapping[str, Any], recipe: Any = None) -> FormulaSubject:
+        """A formula card or its key with fixed inputs, in any unit."""
+        thing = registry.find(thing) if isinstance(thing, str) else thing
+        if thing.card.sort not in ("formula", "procedure"):
+            raise InputError(
+                _("'{key}' is a {sort}: a study takes a formula, a procedure, or a case file with the equipment in it.").format(
+                    key=thing.card.key, sort=_(thing.card.sort)
+                )
+            )
+        known = {p.name: p for p in thing.card.parameters}
+        where = _("for {owner}").format(owner=thing.card.key)
+        for name in fixed:
+            if name not in known:
+                raise unknown_name(_("Input"), name, known, where)
+        return FormulaSubject(thing, {n: convert(v, known[n], " " + where) for n, v in fixed.items()}, recipe=recipe)
+
+    @property
+    def title(self) -> str:
+        return self.thing.card.title
+
+    @property
+    def pure(self) -> bool:
+        """Whether it can be compiled and differentiated."""
+        return self.thing.card.sort == "formula"
+
+    def input(self, path: str) -> Variable:
+        name, index = split_index(path)
+        known = {p.name: p for p in self.thing.card.parameters if p.kind is not None and p.sort is not int}
+        if name not in known:
+            raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=self.thing.card.key))
+        if (index is not None) != (known[name].series is not None):
+            raise InputError(
+                _("'{name}' is a list: vary one element, as in '{name}[0]'.").format(name=name)
+                if index is None
+                else _("'{name}' is a single value: leave out the index.").format(name=name)
+            )
+        return Variable(path, known[name])
+
+    def nominal(self, path: str) -> Any:
+        name, index = split_index(path)
+        value = self.fixed.get(name, self.thing.card.parameter(name).default)
+        if value is None or (value is self.thing.card.parameter(name).default and self.thing.card.parameter(name).required):
+            return np.nan
+        return float(value if index is None else np.asarray(value)[index])
+
+    def own_output(self, path: str) -> Variable:
+        name, index = split_index(path)
+        known = {p.name: p for p in (*self.thing.card.outputs, *(p for p in self.thing.card.parameters if p.kind is not None))}
+        if name not in known:
+            raise unknown_name(_("Result"), name, known, _("for {owner}").format(owner=self.thing.card.key))
+        if known[name].series and index is None:
+            raise InputError(_("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=name))
+        return Variable(path, known[name])
+
+    def outputs(self) -> tuple[str, ...]:
+        return tuple(p.name for p in self.thing.card.outputs if not p.series and p.kind is not None) + tuple(self.quantities)
+
+    def arrays(self) -> Any:
+        numbers = {p.name for p in self.thing.card.parameters if p.kind is not None and p.sort is not int}
+        return {n: np.asarray(v, dtype=float) for n, v in self.fixed.items() if n in numbers and v is not None}
+
+    def complete(self, varied: tuple[str, ...]) -> None:
+        """Raise one clear error when inputs are neither fixed nor varied."""
+        varied = tuple(split_index(v)[0] for v in varied)
+        missing = [p for p in self.thing.card.parameters if p.required and p.name not in self.fixed and p.name not in varied]
+        if missing:
+            names = ", ".join(f"'{p.name}' ({p.label})" for p in missing)
+            raise InputError(_("{owner} needs {names}.").format(owner=self.thing.card.key, names=names), missing=[p.name for p in missing])
+
+    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
+        given = {**self.fixed, **{n: jnp.asarray(v) for n, v in arrays.items()}}
+        for path, value in values.items():
+            name, index = split_index(path)
+            given[name] = value if index is None else jnp.asarray(given[name]).at[index].set(value)
+        made = self.thing(**given)
+        found = made._asdict() if hasattr(made, "_asdict") else {self.thing.card.outputs[0].name: made}
+        defaults = {p.name: p.default for p in self.thing.card.parameters if not p.required}
+
+        def lookup(path: str) -> Any:
+            name, index = split_index(path)
+            value = found[name] if name in found else given.get(name, defaults.get(name))
+            return value if index is None else jnp.asarray(value)[index]
+
+        return lookup, jnp.asarray(FINE)
+
+
+def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: Mapping[str, Any] | None = None) -> Subject:
+    """The subject of a study: a line (``granum.read``), a flowsheet, a formula or the key of a card."""
+    from granum.studies.lines import LineSubject
+
+    if isinstance(thing, Subject):
+        made: Subject = thing
+    elif hasattr(thing, "sheet") or hasattr(thing, "links"):
+        if fixed:
+            raise InputError(_("A line holds its own inputs: change them with 'with_values'."))
+        made = LineSubject.of(thing)
+    else:
+        made = FormulaSubject.of(thing, fixed or {})
+    return made.with_quantities(quantities) if quantities else made
+
+
+def as_arrays(tree: Any) -> Any:
+    """Numbers as arrays, so that compiled code is reused when only values change."""
+    return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
