@@ -6,7 +6,7 @@ from typing import Any
 
 _HOME = {
     "find_root": "roots", "Root": "roots",
-    "fixed_point": "fixed_points", "solve_system": "fixed_points", "Solution": "fixed_points",
+    "fixed_point": "fixed_points", "settle": "fixed_points", "Settled": "fixed_points", "solve_system": "fixed_points", "Solution": "fixed_points",
     "AbstractMethod": "fixed_points", "Anderson": "fixed_points", "Newton": "fixed_points",
     "advance": "finite_volumes", "transport_rate": "finite_volumes", "ssp_rk3": "finite_volumes",
     "steps_for": "finite_volumes", "stationary_points": "finite_volumes", "Evolution": "finite_volumes",
@@ -20,6 +20,7 @@ _HOME = {
     "cumulative_trapezoid": "quadrature", "cumulative_simpson": "quadrature",
     "interpolate_linear": "interpolation", "MonotoneCubic": "interpolation",
     "slopes_pchip": "interpolation", "slopes_steffen": "interpolation",
+    "solve_chain": "chains", "advance_chain": "chains", "chain_blocks": "chains", "ChainSolution": "chains",
     "safe_where": "smooth", "safe_divide": "smooth", "safe_log": "smooth", "safe_sqrt": "smooth", "safe_power": "smooth",
     "positive_part": "smooth", "blend": "smooth",
 }  # fmt: skip
