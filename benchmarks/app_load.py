@@ -16,11 +16,16 @@ import time
 
 import httpx
 
+SPHERE = {"particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
 CARDS = {
-    "particles.terminal_velocity": {"particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"},
-    "particles.terminal_velocity_stokes": {"particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"},
+    "particles.terminal_velocity": SPHERE,
+    "particles.terminal_velocity_stokes": SPHERE,
     "filtration.cake_resistance_kozeny_carman": {"void_fraction": "0.38", "solid_density": "2630 kg/m3"},
-}
+    "porous.pressure_gradient_ergun": {"superficial_velocity": "1 mm/s", "void_fraction": "0.4", "fluid_density": "998 kg/m3", "dynamic_viscosity": "1 cP"},
+    "porous.permeability_carman": {"void_fraction": "0.4"},
+    "fluidization.minimum_fluidization_velocity_wen_yu": SPHERE,
+}  # fmt: skip
+"""Cards whose particle diameter the users change."""
 
 
 async def user(client: httpx.AsyncClient, number: int, until: float, times: list[float], lost: list[str]) -> None:
@@ -29,6 +34,8 @@ async def user(client: httpx.AsyncClient, number: int, until: float, times: list
     await asyncio.sleep(draw.random())
     while time.monotonic() < until:
         card, inputs = draw.choice(list(CARDS.items()))
+        if draw.random() < 0.1:  # now and then another card is opened
+            await client.get(f"/api/cards/{card}")
         start = time.perf_counter()
         try:
             answer = await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": f"{draw.uniform(20, 200):.3g} um"})

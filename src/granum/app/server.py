@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import json
 import logging
 from functools import cache
 from importlib.resources import files
@@ -19,13 +17,12 @@ from starlette.exceptions import HTTPException
 import granum
 from granum.app import exercises
 from granum.app.forms import card_form
-from granum.app.limits import LARGEST_BODY, Busy, Guard, Workers, problem
-from granum.app.spread import spread
-from granum.app.texts import described, label_of, plain_data
+from granum.app.jobs import Broken, crew
+from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
+from granum.app.tasks import calculate, packed
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
-from granum.core.units import pretty_unit
 
 STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
@@ -35,7 +32,11 @@ class Answer(JSONResponse):
     """JSON of whatever the package returns."""
 
     def render(self, content: Any) -> bytes:
-        return json.dumps(plain_data(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+        return packed(content)
+
+
+def _json(content: bytes) -> Response:
+    return Response(content, media_type="application/json")
 
 
 def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
@@ -49,9 +50,9 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     app = FastAPI(title="Granum", version=granum.__version__, docs_url=None, redoc_url=None)
     app.add_middleware(Guard, token=token)
     quick = Workers(count=2, waiting=400, longest=60.0)
-    patient = Workers(count=2, waiting=24, longest=300.0)
     _refusals(app)
-    _calculations(app, quick, patient)
+    _cards_and_formulas(app, quick)
+    _long_work(app)
     _files(app, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
@@ -77,17 +78,22 @@ def _refusals(app: FastAPI) -> None:
     @app.exception_handler(Exception)
     async def broken(request: Request, fault: Exception) -> JSONResponse:
         logging.getLogger("granum").error("%s %s", request.method, request.url.path, exc_info=fault)
-        return problem(500, _("Granum has a fault here: {reason}. Please report it.").format(reason=type(fault).__name__))
+        return problem(
+            500,
+            _("Granum has a fault here: {reason}. Please report it.").format(
+                reason=fault if isinstance(fault, Broken) else type(fault).__name__
+            ),
+        )
 
 
-def _calculations(app: FastAPI, quick: Workers, patient: Workers) -> None:
-    """Cards, calculations, fits and lines."""
+def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
+    """What is answered in a moment, in this process."""
 
     @app.get("/api/cards")
     async def cards(word: str = "", sort: str = "") -> Response:
         """All cards, short."""
         if not word and not sort:
-            return Response(await quick.run(_cards_text), media_type="application/json")
+            return _json(await quick.run(_cards_text))
         needle = word.lower()
         found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
         return Answer({"cards": [c for c in found if needle in f"{c['card']} {c['title']} {c['summary']}".lower()]})
@@ -95,44 +101,63 @@ def _calculations(app: FastAPI, quick: Workers, patient: Workers) -> None:
     @app.get("/api/cards/{key}")
     async def card(key: str) -> Response:
         """One card with everything a form needs."""
-        return Answer(await quick.run(lambda: card_form(key)))
+        language = current_language()
+        return _json(_forms[key, language] if (key, language) in _forms else await quick.run(lambda: _form_text(key, language)))
 
     @app.post("/api/calc/{key}")
     async def calc(request: Request, key: str, inputs: Inputs) -> Response:
         """Evaluate a card."""
-        return Answer(await quick.run(lambda: _calc(key, inputs), request))
+        payload = {"key": key, "inputs": inputs}
+        if _familiar.knows(key, inputs):
+            return _json(calculate(payload, _no_progress))
+        if await quick.run(lambda: registry.find(key).card.sort) == "procedure":  # may be long
+            return _json(await crew().run("calculate", payload, key, request))
+        return _json(await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, _no_progress)), request))
+
+    @app.get("/api/exercises")
+    async def exercise_list() -> Response:
+        """Worked examples and quizzes of the course notes."""
+        return Answer(await quick.run(exercises.listing))
+
+
+def _long_work(app: FastAPI) -> None:
+    """What may take long or much memory, in processes of its own."""
 
     @app.post("/api/spread/{key}")
     async def others(request: Request, key: str, inputs: Inputs) -> Response:
         """The same inputs by the other laws that could be used."""
-        return Answer({"rows": await patient.run(lambda: spread(_evaluable(key, ("formula",)), _given(inputs)), request)})
+        return _json(await crew().run("others", {"key": key, "inputs": inputs}, key, request))
 
     @app.post("/api/chart/{key}")
     async def chart(request: Request, key: str, inputs: Inputs) -> Response:
         """Draw a chart: Plotly JSON."""
-        return Response(await patient.run(lambda: _chart(key, inputs), request), media_type="application/json")
+        return _json(await crew().run("chart", {"key": key, "inputs": inputs}, key, request))
 
     @app.post("/api/fit/{key}")
     async def fit(request: Request, key: str, file: Annotated[UploadFile, File()], conditions: Annotated[str, Form()] = "{}") -> Response:
         """Fit a lab test to an uploaded table."""
         content = await file.read(LARGEST_BODY + 1)
         name = Path(file.filename or "data.csv").name
-        return Answer(await patient.run(lambda: _fit(key, content, name, conditions), request))
+        return _json(await crew().run("fit", {"key": key, "content": content, "name": name, "conditions": conditions}, key, request))
 
     @app.post("/api/run")
     async def run(request: Request, case: Annotated[str, Body(embed=True)]) -> Response:
         """Solve the text of a case file."""
-        return Answer(await patient.run(lambda: _run(case), request))
+        return _json(await crew().run("run", {"case": case}, _structure(case), request))
 
     @app.post("/api/report", response_class=HTMLResponse)
     async def report(request: Request, case: Annotated[str, Body(embed=True)]) -> HTMLResponse:
         """The report of a case file."""
-        return HTMLResponse(await patient.run(lambda: _report(case), request))
+        return HTMLResponse(await crew().run("report", {"case": case}, _structure(case), request))
 
-    @app.get("/api/exercises")
-    async def exercise_list() -> Response:
-        """Worked examples and quizzes of the course notes."""
-        return Answer(await quick.run(exercises.listing))
+
+def _no_progress(_share: float) -> None:
+    """A calculation that is over in a moment tells nothing."""
+
+
+def _structure(case: str) -> str:
+    """Cases of the same title go to the process that has compiled it."""
+    return next((line for line in case.splitlines() if line.startswith("title")), "")[:200]
 
 
 def _files(app: FastAPI, workspace: Path | None) -> None:
@@ -229,76 +254,12 @@ def _cards_text() -> bytes:
     return _cards_in(current_language())[1]
 
 
-def _evaluable(key: str, sorts: tuple[str, ...]) -> Any:
-    thing = registry.find(key)
-    if thing.card.sort not in sorts:
-        raise InputError(_("'{key}' is a {sort}; it cannot be used here.").format(key=key, sort=_(thing.card.sort)))
-    return thing
+_forms: dict[tuple[str, str], bytes] = {}
 
 
-def _given(inputs: dict[str, Any]) -> dict[str, Any]:
-    """Inputs as text, numbers or ``{"value", "unit"}``; empty ones are left out."""
-    values: dict[str, Any] = {}
-    for name, value in inputs.items():
-        if isinstance(value, dict) and set(value) <= {"value", "unit"}:
-            value = f"{value.get('value', '')} {value.get('unit', '')}".strip()
-        if isinstance(value, str) and value.lstrip().startswith("{"):
-            value = _law(name, value)
-        if value not in ("", None):
-            values[name] = value
-    return values
+def _form_text(key: str, language: str) -> bytes:
+    text = _forms[key, language] = packed(card_form(key))
+    return text
 
 
-def _law(name: str, text: str) -> Any:
-    """A law with its parameters, written as JSON in a form or a link."""
-    try:
-        return json.loads(text)
-    except (json.JSONDecodeError, RecursionError):
-        raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
-
-
-def _calc(key: str, inputs: dict[str, Any]) -> dict[str, Any]:
-    given = _given(inputs)
-    return described(_evaluable(key, ("formula", "procedure")).evaluate(**given), given)
-
-
-def _chart(key: str, inputs: dict[str, Any]) -> str:
-    return _evaluable(key, ("chart",))(**_given(inputs)).to_json()
-
-
-def _fit(key: str, content: bytes, name: str, conditions: str) -> dict[str, Any]:
-    test_type = _evaluable(key, ("lab test",))
-    try:
-        given = json.loads(conditions)
-    except (json.JSONDecodeError, RecursionError):
-        raise InputError(_("'{name}' is not valid JSON.").format(name="conditions")) from None
-    if not isinstance(given, dict):
-        raise InputError(_("'{name}' is not valid JSON.").format(name="conditions"))
-    source = io.BytesIO(content)
-    source.name = name
-    test = test_type.read(source, **_given(given))
-    data = test.fit().as_json()
-    for name, row in (*data["parameters"].items(), *data["derived"].items()):
-        row["label"], row["unit_shown"] = label_of(name), pretty_unit(row["unit"])
-    return data | {"chart": json.loads(test.chart().to_json())}
-
-
-def _run(case: str) -> dict[str, Any]:
-    from granum.cases import read_text
-    from granum.flowsheet.drawing import draw
-    from granum.reports.terminal import value_text
-
-    outcome = read_text(case).solve()
-    data = outcome.as_json()
-    for name, report in outcome.units.items():
-        data["units"][name]["title"] = report.model.card.title
-        for p, value in report.figures():
-            data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
-    return data | {"diagram": draw(outcome.sheet, outcome.streams), "stream_rows": outcome.stream_rows()}
-
-
-def _report(case: str) -> str:
-    from granum.cases import read_text
-    from granum.reports.html import line_report
-
-    return line_report(read_text(case).solve())
+_familiar = Familiar()

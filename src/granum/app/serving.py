@@ -11,6 +11,7 @@ from pathlib import Path
 
 import uvicorn
 
+from granum.app.jobs import crew
 from granum.app.server import create_app
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -41,7 +42,11 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
     shown = f"[{host}]" if ":" in host else host
     address = f"http://{shown}:{listener.getsockname()[1]}/" + (f"?token={token}" if token else "")
     print(_("Granum runs at {address} (Ctrl+C stops it)").format(address=address), flush=True)
+    crew().warm()
     if browser:
         threading.Timer(0.5, webbrowser.open, [address]).start()
-    config = uvicorn.Config(create_app(workspace, token), log_level="warning")
-    uvicorn.Server(config).run(sockets=[listener])
+    config = uvicorn.Config(create_app(workspace, token), log_level="warning", backlog=2048)
+    try:
+        uvicorn.Server(config).run(sockets=[listener])
+    finally:
+        crew().close()

@@ -1,0 +1,258 @@
+"""Long work in processes of its own: cancelled when its client leaves, stopped when it takes too long or too much memory."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import pickle
+import queue
+import secrets
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+from fastapi import Request
+
+from granum.app.limits import Busy
+from granum.core.errors import GranumError, InputError
+from granum.core.i18n import _, current_language, language
+
+GRACE = 5.0  # seconds in which a cancelled job may still finish: it usually does, and its process stays warm
+
+
+class Refused(GranumError):
+    """A refusal of a worker process, as it was."""
+
+    def __init__(self, shown: dict[str, Any], exit_code: int):
+        super().__init__(str(shown["message"]))
+        self._shown, self.exit_code = shown, exit_code
+
+    def as_json(self) -> dict[str, object]:
+        """The shape of the original error."""
+        return self._shown
+
+
+class Broken(Exception):
+    """A fault of the program in a worker process."""
+
+
+class Job:
+    """One piece of work: how far it is, and how to stop it.
+
+    Parameters
+    ----------
+    longest: seconds after which it is given up.
+    patience: seconds without a question after which its client is taken to have left; None when somebody waits for it.
+    """
+
+    def __init__(self, task: str, payload: Any, longest: float, patience: float | None = None):
+        self.task, self.payload, self.longest, self.patience = task, payload, longest, patience
+        self.language = current_language()
+        self.share = 0.0
+        self.asked = time.monotonic()
+        self.cancelled = threading.Event()
+        self.future: Future[bytes] = Future()
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody still waits for it."""
+        left = self.patience is not None and time.monotonic() - self.asked > self.patience
+        return not (left or self.cancelled.is_set())
+
+
+class _Process:
+    """A worker process and what it has worked on."""
+
+    def __init__(self, memory: int, cache_folder: str):
+        environment = os.environ | {"JAX_COMPILATION_CACHE_DIR": os.environ.get("JAX_COMPILATION_CACHE_DIR", cache_folder),
+                                    "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.3"}  # fmt: skip
+        command = [sys.executable, "-m", "granum.app.worker", str(memory)]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
+        self._answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self.known: set[str] = set()
+        threading.Thread(target=self._listen, daemon=True).start()
+
+    def _listen(self) -> None:
+        assert self._process.stdout is not None
+        while True:
+            try:
+                self._answers.put(pickle.load(self._process.stdout))
+            except (EOFError, OSError, pickle.UnpicklingError):
+                self._answers.put(None)
+                return
+
+    @property
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def send(self, message: Any) -> None:
+        assert self._process.stdin is not None
+        pickle.dump(message, self._process.stdin)
+        self._process.stdin.flush()
+
+    def receive(self, wait: float) -> Any:
+        """The next message; ``()`` when none came in time, None when the process has ended."""
+        try:
+            return self._answers.get(timeout=wait)
+        except queue.Empty:
+            return ()
+
+    def stop(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+
+class Crew:
+    """Worker processes with a bounded queue.
+
+    Parameters
+    ----------
+    count: processes at the same time, started when needed.
+    waiting: jobs that may wait or run before newcomers are told to come back.
+    memory: megabytes of memory a process may take.
+    """
+
+    def __init__(self, count: int = 2, waiting: int = 24, memory: int = 4000):
+        self._waiting, self._memory = waiting, memory
+        self._threads = ThreadPoolExecutor(count, thread_name_prefix="granum-crew")
+        self._idle: list[_Process] = []
+        self._lock = threading.Lock()
+        self._now = 0
+        self._folder = tempfile.TemporaryDirectory(prefix="granum-", ignore_cleanup_errors=True)
+
+    def submit(self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None) -> Job:
+        """Queue a job; ``key`` says which jobs share compiled code. Refused when too many wait."""
+        with self._lock:
+            if self._now >= self._waiting:
+                raise Busy(_("The server is busy. Try again in a moment."))
+            self._now += 1
+        job = Job(task, payload, longest, patience)
+        self._threads.submit(self._work, job, f"{task} {key}")
+        return job
+
+    async def run(self, task: str, payload: Any, key: str = "", request: Request | None = None, longest: float = 300.0) -> bytes:
+        """The answer of a job; the job is cancelled when the client of the request leaves."""
+        job = self.submit(task, payload, key, longest)
+        future = asyncio.wrap_future(job.future)
+        while True:
+            done, _pending = await asyncio.wait([future], timeout=1.0)
+            if done:
+                return future.result()
+            if request is not None and await request.is_disconnected():
+                job.cancelled.set()
+                raise Busy(_("The calculation was cancelled."))
+
+    def warm(self) -> None:
+        """Start one process ahead of its first job."""
+        threading.Thread(target=lambda: self._give(self._take("")), daemon=True).start()
+
+    def close(self) -> None:
+        """Stop every idle process."""
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        with self._lock:
+            for process in self._idle:
+                process.stop()
+            self._idle.clear()
+
+    def _take(self, key: str) -> _Process:
+        with self._lock:
+            self._idle = [p for p in self._idle if p.alive]
+            best = max(range(len(self._idle)), key=lambda i: key in self._idle[i].known, default=None)
+            if best is not None:
+                return self._idle.pop(best)
+        return _Process(self._memory, self._folder.name)
+
+    def _give(self, process: _Process) -> None:
+        with self._lock:
+            self._idle.append(process)
+
+    def _work(self, job: Job, key: str) -> None:
+        """In a thread: find a process, hand over the job, watch it."""
+        try:
+            with language(job.language):
+                job.future.set_result(self._worked(job, key))
+        except BaseException as fault:
+            job.future.set_exception(fault)
+        finally:
+            with self._lock:
+                self._now -= 1
+
+    def _worked(self, job: Job, key: str) -> bytes:
+        if not job.wanted:
+            raise Busy(_("The calculation was cancelled."))
+        process = self._take(key)
+        try:
+            return self._watch(job, process)
+        finally:
+            if process.alive:
+                process.known.add(key)
+                self._give(process)
+
+    def _watch(self, job: Job, process: _Process) -> bytes:
+        started, left = time.monotonic(), None
+        process.send((job.task, job.payload, job.language))
+        while True:
+            message = process.receive(0.2)
+            now = time.monotonic()
+            if message is None or (message and message[0] == "memory"):
+                process.stop()
+                raise Busy(_("The calculation needed more memory than one calculation may have, and was given up."))
+            if message and message[0] == "progress":
+                job.share = message[1]
+            elif message:
+                return _outcome(*message)
+            if left is None and not job.wanted:
+                left = now
+                process.send(None)
+            if left is not None and now - left > GRACE:
+                process.stop()
+                raise Busy(_("The calculation was cancelled."))
+            if now - started > job.longest:
+                process.stop()
+                raise Busy(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(job.longest)))
+
+
+def _outcome(sort: str, *rest: Any) -> bytes:
+    if sort == "done":
+        return rest[0]
+    if sort == "refused":
+        raise Refused(*rest)
+    if sort == "cancelled":
+        raise Busy(_("The calculation was cancelled."))
+    raise Broken(rest[0])
+
+
+@cache
+def crew() -> Crew:
+    """The crew of this process: every application in it shares the workers."""
+    return Crew()
+
+
+class Jobs:
+    """Jobs by name, about which a page asks again and again; one that nobody asks about any more is cancelled."""
+
+    def __init__(self, workers: Callable[[], Crew], patience: float = 20.0, kept: int = 50):
+        self._workers, self._patience, self._kept = workers, patience, kept
+        self._jobs: dict[str, Job] = {}
+
+    def start(self, task: str, payload: Any, key: str, longest: float) -> str:
+        """Queue a job; gives the name under which to ask about it."""
+        finished = [name for name, job in self._jobs.items() if job.future.done()]
+        for name in finished[: max(len(self._jobs) - self._kept, 0)]:
+            del self._jobs[name]
+        name = secrets.token_urlsafe(12)
+        self._jobs[name] = self._workers().submit(task, payload, key, longest, self._patience)
+        return name
+
+    def find(self, name: str) -> Job:
+        """A job by name; asking keeps it alive."""
+        if name not in self._jobs:
+            raise InputError(_("There is no job '{name}' any more.").format(name=name))
+        self._jobs[name].asked = time.monotonic()
+        return self._jobs[name]

@@ -1,0 +1,118 @@
+"""What the worker processes can do: each task takes plain data and gives the bytes of an answer."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from granum.app.spread import spread
+from granum.app.texts import described, label_of, plain_data
+from granum.core import registry
+from granum.core.errors import InputError
+from granum.core.i18n import _, current_language
+from granum.core.units import pretty_unit
+
+Tell = Callable[[float], None]
+
+
+def packed(content: Any) -> bytes:
+    """Whatever the package returns, as JSON."""
+    return json.dumps(plain_data(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+
+
+def evaluable(key: str, sorts: tuple[str, ...]) -> Any:
+    """The declared thing of a key, refused when it is of another sort."""
+    thing = registry.find(key)
+    if thing.card.sort not in sorts:
+        raise InputError(_("'{key}' is a {sort}; it cannot be used here.").format(key=key, sort=_(thing.card.sort)))
+    return thing
+
+
+def given_values(inputs: dict[str, Any]) -> dict[str, Any]:
+    """Inputs as text, numbers or ``{"value", "unit"}``; empty ones are left out."""
+    values: dict[str, Any] = {}
+    for name, value in inputs.items():
+        if isinstance(value, dict) and set(value) <= {"value", "unit"}:
+            value = f"{value.get('value', '')} {value.get('unit', '')}".strip()
+        if isinstance(value, str) and value.lstrip().startswith("{"):
+            value = _law(name, value)
+        if value not in ("", None):
+            values[name] = value
+    return values
+
+
+def _law(name: str, text: str) -> Any:
+    """A law with its parameters, written as JSON in a form or a link."""
+    try:
+        return json.loads(text)
+    except (json.JSONDecodeError, RecursionError):
+        raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
+
+
+def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """Evaluate a formula or a procedure."""
+    given = given_values(payload["inputs"])
+    return packed(described(evaluable(payload["key"], ("formula", "procedure")).evaluate(**given), given))
+
+
+def others(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The same inputs by other laws."""
+    return packed({"rows": spread(evaluable(payload["key"], ("formula",)), given_values(payload["inputs"]))})
+
+
+def chart(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """Draw a chart: Plotly JSON."""
+    return evaluable(payload["key"], ("chart",))(**given_values(payload["inputs"])).to_json().encode()
+
+
+def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """Fit a lab test to a table."""
+    test_type = evaluable(payload["key"], ("lab test",))
+    try:
+        conditions = json.loads(payload["conditions"])
+    except (json.JSONDecodeError, RecursionError):
+        conditions = None
+    if not isinstance(conditions, dict):
+        raise InputError(_("'{name}' is not valid JSON.").format(name="conditions"))
+    source = io.BytesIO(payload["content"])
+    source.name = payload["name"]
+    test = test_type.read(source, **given_values(conditions))
+    data = test.fit().as_json()
+    for name, row in (*data["parameters"].items(), *data["derived"].items()):
+        row["label"], row["unit_shown"] = label_of(name), pretty_unit(row["unit"])
+    return packed(data | {"chart": json.loads(test.chart().to_json())})
+
+
+@lru_cache(maxsize=4)
+def _solved(case: str, _language: str) -> Any:
+    """The solved line of a case, kept for its report."""
+    from granum.cases import read_text
+
+    return read_text(case).solve()
+
+
+def run(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """Solve the text of a case file."""
+    from granum.flowsheet.drawing import draw
+    from granum.reports.terminal import value_text
+
+    outcome = _solved(payload["case"], current_language())
+    data = outcome.as_json()
+    for name, report in outcome.units.items():
+        data["units"][name]["title"] = report.model.card.title
+        for p, value in report.figures():
+            data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
+    return packed(data | {"diagram": draw(outcome.sheet, outcome.streams), "stream_rows": outcome.stream_rows()})
+
+
+def report(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The report of the text of a case file."""
+    from granum.reports.html import line_report
+
+    return line_report(_solved(payload["case"], current_language())).encode()
+
+
+TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {task.__name__: task for task in (calculate, others, chart, fit, run, report)}

@@ -1,0 +1,90 @@
+"""A worker process of the app: takes one task after the other from its standard input, within a limit of memory.
+
+Started as ``python -m granum.app.worker MEGABYTES``. Messages are pickles between this process and the one that started it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import pickle
+import queue
+import signal
+import sys
+import threading
+from typing import Any, BinaryIO
+
+
+class Cancelled(Exception):
+    """The task is no longer wanted."""
+
+
+def _limit(megabytes: int) -> None:
+    """Cap the memory of this process where the system can do that."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000,) * 2)
+
+
+def _listen(source: BinaryIO, tasks: queue.SimpleQueue[Any], cancelled: threading.Event) -> None:
+    """Sort what arrives: tasks into the queue, a wish to cancel into the event; the end of the input ends the process."""
+    while True:
+        try:
+            message = pickle.load(source)
+        except (EOFError, OSError):
+            os._exit(0)
+        if message is None:
+            cancelled.set()
+        else:
+            tasks.put(message)
+
+
+def main() -> None:
+    """Serve tasks until the input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is for the server, which then closes our input
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever a library prints must not end up between the answers
+    _limit(int(sys.argv[1]))
+    tasks: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    cancelled = threading.Event()
+    threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks, cancelled), daemon=True).start()
+
+    def send(*message: Any) -> None:
+        pickle.dump(message, answers)
+        answers.flush()
+
+    def tell(share: float) -> None:
+        if cancelled.is_set():
+            raise Cancelled
+        send("progress", float(share))
+
+    from granum.app.tasks import TASKS
+    from granum.core import registry
+    from granum.core.errors import GranumError
+    from granum.core.i18n import set_language
+
+    registry.everything()
+    while True:
+        name, payload, code = tasks.get()
+        cancelled.clear()
+        set_language(code)
+        try:
+            send("done", TASKS[name](payload, tell))
+        except Cancelled:
+            send("cancelled")
+        except GranumError as fault:
+            send("refused", fault.as_json(), fault.exit_code)
+        except MemoryError:
+            send("memory")
+        except Exception as fault:
+            if "RESOURCE_EXHAUSTED" in str(fault) or "bad_alloc" in str(fault):
+                send("memory")
+            else:
+                logging.getLogger("granum").error("%s", name, exc_info=fault)
+                send("broken", type(fault).__name__)
+
+
+if __name__ == "__main__":
+    main()
