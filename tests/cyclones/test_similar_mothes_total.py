@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from granum.cases import read
 from granum.core.errors import ApplicabilityError, InputError
 from granum.cyclones.charts import cyclone_distributions_chart
 from granum.cyclones.drawing import cyclone_drawing
@@ -14,6 +18,7 @@ from granum.cyclones.geometry import StandardCyclone
 from granum.cyclones.total import cyclone_for_efficiency
 from granum.particles.size_laws import RosinRammler
 
+EXAMPLES = Path(__file__).parents[2] / "examples" / "cyclone"
 AIR = (2000.0, 1.2, 1.8e-5)
 
 
@@ -125,3 +130,14 @@ def test_drawings() -> None:
     assert dust * total + escaped * (1 - total) == pytest.approx(np.cumsum(np.full(400, 0.25)), abs=1e-9)
     assert np.all(dust <= feed + 0.26)
     assert np.all(escaped >= feed - 1e-9)
+
+
+def test_pair_of_the_example_and_its_script() -> None:
+    found = read(EXAMPLES / "pair.toml").solve().as_json()
+    assert found["audit"]["mass_closure"] < 1e-12
+    assert all(check["ok"] for unit in found["units"].values() for check in unit["checks"])
+    first, second = (found["units"][name]["results"]["removal_efficiency"]["value"] for name in ("first", "second"))
+    streams = {s["name"]: s for s in found["streams"]} if isinstance(found["streams"], list) else found["streams"]
+    assert "clean_air" in streams
+    assert first > 0.9 > second  # the first is overloaded, the second sees the fines
+    runpy.run_path(str(EXAMPLES / "cyclone.py"))

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.cases import read
 from granum.fluidization.equipment.liquid import LiquidFluidizedBed
 from granum.fluidization.formulas import expansion, two_phase
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "fluidized-bed"
 
 
 def test_two_phase_bed_by_hand_and_limits() -> None:
@@ -56,12 +61,17 @@ def test_graded_bed() -> None:
     sand = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
     one = expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, **sand)
     assert one.height_expanded * (1 - one.bed_void_fraction[0]) == pytest.approx(0.7 * 0.58, rel=1e-9)
-    # by hand: Schiller and Naumann's sphere of 0.6 mm falls at 0.095 m/s: 24·57·3.412 = 4668 against 4660; n = 4.45·57^-0.1
-    assert one.bed_void_fraction[0] == pytest.approx((0.01 / 0.095) ** (1 / 2.970), rel=0.005)
+    # by hand: v_t = 0.095 m/s (Schiller and Naumann: 24·57·3.412 = 4668 against 4660); Ergun's U_mf at ε = 0.42 from
+    # 1.75/ε³ Re² + 150(1-ε)/ε³ Re = 3495: Re = 2.817, U = 4.695 mm/s; n = ln(0.095/0.004695)/ln(1/0.42) = 3.467
+    assert one.bed_void_fraction[0] == pytest.approx((0.01 / 0.095) ** (1 / 3.467), rel=0.005)
+    assert 0.15 < one.bed_expansion < 0.35  # 36 m/h lift sand of 0.6 mm by a fifth to a third, the usual backwash
     both = expansion.graded_bed_expansion(np.array([6e-4, 5e-3]), np.array([0.25, 0.75]), 0.7, 0.01, **sand)
     assert both.bed_void_fraction[1] == pytest.approx(0.42)
     assert both.bed_expansion == pytest.approx(0.25 * one.bed_expansion, rel=1e-9)
     assert np.isnan(expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, 900.0, 1000.0, 1e-3).bed_expansion)
+    # between its two ends the law passes through both
+    at = {"superficial_velocity": 0.004696, "height": 1.0, **sand}
+    assert expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), **at).bed_void_fraction[0] == pytest.approx(0.42, abs=1e-3)
 
 
 def test_liquid_bed_of_coulson_and_richardson() -> None:
@@ -84,3 +94,21 @@ def test_liquid_bed_of_coulson_and_richardson() -> None:
     assert drops[2:] == pytest.approx([weight, weight])
     sized = LiquidFluidizedBed.size(1e-3, 0.7, 0.36, 2.4, 10.0, 3e-3, 4200.0)
     assert 1e-3 / sized.area == pytest.approx(0.36 * 0.7**2.4)
+
+
+def test_backwash_case_runs() -> None:
+    # filter sand of 0.8 mm at 40 m/h: Ergun's U_mf by hand 7.83 mm/s; expands by some 9 %
+    run = read(EXAMPLES / "backwash.toml").solve()
+    assert run.figure("sand.minimum_fluidization_velocity") == pytest.approx(7.83e-3, rel=5e-3)
+    assert 0.08 < run.figure("sand.height_expanded") / run.figure("sand.height_settled") - 1 < 0.11
+    assert run.figure("sand.pressure_drop") == pytest.approx(770 * 9.80665 * (1 - 998.2 / 2650), rel=1e-3)
+
+
+def test_gas_bed_case_runs() -> None:
+    # weight of 900 kg on 1.5 m² and 30 % more for the plate; Wen and Yu's U_mf of the mean size inside the printed scatter of Ergun's
+    found = read(EXAMPLES / "bed.toml").solve().as_json()
+    assert found["audit"]["mass_closure"] < 1e-12
+    results = {k: v["value"] for k, v in found["units"]["bed"]["results"].items()}
+    assert results["pressure_drop"] == pytest.approx(1.3 * 900 * 9.80665 / 1.5, rel=1e-3)
+    assert all(check["ok"] for check in found["units"]["bed"]["checks"])
+    assert 0.0 < results["bypass_fraction"] < 1 - results["minimum_fluidization_velocity"] / results["superficial_velocity"]

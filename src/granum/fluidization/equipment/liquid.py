@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Density, Fraction, Length, Mass, PressureDrop, Speed, VoidFraction
+from granum.core.kinds import Area, Density, Fraction, Length, Mass, PressureDrop, Speed, Sphericity, VoidFraction
 from granum.fluidization.formulas.expansion import (
     bed_void_fraction_richardson_zaki,
+    expansion_exponent,
     pressure_drop_fluidized_bed,
 )
 from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
-from granum.particles.formulas.hindered import settling_exponent_richardson_zaki
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.stream import Stream
@@ -46,7 +46,8 @@ class LiquidBedFigures(NamedTuple):
 class LiquidFluidizedBed(Unit):
     """Bed of equal grains fluidized upwards by the liquid of a stream: expansion, pressure drop, and what would be carried off.
 
-    The grains stay and are no part of the stream; the void fraction is that of the settled bed, below which the bed does not contract.
+    The grains stay and are no part of the stream; the void fraction is that of the settled bed, from which Ergun's minimum fluidization
+    and the terminal velocity give the expansion.
     For graded grains see ``graded_bed_expansion``. The pressure of the liquid falls by the buoyant weight of the grains.
     """
 
@@ -55,6 +56,7 @@ class LiquidFluidizedBed(Unit):
     particle_diameter: Length
     particle_density: Density
     void_fraction: VoidFraction = 0.42
+    sphericity: Sphericity = 1.0
 
     @classmethod
     def size(cls, liquid_volume_flow: Any, bed_void_fraction: Any, terminal_velocity: Any, settling_exponent: Any, mass: Any,
@@ -72,7 +74,7 @@ class LiquidFluidizedBed(Unit):
     def _drop(self, feed: Stream) -> Any:
         """Ergun's pressure drop of the settled bed, at most the buoyant weight over the section."""
         d, density, rho, eta = self._fluid(feed)
-        fixed = pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta) * self._settled
+        fixed = pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta, self.sphericity) * self._settled
         return jnp.minimum(fixed, pressure_drop_fluidized_bed(self.mass, self.area, density, rho))
 
     @property
@@ -85,10 +87,10 @@ class LiquidFluidizedBed(Unit):
     def results(self, inlets: Mapping[str, Stream], outlets: LiquidOutlets) -> LiquidBedFigures:
         feed = inlets["feed"]
         U, fluid = self._velocity(feed), self._fluid(feed)
-        first = minimum_fluidization_velocity_ergun(*fluid, self.void_fraction)
-        fall = terminal_velocity(*fluid)
-        n = settling_exponent_richardson_zaki(feed.liquid_density * jnp.abs(fall) * self.particle_diameter / feed.liquid_viscosity)
-        e = jnp.maximum(bed_void_fraction_richardson_zaki(U, jnp.abs(fall), n), self.void_fraction)
+        first = minimum_fluidization_velocity_ergun(*fluid, self.void_fraction, self.sphericity)
+        fall = terminal_velocity(*fluid, sphericity=self.sphericity)
+        n = expansion_exponent(fall, first, self.void_fraction)
+        e = jnp.maximum(bed_void_fraction_richardson_zaki(U, fall, n), self.void_fraction)
         settled = self._settled
         expanded = settled * (1.0 - self.void_fraction) / (1.0 - jnp.minimum(e, FULLEST))
         return LiquidBedFigures(U, first, fall, e, settled, expanded, self._drop(feed))

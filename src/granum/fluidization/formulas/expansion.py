@@ -21,11 +21,12 @@ from granum.core.kinds import (
     Ratio,
     Series,
     Speed,
+    Sphericity,
     VoidFraction,
     Within,
 )
 from granum.fluidization.formulas.buoyancy import archimedes, excess
-from granum.particles.formulas.hindered import settling_exponent_richardson_zaki
+from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
 from granum.particles.formulas.terminal import terminal_velocity
 
 LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
@@ -143,6 +144,20 @@ def bed_void_fraction_from_pressure_drop(
     return 1.0 - pressure_drop / (height * gravity * excess(particle_density, fluid_density))
 
 
+@formula(source="richardson1954; couderc1985", equation=r"n = \frac{\ln(v_t/U_{mf})}{\ln(1/\varepsilon_{mf})}",
+         typical={"terminal_velocity": (0.1, 0.2), "minimum_fluidization_velocity": (0.005, 0.01), "void_fraction": (0.4, 0.45)})  # fmt: skip
+def expansion_exponent(terminal_velocity: Speed, minimum_fluidization_velocity: Speed, void_fraction: VoidFraction) -> PositiveNumber:
+    """Exponent of Richardson and Zaki's law that passes through minimum fluidization and through the terminal velocity.
+
+    For grains that are not spheres the exponent of spheres misses the point at which the bed first moves, and with it the small expansions
+    of a backwash. The void fraction is that at minimum fluidization.
+
+    >>> round(expansion_exponent(terminal_velocity=0.1, minimum_fluidization_velocity=0.01, void_fraction=0.4), 3)
+    2.513
+    """
+    return jnp.log(terminal_velocity / minimum_fluidization_velocity) / jnp.log(1.0 / void_fraction)
+
+
 class GradedBed(NamedTuple):
     """Expansion of a bed of graded grains, layer by layer."""
 
@@ -152,7 +167,7 @@ class GradedBed(NamedTuple):
 
 
 @formula(source="richardson1954; fair1933",
-         equation=r"\varepsilon_i = (U/v_{t,i})^{1/n_i},\quad H = H_0(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i}",
+         equation=r"\varepsilon_i = (U/v_{t,i})^{1/n_i},\ n_i = \frac{\ln(v_{t,i}/U_{mf,i})}{\ln(1/\varepsilon_0)},\quad H = H_0(1-\varepsilon_0)\sum_i\frac{x_i}{1-\varepsilon_i}",
          typical={"superficial_velocity": (0.005, 0.012), "particle_density": (2500.0, 2700.0), "fluid_density": (990.0, 1000.0),
                   "dynamic_viscosity": (8e-4, 1.5e-3), "void_fraction_settled": (0.38, 0.45), "class_sizes": (5e-4, 1.5e-3)})  # fmt: skip
 def graded_bed_expansion(
@@ -164,12 +179,13 @@ def graded_bed_expansion(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
     void_fraction_settled: VoidFraction = 0.42,
+    sphericity: Sphericity = 1.0,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> GradedBed:
     """Expansion of a liquid-fluidized bed of graded grains that lie in layers, as a sand filter under backwash.
 
-    Each class expands by Richardson and Zaki; a class not yet fluidized keeps the settled void fraction. Fractions by mass. Height is
-    that of the settled bed.
+    Each class expands by Richardson and Zaki's law through its minimum fluidization (Ergun) and its terminal velocity; a class not yet
+    fluidized keeps the settled void fraction. Fractions by mass. Height is that of the settled bed.
 
     >>> x = graded_bed_expansion(class_sizes=[0.5e-3, 1e-3], class_fractions=[0.5, 0.5], height=0.7, superficial_velocity="36 m/hour",
     ...                          particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
@@ -177,9 +193,10 @@ def graded_bed_expansion(
     (True, True)
     """
     d, share = jnp.asarray(class_sizes), jnp.asarray(class_fractions)
-    heavy = excess(particle_density, fluid_density)
-    fall = terminal_velocity(d, fluid_density + heavy, fluid_density, dynamic_viscosity, gravity=gravity)
-    n = settling_exponent_richardson_zaki(fluid_density * fall * d / dynamic_viscosity)
+    fluid = (fluid_density + excess(particle_density, fluid_density), fluid_density, dynamic_viscosity)
+    fall = terminal_velocity(d, *fluid, gravity=gravity, sphericity=sphericity)
+    first = minimum_fluidization_velocity_ergun(d, *fluid, void_fraction_settled, sphericity, gravity)
+    n = expansion_exponent(fall, first, void_fraction_settled)
     e = jnp.maximum(_carried((superficial_velocity / fall) ** (1.0 / n)), void_fraction_settled)
     expanded = height * (1.0 - void_fraction_settled) * jnp.sum(share / (1.0 - jnp.minimum(e, 0.999))) / jnp.sum(share)
     return GradedBed(e, expanded, expanded / height - 1.0)
