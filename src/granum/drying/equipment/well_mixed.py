@@ -65,7 +65,7 @@ class WellMixedDryer(Unit):
 
         def after(evaporated: Any, T: Any) -> Stream:
             """The matter in the bed at T when that much water has gone into the gas."""
-            return _evaporate(wet, safe_divide(evaporated, water)).replace(temperature=T)
+            return evaporate(wet, safe_divide(evaporated, water)).replace(temperature=T)
 
         def by_energy(T: Any) -> Any:
             """Water that the heat available at a bed temperature evaporates: enthalpy is linear in it."""
@@ -91,7 +91,12 @@ class WellMixedDryer(Unit):
             return water * jnp.sum(area * dried) / jnp.sum(area)
 
         coldest = jnp.maximum(jnp.minimum(feed.temperature, gas.temperature) - 60.0, COLDEST_FILM + 5.0)
-        root = find_root(lambda T: (by_energy(T) - by_kinetics(T, by_energy(T))) / jnp.maximum(water, 1e-300), coldest, gas.temperature)
+
+        def surplus(T: Any) -> Any:
+            available = by_energy(T)
+            return (available - by_kinetics(T, available)) / jnp.maximum(water, 1e-300)
+
+        root = find_root(surplus, coldest, gas.temperature)
         T = jnp.where(water > 0, root.value, wet.temperature)
         bed = after(jnp.clip(by_energy(T), 0.0, water), T)
         nothing = jnp.zeros_like(bed.gas)
@@ -144,7 +149,7 @@ class WellMixedDryer(Unit):
         )
 
 
-def _evaporate(wet: Stream, share: Any) -> Stream:
+def evaporate(wet: Stream, share: Any) -> Stream:
     """Move a share of the water into the gas; the same share of each solute crystallizes on the solid of its own name."""
     m = wet.mixture
     vapor = m.index("gases", m.liquids[0].name)

@@ -1,0 +1,205 @@
+"""A small equation system that is solved from any consistent set of knowns.
+
+Which quantities are known is fixed before tracing, so the order of solution is found once, in Python, and the numbers run through it as
+plain array code. Relations are used one after the other wherever they fix something; where that stops, one quantity is guessed, the rest
+follows, and the relation left over decides the guess by a bracketed root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.numerics import find_root
+
+Values = dict[str, Any]
+
+
+class Relation(NamedTuple):
+    """Quantities tied together by ``fixes`` equations.
+
+    ``solve(values, unknown)`` gives the unknown ones; ``residual`` is zero when it holds. ``extra`` marks a consequence of the others, which
+    only shortens the search.
+    """
+
+    variables: tuple[str, ...]
+    fixes: int
+    solve: Callable[[Values, tuple[str, ...]], Values]
+    residual: Callable[[Values], Any] | None = None
+    extra: bool = False
+
+
+def linear(variables: tuple[str, ...], residual: Callable[[Values], Any], extra: bool = False) -> Relation:
+    """A relation whose residual is linear in each quantity taken alone."""
+
+    def solve(values: Values, unknown: tuple[str, ...]) -> Values:
+        (name,) = unknown
+
+        def at(x: Any) -> Any:
+            return residual({**values, name: x})
+
+        at_zero, slope = jax.jvp(at, (jnp.zeros(()),), (jnp.ones(()),))
+        return {name: -at_zero / jnp.where(slope == 0, jnp.nan, slope)}
+
+    return Relation(variables, 1, solve, residual, extra)
+
+
+class Step(NamedTuple):
+    """One relation used for some unknowns."""
+
+    relation: int
+    unknown: tuple[str, ...]
+
+
+class Plan(NamedTuple):
+    """Order of solution: steps before the guess, the guessed quantity, steps that follow from it, the relation that decides it."""
+
+    before: tuple[Step, ...]
+    guess: str | None = None
+    after: tuple[Step, ...] = ()
+    decides: int = -1
+
+
+class System:
+    """Relations between named quantities, and how to search each of them: ``pole`` names one that grows without limit, and what vanishes there."""
+
+    def __init__(
+        self,
+        relations: tuple[Relation, ...],
+        guesses: tuple[str, ...],
+        bracket: Callable[[str, Values], tuple[Any, Any]],
+        pole: tuple[str, Callable[[Values], Any]],
+        free: tuple[str, ...] = (),
+    ):
+        self.relations, self.guesses, self.bracket, self.pole, self.free = relations, guesses, bracket, pole, free
+        self.variables = tuple(dict.fromkeys(name for r in relations for name in r.variables))
+        self.plan = lru_cache(maxsize=256)(self._plan)
+
+    @property
+    def freedom(self) -> int:
+        """How many independent values fix everything."""
+        return len(self.variables) - sum(r.fixes for r in self.relations if not r.extra)
+
+    def completed(self, given: frozenset[str], sought: str) -> frozenset[str]:
+        """The knowns together with those quantities that are zero unless given or sought."""
+        return given.union(name for name in self.free if name != sought)
+
+    def solve(self, given: Mapping[str, Any], constants: Mapping[str, Any]) -> Values:
+        """Every quantity from the given ones (those of ``completed``); constants are what no relation is solved for."""
+        plan = self.plan(frozenset(given))
+        values = self._run(plan.before, {**given, **constants})
+        if plan.guess is None:
+            return values
+        name, known = plan.guess, values
+
+        def mismatch(x: Any) -> Any:
+            found = self._run(plan.after, {**known, name: x})
+            residual = self.relations[plan.decides].residual
+            assert residual is not None
+            return residual(found) if self.pole[0] in known else residual(found) * self.pole[1](found)
+
+        low, high = self.bracket(name, known)
+        root = find_root(mismatch, low, high, tolerance=1e-14)
+        return self._run(plan.after, {**known, name: jnp.where(root.converged, root.value, jnp.nan)})
+
+    def _run(self, steps: tuple[Step, ...], values: Values) -> Values:
+        for step in steps:
+            values |= self.relations[step.relation].solve(values, step.unknown)
+        return values
+
+    def _propagate(self, known: frozenset[str], used: frozenset[int] = frozenset()) -> tuple[tuple[Step, ...], frozenset[str], list[int]]:
+        """Steps that follow from the knowns, what is known then, and the relations left with nothing to find."""
+        steps: list[Step] = []
+        spare: list[int] = []
+        left = [i for i in range(len(self.relations)) if i not in used]
+        moving = True
+        while moving:
+            moving = False
+            for i in list(left):
+                r = self.relations[i]
+                unknown = tuple(n for n in r.variables if n not in known)
+                if len(unknown) > r.fixes:
+                    continue
+                left.remove(i)
+                if not unknown:
+                    if not r.extra:
+                        spare.append(i)
+                    continue
+                if len(unknown) < r.fixes:
+                    spare.append(i)
+                steps.append(Step(i, unknown))
+                known, moving = known.union(unknown), True
+                break
+        return tuple(steps), known, spare
+
+    def _plan(self, given: frozenset[str]) -> Plan:
+        redundant, missing = self._structure(given)
+        if redundant or missing:
+            raise self._complaint(given, redundant, missing)
+        before, known, _spare = self._propagate(given)
+        used = frozenset(step.relation for step in before)
+        if known.issuperset(self.variables):
+            return Plan(before)
+        for name in self.guesses:
+            if name in known:
+                continue
+            after, found, spare = self._propagate(known | {name}, used)
+            if found.issuperset(self.variables) and len(spare) == 1 and self.relations[spare[0]].residual is not None:
+                return Plan(before, name, after, spare[0])
+        raise InputError(
+            _(
+                "These values do not fix the dryer: some of them say the same thing. Given: {names}. Replace one by another of: {others}."
+            ).format(names=", ".join(sorted(given - set(self.free))), others=", ".join(n for n in self.variables if n not in known))
+        )
+
+    def _structure(self, given: frozenset[str]) -> tuple[list[str], list[str]]:
+        """Knowns of which one is too many, and quantities of which one more must be given (Dulmage and Mendelsohn's decomposition)."""
+        rows = [set(r.variables) - given for r in self.relations if not r.extra for _k in range(r.fixes)]
+        owners = [set(r.variables) for r in self.relations if not r.extra for _k in range(r.fixes)]
+        row_of: dict[str, int] = {}
+
+        def place(i: int, seen: set[str]) -> bool:
+            for name in rows[i] - seen:
+                seen.add(name)
+                if name not in row_of or place(row_of[name], seen):
+                    row_of[name] = i
+                    return True
+            return False
+
+        over = [i for i in range(len(rows)) if not place(i, set())]
+        tied, reached = list(over), set(over)
+        for i in tied:
+            for name in rows[i]:
+                j = row_of.get(name)
+                if j is not None and j not in reached:
+                    reached.add(j)
+                    tied.append(j)
+        redundant = sorted({n for i in reached for n in owners[i] & given})
+        loose = [n for n in self.variables if n not in given and n not in row_of]
+        open_ = list(loose)
+        for name in open_:
+            for i, row in enumerate(rows):
+                if name in row:
+                    for other, j in row_of.items():
+                        if j == i and other not in open_:
+                            open_.append(other)
+        return redundant if over else [], open_
+
+    def _complaint(self, given: frozenset[str], redundant: list[str], missing: list[str]) -> InputError:
+        own, zero = sorted(given - set(self.free)), set(self.free) & given
+        text = _("{count} values fix this balance (its degrees of freedom); {given} of them are given or zero by default.").format(
+            count=self.freedom, given=len(given)
+        )
+        if redundant:
+            text += " " + _(
+                "Too many: one of {names} follows from the others; leave one out, or name what is to be found instead in 'quantity_sought'."
+            ).format(names=", ".join(n for n in redundant if n not in zero))
+        if missing:
+            text += " " + _("Not fixed: give one more of {names}.").format(names=", ".join(missing))
+        return InputError(text, given=own, redundant=redundant or None, missing=missing or None)

@@ -1,0 +1,257 @@
+"""A convective dryer by balance alone, in a flowsheet: any type, as far as its streams go."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import (
+    Fraction,
+    HumidityRatio,
+    Law,
+    MassFlow,
+    MoistureDryBasis,
+    Number,
+    Power,
+    Ratio,
+    RelativeHumidity,
+    SpecificEnergy,
+    SpecificMoistureExtraction,
+    Temperature,
+)  # fmt: skip
+from granum.drying.balances.convective import PAIR
+from granum.drying.balances.indices import latent_heat
+from granum.drying.equipment.well_mixed import evaporate
+from granum.humid_gas.relations import saturated_fraction
+from granum.numerics import find_root, safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+COLDEST, HOTTEST = 230.0, 1200.0  # K, bracket of the exhaust
+_SATURATED = "relative humidity of the exhaust"
+_PRODUCT = "moisture of the product above equilibrium with the hot air"
+_LIMIT = "product temperature over its limit"
+_ENERGY = "energy per water evaporated"
+_MET = "moisture of the product against the specification"
+
+
+class ConvectiveOutlets(NamedTuple):
+    """Dried product, exhaust air, condensate of the heat recovery; heat of the heater net of losses, and fan power."""
+
+    product: Stream
+    exhaust: Stream
+    condensate: Stream
+    heat_duty: Any
+    shaft_power: Any
+
+
+class ConvectiveFigures(NamedTuple):
+    """Figures of a convective dryer."""
+
+    evaporation_rate: MassFlow
+    moisture_dry_basis: MoistureDryBasis
+    temperature_inlet: Temperature
+    temperature_outlet: Temperature
+    temperature_product: Temperature
+    humidity_ratio_inlet: HumidityRatio
+    humidity_ratio_outlet: HumidityRatio
+    relative_humidity_outlet: Ratio
+    dry_gas_flow: MassFlow
+    heat_duty_heater: Power
+    heat_duty_recovered: Power
+    energy_per_water: SpecificEnergy
+    energy_consumption_ratio: Number
+    drying_efficiency: Number
+    moisture_extraction_rate: SpecificMoistureExtraction
+
+
+class Inside(NamedTuple):
+    """What happens inside the dryer: exhaust before the heat recovery, gas entering, product."""
+
+    inlet: Stream
+    outlet: Stream
+    product: Stream
+    heater: Any
+    recovered: Any
+    exhaust: Stream
+    condensate: Stream
+
+
+@equipment("convective_dryer", source="keey1978; mujumdar2014; bonazzi2003", title="Convective dryer (balance)")
+class ConvectiveDryer(Unit):
+    """Heats the air, dries the feed with it and gives back part of the exhaust; one statement about the outlet fixes the rest.
+
+    Say how hot: ``temperature_inlet`` of the air at the dryer, or the ``heat_duty`` of the heater; with neither there is no heater. Say how
+    far, by one of ``moisture_outlet`` of the product, ``temperature_outlet`` or ``relative_humidity_outlet`` of the exhaust. The recirculated fraction
+    is of the exhaust. ``effectiveness`` is that of an exchanger from the exhaust, which may condense, to the fresh air. The product leaves
+    at the temperature of the exhaust unless ``temperature_product`` is given.
+    Only water evaporates, as pure water; the heat of sorption is left out.
+    """
+
+    temperature_inlet: Temperature | None = None
+    heat_duty: Power | None = None
+    moisture_outlet: MoistureDryBasis | None = None
+    temperature_outlet: Temperature | None = None
+    relative_humidity_outlet: RelativeHumidity | None = None
+    temperature_product: Temperature | None = None
+    recirculated_fraction: Fraction = 0.0
+    effectiveness: Fraction = 0.0
+    heat_loss: Power = 0.0
+    fan_power: Power = 0.0
+    temperature_limit: Temperature | None = None
+    isotherm: Annotated[Any, Law("isotherm")] = None
+
+    def __check_init__(self) -> None:
+        if self.temperature_inlet is not None and self.heat_duty is not None:
+            raise InputError(_("Too much is given: one of 'temperature_inlet' and 'heat_duty' follows from the other."), name="heat_duty")
+        ends = [n for n in ("moisture_outlet", "temperature_outlet", "relative_humidity_outlet") if getattr(self, n) is not None]
+        if len(ends) != 1:
+            raise InputError(
+                _(
+                    "One more value fixes this dryer: give exactly one of 'moisture_outlet', 'temperature_outlet', 'relative_humidity_outlet'; given: {names}."
+                ).format(names=", ".join(ends) or _("none")),
+                given=ends,
+            )
+
+    def __call__(self, feed: Stream, gas: Stream) -> ConvectiveOutlets:
+        found = self.inside(feed, gas)
+        return ConvectiveOutlets(found.product, found.exhaust, found.condensate, found.heater - self.heat_loss, jnp.asarray(self.fan_power))
+
+    def inside(self, feed: Stream, gas: Stream) -> Inside:
+        """The whole dryer, solved for the temperature of its exhaust."""
+        water = feed.liquid[0]
+        r = self.recirculated_fraction
+        back = r / (1.0 - r)
+        gas = gas.replace(solid=jnp.zeros_like(gas.solid), liquid=jnp.zeros_like(gas.liquid))
+        whole = feed + gas
+
+        def parts(W: Any, T: Any) -> tuple[Stream, Stream]:
+            """Product and exhaust when that much water has evaporated."""
+            moved = evaporate(whole.replace(pressure=gas.pressure), safe_divide(W, water))
+            out = moved.replace(solid=jnp.zeros_like(moved.solid), liquid=jnp.zeros_like(moved.liquid), temperature=T)
+            left = moved.replace(
+                gas=jnp.zeros_like(moved.gas), temperature=T if self.temperature_product is None else self.temperature_product
+            )
+            return left, out
+
+        def heat_missing(W: Any, T: Any) -> Any:
+            """Heat needed less heat there is; linear in the water."""
+            product, out = parts(W, T)
+            leaves = product.enthalpy_flow + out.enthalpy_flow
+            if self.temperature_inlet is None:
+                there = gas.enthalpy_flow + (0.0 if self.heat_duty is None else self.heat_duty) + self.fan_power
+            else:  # the gas through the dryer is hot, fresh and recirculated alike, and what returns to it leaves again
+                mixed = gas.replace(gas=gas.gas + back * out.gas)
+                there = mixed.enthalpy_at(self.temperature_inlet) - back * out.enthalpy_flow
+            return leaves - there - feed.enthalpy_flow + self.heat_loss
+
+        def water_at(T: Any) -> Any:
+            none, all_ = heat_missing(0.0, T), heat_missing(water, T)
+            return water * none / jnp.where(none == all_, jnp.nan, none - all_)
+
+        if self.temperature_outlet is not None:
+            W = water_at(self.temperature_outlet)
+        elif self.moisture_outlet is not None:
+            W = water - self.moisture_outlet * feed.solid_flow
+        else:
+
+            def humidity(T: Any) -> Any:
+                y = PAIR.fraction(_humidity(parts(jnp.clip(water_at(T), 0.0, water), T)[1]))
+                return y - self.relative_humidity_outlet * saturated_fraction(PAIR, T, gas.pressure)
+
+            T = find_root(humidity, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet).value
+            W = water_at(T)
+        W = jnp.clip(W, 0.0, water)
+        guess = jnp.minimum(gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0)
+        root = find_root(
+            lambda T: heat_missing(W, T) / jnp.maximum(jnp.sum(gas.gas) * 1e3, 1e-300), COLDEST, HOTTEST, start=guess, tolerance=1e-14
+        )
+        product, out = parts(W, root.value)
+        mixed = gas.replace(gas=gas.gas + back * out.gas)
+        if self.temperature_inlet is None:
+            duty = jnp.asarray(0.0 if self.heat_duty is None else self.heat_duty)
+            inlet = mixed.at_enthalpy(gas.enthalpy_flow + back * out.enthalpy_flow + duty + self.fan_power)
+        else:
+            inlet = mixed.replace(temperature=jnp.asarray(self.temperature_inlet))
+            duty = inlet.enthalpy_flow - gas.enthalpy_flow - back * out.enthalpy_flow - self.fan_power
+        recovered, exhaust, condensate = self._recover(gas, out, duty)
+        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate)
+
+    def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream]:
+        """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point."""
+        # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
+        beyond = jnp.maximum(PAIR.fraction(_humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
+
+        def drained(T: Any) -> tuple[Stream, Stream]:
+            ys = jnp.minimum(beyond * saturated_fraction(PAIR, T, out.pressure), 1.0 - 1e-9)
+            left = jnp.minimum(out.gas[1], PAIR.humidity_ratio(ys) * out.gas[0])
+            liquid = jnp.zeros_like(out.liquid).at[0].set(out.gas[1] - left)
+            dry = out.replace(gas=out.gas.at[1].set(left), temperature=T)
+            return dry, out.part().replace(liquid=liquid, temperature=T)
+
+        def given(T: Any) -> Any:
+            dry, wet = drained(T)
+            return out.enthalpy_flow - dry.enthalpy_flow - wet.enthalpy_flow
+
+        most = jnp.minimum(gas.enthalpy_at(out.temperature) - gas.enthalpy_flow, given(gas.temperature))
+        passed = jnp.clip(self.effectiveness * most, 0.0, jnp.maximum(duty, 0.0))
+        low = jnp.minimum(gas.temperature, out.temperature) - 1.0
+        scale = jnp.maximum(jnp.sum(out.gas) * 1e3, 1e-300)
+        T = find_root(lambda T: (given(T) - passed) / scale, low, out.temperature + 1.0, tolerance=1e-14).value
+        dry, wet = drained(T)
+        return given(T), dry, wet
+
+    def results(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> ConvectiveFigures:
+        found = self.inside(**inlets)
+        W = inlets["feed"].liquid[0] - found.product.liquid[0]
+        bought = found.heater + self.fan_power
+        energy = safe_divide(bought, W)
+        wet = jnp.clip(found.outlet.temperature, ZERO_CELSIUS, 450.0)
+        w2 = _humidity(found.outlet)
+        return ConvectiveFigures(
+            evaporation_rate=W,
+            moisture_dry_basis=found.product.moisture_dry_basis,
+            temperature_inlet=found.inlet.temperature,
+            temperature_outlet=found.outlet.temperature,
+            temperature_product=found.product.temperature,
+            humidity_ratio_inlet=_humidity(found.inlet),
+            humidity_ratio_outlet=w2,
+            relative_humidity_outlet=PAIR.fraction(w2) / saturated_fraction(PAIR, found.outlet.temperature, found.outlet.pressure),
+            dry_gas_flow=found.inlet.gas[0],
+            heat_duty_heater=found.heater,
+            heat_duty_recovered=found.recovered,
+            energy_per_water=energy,
+            energy_consumption_ratio=energy / latent_heat(wet),
+            drying_efficiency=safe_divide(latent_heat(wet), energy),
+            moisture_extraction_rate=safe_divide(W, bought),
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        X, phi = figures.moisture_dry_basis, figures.relative_humidity_outlet
+        found = [
+            Check(_SATURATED, phi, 0.0, 1.0, "dimensionless", "keey1978"),
+            Check(_ENERGY, figures.energy_per_water, 2.4e6, 6.5e6, "J/kg", "bonazzi2003; houdon2017"),
+        ]
+        if self.moisture_outlet is not None:
+            found.append(Check(_MET, X - self.moisture_outlet, -1e-9, 1e-9, "kg/kg", "keey1978"))
+        if self.isotherm is not None:
+            driest = PAIR.fraction(figures.humidity_ratio_inlet) / saturated_fraction(
+                PAIR, figures.temperature_inlet, inlets["gas"].pressure
+            )
+            rest = self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
+            found.append(Check(_PRODUCT, X - rest, 0.0, 1e3, "kg/kg", "keey1978"))
+        if self.temperature_limit is not None:
+            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+        return tuple(found)
+
+
+def _humidity(stream: Stream) -> Any:
+    """Vapor per dry gas."""
+    return safe_divide(stream.gas[1], stream.gas[0])
