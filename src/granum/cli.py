@@ -166,6 +166,61 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
 
 @app.command()
 @_one_message
+def study(case: CaseFile, names: Annotated[list[str] | None, typer.Argument(help="Studies of the file to run; all when none is named.", show_default=False)] = None,
+          as_json: Json = False,
+          samples: Annotated[int | None, typer.Option(help="Number of samples, instead of what the file says.")] = None,
+          seed: Annotated[int | None, typer.Option(help="Seed of the samples, instead of what the file says.")] = None,
+          out: Annotated[Path | None, typer.Option("--out", "-o", help="Write all cases as .nc, .parquet or .csv; a killed study continues from FILE.parts.")] = None,
+          report: Annotated[Path | None, typer.Option(help="Write an HTML report with charts.")] = None,
+          workers: Annotated[str | None, typer.Option(help="Number of local Dask workers, or address of a Dask scheduler.")] = None) -> None:  # fmt: skip
+    """Run the studies of a file: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization, Pareto fronts."""
+    from granum.cases.studying import read_studies
+    from granum.core.errors import unknown_name
+    from granum.reports.progress import advancing, working
+
+    with working(_("Reading {file}").format(file=case.name), quiet=as_json):
+        known = read_studies(case)
+    for name in names or ():
+        if name not in known:
+            raise unknown_name(_("Study"), name, known, _("in {file}").format(file=case.name))
+    picked = [known[name] for name in names or known]
+    if out is not None:
+        from granum.studies.outcome import check_file
+
+        check_file(out)
+    outcomes, saved = [], []
+    for one in picked:
+        one = one.with_options(**{k: v for k, v in (("samples", samples), ("seed", seed)) if one.takes(k) or len(picked) == 1})
+        target = out if out is None or len(picked) == 1 else out.with_stem(f"{out.stem}-{one.name}")
+        parts = None if target is None or not one.kept_in_parts else target.with_name(target.name + ".parts")
+        with advancing(one.title, quiet=as_json) as progress:
+            outcome = one.run(progress=progress, folder=parts, workers=workers)
+        if target is not None:
+            outcome.save(target)
+            saved.append(target)
+            if parts is not None:
+                from granum.studies.engine import forget
+
+                forget(parts)
+        outcomes.append(outcome)
+    if report is not None:
+        from granum.core.files import write_atomic
+        from granum.reports.studies import study_report
+
+        with working(_("Writing the report"), quiet=as_json):
+            write_atomic(report, study_report(outcomes, case.read_text(encoding="utf-8"), known[picked[0].name].subject.title))
+        saved.append(report)
+    if as_json:
+        _emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})
+    else:
+        from granum.reports.studies import print_study
+
+        for outcome in outcomes:
+            print_study(outcome, saved=saved if outcome is outcomes[-1] else ())
+
+
+@app.command()
+@_one_message
 def chart(
     key: Key, inputs: Pairs = None, out: Annotated[Path, typer.Option("--out", "-o", help="HTML file to write.")] = Path("chart.html")
 ) -> None:

@@ -1,9 +1,10 @@
-"""A spinner on the terminal for work that takes longer than a moment."""
+"""A spinner or a bar on the terminal for work that takes longer than a moment."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 
 @contextmanager
@@ -17,3 +18,32 @@ def working(what: str, quiet: bool = False) -> Iterator[None]:
         return
     with console.status(what + " …"):
         yield
+
+
+@contextmanager
+def advancing(what: str, quiet: bool = False) -> Iterator[Callable[[Any], None] | None]:
+    """A bar for a study: gives the function to call with its progress; None when quiet or when the output is not a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from granum.core.i18n import _
+
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
+        yield None
+        return
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.fields[note]}"),
+    )
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(what, total=None, note="")
+
+        def show(found: Any) -> None:
+            note = _("{count} failed").format(count=found.failed) if found.failed else found.note
+            bar.update(task, completed=found.done, total=found.total, note=note)
+
+        yield show

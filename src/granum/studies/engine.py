@@ -201,9 +201,10 @@ class Store:
         np.savez(buffer, y=y, codes=codes, texts=json.dumps(texts))
         write_atomic(self._path(start), buffer.getvalue())
 
-    def clear(self) -> None:
-        """Forget the chunks once the result is written elsewhere."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+
+def forget(folder: Path) -> None:
+    """Delete kept chunks once the result is written elsewhere."""
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], x: np.ndarray, *, progress: Report | None = None,

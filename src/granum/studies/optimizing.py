@@ -621,11 +621,11 @@ def scale_of(front: Sequence[Found]) -> float:
 
 def _pair(objectives: Sequence[Mapping[str, str]]) -> list[tuple[str, float]]:
     if not isinstance(objectives, Sequence) or isinstance(objectives, str) or len(objectives) != 2:
-        raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].'))
+        raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format())
     pairs = []
     for table in objectives:
         if not isinstance(table, Mapping):
-            raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].'))
+            raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format())
         for key in table:
             if key not in ("minimize", "maximize"):
                 raise unknown_name(_("Key"), key, ("minimize", "maximize"), _("in 'objectives'"))

@@ -112,8 +112,7 @@ class Outcome(abc.ABC):
     def save(self, path: str | Path) -> None:
         """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow) or ``.csv``, whole or not at all."""
         path = Path(path)
-        if path.suffix not in FILES:
-            raise InputError(_("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path))
+        check_file(path)
         data = self.dataset
         try:
             handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
@@ -153,6 +152,16 @@ class Outcome(abc.ABC):
             data["cases"] = {p: [number(v) for v in self.column(p)[:cases]] for p in paths}
             data["cases_failed"] = [self.cases.reason(i) for i in range(min(cases, len(self.cases.codes)))]
         return data
+
+
+def check_file(path: Path) -> None:
+    """Complain early about a file that cannot be written."""
+    if path.suffix not in FILES:
+        raise InputError(_("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path))
+    if not (path.parent or Path()).is_dir():
+        raise InputError(
+            _("'{path}' cannot be written: there is no folder '{folder}'.").format(path=path, folder=path.parent), path=str(path)
+        )
 
 
 def _write(data: Any, name: str, suffix: str) -> None:

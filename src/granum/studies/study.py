@@ -95,6 +95,15 @@ class Study:
         """Title, as declared or by kind."""
         return str(self.options.get("title") or self.name.replace("_", " "))
 
+    @property
+    def kept_in_parts(self) -> bool:
+        """Whether it computes in chunks that can be kept on disk."""
+        return KINDS[self.kind].chunks
+
+    def takes(self, key: str) -> bool:
+        """Whether a study of this kind has an option."""
+        return key in KINDS[self.kind].keys
+
     def with_options(self, **changes: Any) -> Study:
         """The same study with other options; None leaves one as it is."""
         given = {k: v for k, v in changes.items() if v is not None}

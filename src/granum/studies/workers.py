@@ -64,7 +64,14 @@ def _connect(distributed: Any, workers: Any, stack: ExitStack) -> Any:
     if text.isdigit():
         if int(text) < 1:
             raise InputError(_("'workers' must be at least 1."))
-        cluster = distributed.LocalCluster(n_workers=int(text), threads_per_worker=1, processes=True, dashboard_address=None)
+        try:
+            cluster = distributed.LocalCluster(n_workers=int(text), threads_per_worker=1, processes=True, dashboard_address=None)
+        except RuntimeError as problem:
+            raise InputError(
+                _(
+                    'Local workers did not start ({problem}). In a script of your own, call the study under: if __name__ == "__main__":'
+                ).format(problem=problem)
+            ) from None
         stack.enter_context(cluster)
         return distributed.Client(cluster)
     try:

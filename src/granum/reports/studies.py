@@ -1,0 +1,268 @@
+"""A study as terminal tables and as an HTML report; both from the same rows."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from rich.text import Text
+
+import granum
+from granum.core.i18n import _, current_language
+from granum.core.units import format_number, from_si, pretty_unit
+from granum.reports.terminal import CAUTION, OK, OUT, _console, _table
+from granum.studies.charts import usual_unit
+from granum.studies.outcome import Outcome
+from granum.studies.subjects import Variable
+
+ROWS = 40
+
+
+class Rows(NamedTuple):
+    """One table: title, heads with their alignment, cells."""
+
+    title: str
+    heads: list[tuple[str, str]]
+    cells: list[list[str]]
+
+
+def _cell(v: Variable, value: Any, unit: str | None = None) -> str:
+    if value is None or not np.isfinite(value):
+        return "—"
+    unit = usual_unit(v.parameter, value) if unit is None else unit
+    number = float(value) if v.parameter.kind is None else float(from_si(value, unit, v.parameter.kind))
+    return format_number(number)
+
+
+def _with_unit(v: Variable, value: Any) -> str:
+    if value is None or not np.isfinite(value):
+        return "—"
+    unit = usual_unit(v.parameter, value)
+    return f"{_cell(v, value, unit)} {pretty_unit(unit)}".strip()
+
+
+def _percent(value: Any) -> str:
+    return "—" if value is None else f"{format_number(100 * value, 3)} %"
+
+
+def _known(outcome: Outcome) -> dict[str, Variable]:
+    return {v.path: v for v in (*outcome.inputs, *outcome.outputs)}
+
+
+def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
+    heads = [(_("figure"), "left"), ("P10", "right"), ("P50", "right"), ("P90", "right"), (_("mean"), "right"), (_("unit"), "left")]
+    cells = []
+    for v in outcome.outputs:
+        row = found["statistics"][v.path]
+        unit = usual_unit(v.parameter, row["p50"] if row["p50"] is not None else 0.0)
+        cells.append([v.path, *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")), pretty_unit(unit)])
+    return Rows(_("Figures"), heads, cells)
+
+
+def _limit_text(v: Variable | None, low: float | None, high: float | None) -> str:
+    if v is None:
+        return _("all limits together")
+    parts = [f"{v.path}"]
+    if low is not None:
+        parts.insert(0, f"{_with_unit(v, low)} ≤")
+    if high is not None:
+        parts.append(f"≤ {_with_unit(v, high)}")
+    return " ".join(parts)
+
+
+def _chances(outcome: Outcome, rows: dict[str, Any], limits: dict[str, Any]) -> Rows:
+    known = _known(outcome)
+    cells = []
+    for path, row in rows.items():
+        low, high = (limits.get(path, {}).get(k) for k in ("lower", "upper"))
+        span = " … ".join(_percent(x) for x in row["interval_95"])
+        cells.append([_limit_text(known.get(path), low, high), _percent(row["probability"]), span])
+    return Rows(
+        _("Probability of keeping the limits"), [(_("limit"), "left"), (_("probability"), "right"), (_("95 % interval"), "right")], cells
+    )
+
+
+def _monte_carlo(outcome: Any, found: dict[str, Any]) -> list[Rows]:
+    tables = [_statistics(outcome, found)]
+    if found["limits"]:
+        tables.append(_chances(outcome, found["limits"], found["limits"]))
+    if len(outcome.cases.inputs) > 1 and found["rank_correlation"]:
+        heads = [(_("figure"), "left"), *((p, "right") for p in outcome.cases.inputs)]
+        cells = [[f, *(("—" if r is None else format_number(r, 2)) for r in row.values())] for f, row in found["rank_correlation"].items()]
+        tables.append(Rows(_("Rank correlation"), heads, cells))
+    return tables
+
+
+def _sobol(outcome: Any, found: dict[str, Any]) -> list[Rows]:
+    heads = [
+        (_("figure"), "left"),
+        (_("input"), "left"),
+        (_("alone"), "right"),
+        ("±", "right"),
+        (_("with interactions"), "right"),
+        ("±", "right"),
+    ]
+    cells = []
+    for figure, rows in found["indices"].items():
+        for name, s in sorted(rows.items(), key=lambda row: -(row[1]["total"] or 0.0)):
+            keys = ("first", "first_interval", "total", "total_interval")
+            cells.append([figure, name, *("—" if s[k] is None else format_number(s[k], 3) for k in keys)])
+            figure = ""
+    return [_statistics(outcome, found), Rows(_("Share of the variance (Sobol indices)"), heads, cells)]
+
+
+def _columns(outcome: Any, rows: Sequence[int], names: Sequence[str] = ()) -> Rows:
+    """Inputs and figures of some cases, one case a row, units in the heads."""
+    heads, columns = ([(_("case"), "left")], [list(names)]) if names else ([], [])
+    for v in (*outcome.inputs, *(v for v in outcome.outputs if v.path not in outcome.cases.inputs)):
+        values = outcome.column(v.path)
+        unit = usual_unit(v.parameter, values)
+        label = pretty_unit(unit)
+        heads.append((f"{v.path} [{label}]" if label else v.path, "right"))
+        columns.append([_cell(v, values[i], unit) for i in rows])
+    return Rows("", heads, [list(row) for row in zip(*columns, strict=True)])
+
+
+def _map(outcome: Any, found: dict[str, Any]) -> list[Rows]:
+    cells = []
+    for v in outcome.outputs:
+        values = outcome.column(v.path)
+        if not np.isfinite(values).any():
+            continue
+        for word, place in ((_("least"), int(np.nanargmin(values))), (_("most"), int(np.nanargmax(values)))):
+            at = "; ".join(f"{u.path} = {_with_unit(u, outcome.cases.x[place, i])}" for i, u in enumerate(outcome.inputs))
+            cells.append([v.path, word, _with_unit(v, values[place]), at])
+    tables = [Rows(_("Extremes of the map"), [(_("figure"), "left"), ("", "left"), (_("value"), "right"), (_("where"), "left")], cells)]
+    if found["limits"]:
+        tables.append(Rows("", [(_("share of the map that keeps all limits"), "left")], [[_percent(found["share_allowed"])]]))
+    return tables
+
+
+def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
+    known = _known(outcome)
+    inputs = [
+        [p, _with_unit(known[p], row["value"]), f"{_with_unit(known[p], row['lower'])} … {_with_unit(known[p], row['upper'])}"]
+        for p, row in found["inputs"].items()
+    ]
+    figures = [[p, _with_unit(known[p], row["value"]), _with_unit(known[p], row["before"])] for p, row in found["outputs"].items()]
+    active = []
+    for row in found["active"]:
+        v = known[row["name"]]
+        sign = "≥" if row["side"] == "lower" else "≤"
+        price = "—"
+        if row["price"] is not None:
+            goal = known[found["objective"]["name"]]
+            units = " / ".join(pretty_unit(u.unit) or "1" for u in (goal, v))
+            price = f"{format_number(row['price'])} {units if units != '1 / 1' else ''}".strip()
+        active.append([f"{row['name']} {sign} {_with_unit(v, row['limit'])}", price])
+    tables = [
+        Rows(_("Best inputs"), [(_("input"), "left"), (_("value"), "right"), (_("allowed"), "left")], inputs),
+        Rows(_("Figures at the optimum"), [(_("figure"), "left"), (_("value"), "right"), (_("before"), "right")], figures),
+    ]
+    if active:
+        tables.append(
+            Rows(_("Active limits"), [(_("limit"), "left"), (_("change of the objective per unit of the limit"), "right")], active)
+        )
+    if found["chance"]:
+        tables.append(_chances(outcome, found["chance"]["limits"], found["limits"]))
+    return tables
+
+
+def tables_of(outcome: Outcome) -> list[Rows]:
+    """The tables of any study."""
+    found, kind = outcome.findings(), outcome.kind
+    if kind == "monte_carlo":
+        return _monte_carlo(outcome, found)
+    if kind == "sobol":
+        return _sobol(outcome, found)
+    if kind == "map":
+        return _map(outcome, found)
+    if kind == "optimize":
+        return _optimum(outcome, found)
+    count = len(outcome.cases.codes)
+    picked = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int)).tolist()
+    return [_columns(outcome, picked, getattr(outcome, "names", ()))]
+
+
+def warnings_of(outcome: Outcome) -> list[str]:
+    """What a reader must know: failed cases with their reasons, a study that was stopped, an infeasible end."""
+    counts = outcome.counts()
+    rows = []
+    if counts["failed"]:
+        rows.append(_("{failed} of {run} cases failed; they are kept with their reason and left out of the figures.").format(**counts))
+    rows += [f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])]
+    if not outcome.complete:
+        rows.append(_("The study was stopped: {run} of {cases} cases were run.").format(**counts))
+    found = outcome.findings()
+    if outcome.kind == "optimize" and not found["feasible"]:
+        rows.append(_("No start keeps every limit: this is the least violation found, not a solution."))
+    if outcome.kind == "optimize" and found["feasible"] and not any(s["converged"] and s["feasible"] for s in found["starts"]):
+        rows.append(_("No start converged: the best point found may not be the optimum."))
+    if outcome.kind == "sobol" and found["blocks_used"] < found["blocks"]:
+        rows.append(_("{blocks_used} of {blocks} blocks of cases are whole and were used for the indices.").format(**found))
+    if outcome.kind == "pareto" and found["dropped"]:
+        rows.append(_("{dropped} points that others beat in both objectives were dropped.").format(**found))
+    return rows
+
+
+def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
+    """The outcome of ``granum study``."""
+    console = _console()
+    console.print(Text(outcome.title, style="bold"), Text(f"  {outcome.kind} · {outcome.cases.subject.title}", style="dim"))
+    for rows in tables_of(outcome):
+        if rows.title:
+            console.print(Text(rows.title, style="bold"))
+        table = _table(*rows.heads)  # type: ignore[arg-type]
+        for cells in rows.cells:
+            table.add_row(*cells)
+        console.print(table)
+    if outcome.kind == "optimize":
+        found = outcome.findings()
+        sense = _("smallest") if found["objective"]["sense"] == "minimize" else _("largest")
+        name = found["objective"]["name"]
+        goal = _known(outcome)[name]
+        console.print(
+            Text(
+                _("{sense} {name}: {value} (before: {before}); {evaluations} evaluations from {starts} starts").format(
+                    sense=sense, name=name, value=_with_unit(goal, found["objective"]["value"]), before=_with_unit(goal, found["objective"]["before"]),
+                    evaluations=found["evaluations"], starts=len(found["starts"]),
+                ),
+                style=OK if found["feasible"] else OUT,
+            )
+        )  # fmt: skip
+    counts = outcome.counts()
+    words = _("{run} cases in {seconds} s").format(run=counts["run"], seconds=format_number(outcome.elapsed, 3))
+    console.print(Text(words, style="dim"))
+    for line in warnings_of(outcome):
+        console.print(Text("! " + line, style=CAUTION))
+    for path in saved:
+        console.print(_("saved to {path}").format(path=path))
+
+
+def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -> str:
+    """HTML of the report of one or several studies of one file."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    sections, first = [], True
+    for outcome in outcomes:
+        drawn = []
+        for figure in outcome.charts().values():
+            drawn.append(figure.to_html(full_html=False, include_plotlyjs=first, config={"displaylogo": False}))
+            first = False
+        counts = outcome.counts()
+        sections.append({
+            "title": outcome.title, "kind": outcome.kind, "tables": tables_of(outcome), "warnings": warnings_of(outcome), "charts": drawn,
+            "cases": _("{run} cases in {seconds} s").format(run=counts["run"], seconds=format_number(outcome.elapsed, 3)),
+        })  # fmt: skip
+    block = [
+        (_("Model"), outcomes[0].cases.subject.title),
+        (_("Date"), datetime.date.today().isoformat()),
+        (_("Program"), f"Granum {granum.__version__}"),
+    ]
+    environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    return environment.get_template("study.html.j2").render(
+        _=_, lang=current_language(), title=title or outcomes[0].title, title_block=block, sections=sections, case_text=text
+    )
