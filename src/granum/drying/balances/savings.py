@@ -182,7 +182,7 @@ def heat_pump_dryer(
         w1, w2 = inlet(T)
         return enthalpy(temperature_inlet, w1, P) - enthalpy(T, w2, P)
 
-    T2 = find_root(mismatch, COLDEST, jnp.minimum(temperature_inlet, PAIR.boiling_temperature(P) * (1 - 1e-9)), tolerance=1e-12).value
+    T2 = find_root(mismatch, COLDEST, jnp.minimum(temperature_inlet, PAIR.boiling_temperature(P) * (1 - 1e-9)), tolerance=1e-15).value
     w1, w2 = inlet(T2)
     taken = jnp.where(w2 > w1, w2 - w1, jnp.nan)
     liquid = PAIR.condensate_molar_enthalpy(jnp.asarray(coil_temperature), P, False) / PAIR.vapor_molar_mass
