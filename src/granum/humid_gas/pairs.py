@@ -58,8 +58,12 @@ class AbstractPair(eqx.Module):
         """Partial molar enthalpy of the vapor, J/mol; with the condensate's it gives the heat of vaporization."""
 
     def simplified(self) -> AbstractPair | None:
-        """A cheaper pair with nearly the same derivatives, for pairs whose functions cost much."""
+        """A cheaper pair that saturates with less vapor, for pairs whose functions cost much."""
         return None
+
+    def nearby(self) -> AbstractPair | None:
+        """A cheaper pair with nearly the same values and derivatives, from which searches start."""
+        return self.simplified()
 
     @property
     def molar_mass_ratio(self) -> float:

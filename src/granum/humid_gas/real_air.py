@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import granum.humid_gas.virials as vi
 from granum.core import law
 from granum.core.kinds import Number
-from granum.humid_gas.pairs import AIR_WATER, ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, ice_vapor_pressure, polynomial
+from granum.humid_gas.pairs import AIR_WATER, ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, AirWater, ice_vapor_pressure, polynomial
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
 from granum.numerics.quick_roots import newton_root
 
@@ -18,6 +18,7 @@ R = 8.314472  # J/(mol K), the report's own
 ICE_VOLUME = (1.96521e-5, 3.144e-9, 5.5e-12)  # m³/mol in °C, IAPWS-06 within 1e-5 from −60 °C
 ICE_COMPRESSIBILITY = 1.18e-10  # 1/Pa at 0 °C, IAPWS-06
 PASSES = 8
+LIQUID_MOLAR_VOLUME = 1.85e-5  # m³/mol, water about 60 °C: enough for a start value
 
 
 @law(
@@ -49,6 +50,9 @@ class AirWaterReal(AbstractPair):
     def simplified(self) -> AbstractPair | None:
         return AIR_WATER
 
+    def nearby(self) -> AbstractPair | None:
+        return _NEARLY_REAL
+
     def boiling_temperature(self, P: Any) -> Any:
         return water_boiling_temperature.function(P)
 
@@ -59,7 +63,9 @@ class AirWaterReal(AbstractPair):
         def excess(rho: Any) -> Any:
             return rho * (1.0 + rho * (B + rho * C)) - ideal
 
-        return newton_root(excess, ideal, PASSES, 0.05)
+        z = jnp.clip(B * ideal, -0.2, 0.2)  # the series turned round, where it converges
+        start = ideal * (1.0 - z * (1.0 - 2.0 * z) - jnp.clip(C * ideal * ideal, -0.1, 0.1))
+        return newton_root(excess, start, PASSES, 0.05)
 
     def molar_volume(self, T: Any, P: Any, y: Any) -> Any:
         B, C = vi.mixture(vi.virials(T), y)
@@ -124,7 +130,36 @@ class AirWaterReal(AbstractPair):
             third = third - 0.5 * (share * share - (4.0 - 3.0 * y) * y * y * y) * a.Bww * a.Bww
             return poynting + jnp.log1p(-beta * z * P) + second + r2 * third - x
 
-        return jnp.exp(jnp.maximum(newton_root(rest, jnp.zeros_like(share), PASSES), 0.0))
+        # a Newton step from zero with the slope of the second virial terms alone; the curvature grows with pressure
+        slope = 1.0 + 2.0 * reduced * share * (1.0 - share) * (a.Baa - 2.0 * a.Baw + a.Bww)
+        start = rest(jnp.zeros_like(share)) / jnp.clip(slope, 0.2, 2.0)
+        found = newton_root(rest, start, PASSES, within=1e-4 / (1.0 + P / 1e5))
+        return jnp.exp(jnp.maximum(found, 0.0))
 
 
+class _NearlyReal(AirWater):
+    """The real mixture with its second virial coefficients alone: wet bulbs within a millikelvin or so near 1 bar."""
+
+    def saturated_fraction(self, T: Any, P: Any, frozen: Any) -> Any:
+        share = super().saturated_fraction(T, P, frozen)
+        s = 1.0 / T
+        z = 1.0 - jnp.minimum(share, 1.0)
+        cross = vi.B_AIR(s) - 2.0 * vi.B_CROSS(s)
+        steam = -jnp.exp(vi.LOG_B_WATER(s))
+        x = P / (R * T) * (z * z * cross - (1.0 - share - z * z) * steam + z * LIQUID_MOLAR_VOLUME)
+        return share * jnp.exp(jnp.clip(x, 0.0, 0.5))
+
+    def molar_enthalpy(self, T: Any, P: Any, y: Any) -> Any:
+        s = 1.0 / T
+        steam = -jnp.exp(vi.LOG_B_WATER(s))
+        z = 1.0 - y
+        second = (
+            z * z * (vi.B_AIR(s) + s * vi.B_AIR.slope(s))
+            + 2.0 * z * y * (vi.B_CROSS(s) + s * vi.B_CROSS.slope(s))
+            + y * y * steam * (1.0 + s * vi.LOG_B_WATER.slope(s))
+        )
+        return z * vi.AIR_ENTHALPY(T) + y * vi.VAPOR_ENTHALPY(T) + P * second
+
+
+_NEARLY_REAL = _NearlyReal()
 AIR_WATER_REAL = AirWaterReal()

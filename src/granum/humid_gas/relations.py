@@ -102,9 +102,10 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     boiling = pair.boiling_temperature(P)
     top = jnp.minimum(T, boiling)
     h = pair.molar_enthalpy(T, P, y)
-    liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.minimum(Tf, T), h, P, y, False, lewis) >= 0)
+    # at a fixed temperature everything but h and y is the same for all elements of one pressure
+    liquid = (Tf <= T) & (wet_bulb_balance(pair, jnp.asarray(Tf, dtype=float), h, P, y, False, lewis) >= 0)
     frozen = jax.lax.stop_gradient(~liquid)
-    guess = _refined_guess(pair, T, P, y, boiling)
+    guess = _refined_guess(pair, T, P, y, h, boiling)
     lower = jnp.minimum(Tf, top) * (1 - SLACK)
 
     def over_liquid(h: Any, P: Any, y: Any) -> Any:
@@ -126,15 +127,16 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     return jax.lax.cond(jnp.any(frozen), over_either, over_liquid, h, P, y)
 
 
-def _refined_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:
-    """Start value, brought by two Newton steps to the wet bulb of the cheaper pair if there is one."""
-    cheap = pair.simplified()
+def _refined_guess(pair: AbstractPair, T: Any, P: Any, y: Any, h: Any, boiling: Any) -> Any:
+    """Start value, brought by a Newton step each to the wet bulb of the two cheaper pairs if there are such."""
+    cheap, near = pair.simplified(), pair.nearby()
     guess = _wet_bulb_guess(cheap or pair, T, P, y, boiling)
-    if cheap is None:
+    if cheap is None or near is None:
         return guess
-    h = cheap.molar_enthalpy(T, P, y)
-    for _pass in range(2):
-        value, slope = jax.jvp(lambda t: wet_bulb_balance(cheap, t, h, P, y, False, None), (guess,), (jnp.ones_like(guess),))
+    for easier, enthalpy in ((cheap, cheap.molar_enthalpy(T, P, y)), (near, h)):
+        value, slope = jax.jvp(
+            lambda t, p=easier, h=enthalpy: wet_bulb_balance(p, t, h, P, y, False, None), (guess,), (jnp.ones_like(guess),)
+        )
         guess = jnp.clip(guess - value / slope, guess - 5.0, jnp.minimum(guess + 5.0, jnp.minimum(T, boiling)))
     return guess
 

@@ -90,21 +90,25 @@ def _secant(f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any
     return lax.while_loop(unfinished, advance, start)[0]
 
 
-def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None = None) -> Any:
+def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None = None, within: Any = None) -> Any:
     """Newton steps on a function known to be smooth and steep near its root, until they are small; implicit derivatives.
 
-    ``least_slope`` keeps a slope from falling below it; None for functions that fall.
+    ``least_slope`` keeps a slope from falling below it; None for functions that fall. The last step is below ``within``, by default a
+    relative 1e-5; what is left is its square times half the ratio of curvature to slope.
     """
+    if within is not None:
+        within = lax.stop_gradient(within)
 
     def solve(f: Callable[..., Any], first: Any) -> Any:
         def step(carry: tuple) -> tuple:
             x, _largest, count = carry
             value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
             move = value / (slope if least_slope is None else jnp.maximum(slope, least_slope))
-            return x - move, jnp.max(jnp.abs(move) / (jnp.abs(x) + 1e-2)), count + 1
+            allowed = 1e-5 * (jnp.abs(x) + 1e-2) if within is None else within
+            return x - move, jnp.max(jnp.abs(move) / allowed), count + 1
 
         def unfinished(carry: tuple) -> Any:
-            return (carry[1] > 1e-5) & (carry[2] < passes)
+            return (carry[1] > 1.0) & (carry[2] < passes)
 
         return lax.while_loop(unfinished, step, (first, jnp.inf, 0))[0]
 
