@@ -8,7 +8,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import equinox as eqx
 import jax
 import numpy as np
 
@@ -19,12 +18,17 @@ from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
-from granum.flowsheet import Flowsheet, Solution, line_closure, unit_closures
-from granum.flowsheet.specifications import Target, design, outlets_of
+from granum.flowsheet import Flowsheet, Solution, closures
+from granum.flowsheet.packing import compiled
+from granum.flowsheet.specifications import Designed, Target, design
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 
-_design = eqx.filter_jit(design)
+
+@compiled
+def _solved(sheet: Flowsheet, targets: tuple[Target, ...]) -> Designed:
+    """The line with its specifications, figures and checks: one compilation."""
+    return design(sheet, targets, sheets=True)
 
 
 def _traced(tree: Any) -> Any:
@@ -44,7 +48,7 @@ class Line:
 
     def solve(self) -> Run:
         """Solve, check and audit. Raises ``ConvergenceError`` (with the last iterate) rather than return an unconverged line."""
-        found = _design(_traced(self.sheet), self.targets)
+        found = _solved(_traced(self.sheet), self.targets)
         run = Run(self, found.line, found.solution, {k: float(v) for k, v in found.values.items()})
         bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
         if bool(found.converged) and not bad:
@@ -146,8 +150,7 @@ class Run:
     @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures and checks."""
-        found = _sheets(self.sheet, self.solution)
-        return {name: UnitReport(name, self.sheet.units[name], *found[name]) for name in self.sheet.order}
+        return {name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name]) for name in self.sheet.order}
 
     @cached_property
     def notes(self) -> dict[str, tuple[Result, ...]]:
@@ -163,8 +166,8 @@ class Run:
     @cached_property
     def audit(self) -> dict[str, Any]:
         """Closure of the whole line and the worst unit: largest of both, relative."""
-        whole = line_closure(self.sheet, self.solution)
-        units = {name: (float(c.mass), float(c.energy)) for name, c in unit_closures(self.sheet, self.solution).items()}
+        found, whole = closures(self.sheet, self.solution)
+        units = {name: (float(c.mass), float(c.energy)) for name, c in found.items()}
         return {
             "mass_closure": max(float(whole.mass), *(m for m, _e in units.values())),
             "energy_closure": max(float(whole.energy), *(e for _m, e in units.values())),
@@ -223,16 +226,6 @@ class Run:
         from granum.reports.sheets import write_tables
 
         write_tables(self, Path(path))
-
-
-@eqx.filter_jit
-def _sheets(sheet: Flowsheet, solution: Solution) -> dict[str, tuple[Any, tuple[Check, ...]]]:
-    """Figures and checks of every unit, compiled together because they share most of their work."""
-    sheets = {}
-    for name in sheet.order:
-        unit, inlets, outlets = sheet.units[name], sheet.inlets_of(name, solution.streams), outlets_of(sheet, solution, name)
-        sheets[name] = (unit.results(inlets, outlets), unit.checks(inlets, outlets))
-    return sheets
 
 
 def median_size(stream: Stream) -> float | None:

@@ -2,6 +2,6 @@
 
 from granum.flowsheet.plan import Link
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import Solution, line_closure, solve, solve_compiled, unit_closures
+from granum.flowsheet.solving import Solution, closures, line_closure, solve, solve_compiled, unit_closures
 
-__all__ = ["Flowsheet", "Link", "Solution", "line_closure", "solve", "solve_compiled", "unit_closures"]
+__all__ = ["Flowsheet", "Link", "Solution", "closures", "line_closure", "solve", "solve_compiled", "unit_closures"]

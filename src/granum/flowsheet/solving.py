@@ -8,14 +8,17 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import flags
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.numerics import fixed_point
-from granum.streams.audit import Closure, closure
+from granum.numerics import Anderson, Settled, settle
+from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
+from granum.streams.sharing import sharing
 from granum.streams.stream import Stream, empty
+from granum.streams.units import Check
 
 TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the size of the scaled flows
 TOLERANCE = 1e-12
@@ -31,6 +34,7 @@ class Solution(NamedTuple):
     converged: whether every loop converged (True without loops).
     steps: iterations of each loop. residual: largest scaled change of a torn stream in each loop.
     records: what each unit's formulas flagged at the solution.
+    sheets: figures and checks of each unit, when asked for.
     """
 
     streams: dict[str, Stream]
@@ -39,6 +43,7 @@ class Solution(NamedTuple):
     steps: tuple[Any, ...]
     residual: tuple[Any, ...]
     records: dict[str, list[flags.Record]]
+    sheets: dict[str, tuple[Any, tuple[Check, ...]]]
 
 
 def _pack(stream: Stream, scale: Any) -> Any:
@@ -55,42 +60,65 @@ def _unpack(vector: Any, mixture: Mixture, pressure: Any, scale: Any) -> Stream:
     return Stream(solid.reshape(shape), liquid, gas, vector[-1] * TEMPERATURE_SCALE, pressure, mixture)
 
 
-def _run_unit(line: Flowsheet, unit: str, streams: dict[str, Stream]) -> tuple[dict[str, Stream], dict[str, Any], list[flags.Record]]:
-    thing = line.units[unit]
-    with flags.collect() as records:
-        out = thing(**line.inlets_of(unit, streams))
-    made = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == unit}
-    return made, {name: getattr(out, name) for name in thing.power_names()}, records
-
-
 class _Made(NamedTuple):
     streams: dict[str, Stream]
     powers: dict[str, dict[str, Any]]
     records: dict[str, list[flags.Record]]
+    sheets: dict[str, tuple[Any, tuple[Check, ...]]]
 
 
-def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream]) -> _Made:
-    streams, powers, records = dict(streams), {}, {}
-    made: dict[str, Stream] = {}
+def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets: bool) -> _Made:
+    """One pass through the units of a block. Torn streams are read as given and made anew."""
+    streams = dict(streams)
+    made = _Made({}, {}, {}, {})
     for unit in block.units:
-        new, powers[unit], records[unit] = _run_unit(line, unit, streams)
-        made |= new
+        thing, inlets = line.units[unit], line.inlets_of(unit, streams)
+        with sharing():
+            with flags.collect() as records:
+                out = thing(**inlets)
+            if sheets:
+                made.sheets[unit] = (thing.results(inlets, out), thing.checks(inlets, out))
+        made.powers[unit] = {name: getattr(out, name) for name in thing.power_names()}
+        made.records[unit] = records
+        new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == unit}
+        made.streams.update(new)
         streams |= {name: s for name, s in new.items() if name not in block.tears}
-    return _Made(made, powers, records)
+    return made
 
 
-def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None) -> Solution:
+def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson) -> tuple[_Made, Settled]:  # fmt: skip
+    """A loop, solved: the pass through its units stands once in the compiled code."""
+    words: list[Any] = []  # names and sources among what is made, which are no numbers
+
+    def torn(vector: Any) -> dict[str, Stream]:
+        rows = vector.reshape(len(block.tears), -1)
+        return {n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)}
+
+    def once(vector: Any) -> tuple[Any, Any]:
+        made = _run_block(line, block, streams | torn(vector), sheets)
+        numbers, others = eqx.partition(made, eqx.is_array)
+        words[:] = [others]
+        return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), numbers
+
+    start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
+    found = settle(once, start, method=method, tolerance=TOLERANCE)
+    made = eqx.combine(found.made, words[0])
+    return made._replace(streams=made.streams | torn(found.state)), found
+
+
+def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets: bool = False, method: Anderson = Anderson()) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
     Parameters
     ----------
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
+    sheets: also work out figures and checks of every unit (then jit with ``eqx.filter_jit``: checks carry words).
+    method: how loops are brought to rest.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
-    powers: dict[str, dict[str, Any]] = {}
-    records: dict[str, list[flags.Record]] = {}
+    whole = _Made(streams, {}, {}, {})
     converged, steps, residual = jnp.asarray(True), [], []
     any_feed = next(iter(line.feeds.values()))
     scale = sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(()))
@@ -99,24 +127,15 @@ def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None) -> Solutio
         if block.tears:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears}
-
-            def unpacked(vector: Any, guess: dict[str, Stream] = guess, names: tuple[str, ...] = block.tears) -> dict[str, Stream]:
-                return {n: _unpack(vector[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(names)}
-
-            def once(vector: Any, _args: Any, block: Block = block, known: dict[str, Stream] = streams, unpacked: Any = unpacked) -> Any:
-                made = _run_block(line, block, known | unpacked(vector)).streams
-                return jnp.stack([_pack(made[n], scale) for n in block.tears])
-
-            found = fixed_point(once, jnp.stack([_pack(guess[n], scale) for n in block.tears]), tolerance=TOLERANCE, scale=1.0)
-            streams = streams | unpacked(found.state)
+            made, found = _run_loop(line, block, streams, guess, scale, sheets, method)
             converged = converged & found.converged
             steps.append(found.steps)
             residual.append(found.residual)
-        made = _run_block(line, block, streams)
-        streams = streams | {name: s for name, s in made.streams.items() if name not in block.tears}
-        powers |= made.powers
-        records |= made.records
-    return Solution(streams, powers, converged, tuple(steps), tuple(residual), records)
+        else:
+            made = _run_block(line, block, streams, sheets)
+        for all_of, new in zip(whole, made, strict=True):
+            all_of.update(new)
+    return Solution(streams, whole.powers, converged, tuple(steps), tuple(residual), whole.records, whole.sheets)
 
 
 solve_compiled = eqx.filter_jit(solve)
@@ -124,15 +143,35 @@ solve_compiled = eqx.filter_jit(solve)
 
 def unit_closures(line: Flowsheet, solution: Solution) -> dict[str, Closure]:
     """Mass and energy closure of every unit."""
-    rows = {}
-    for unit in line.order:
-        out = [solution.streams[k.name] for k in line.links if k.source_unit == unit]
-        power = sum(solution.powers[unit].values(), jnp.zeros(()))
-        rows[unit] = closure(line.inlets_of(unit, solution.streams).values(), out, power)
-    return rows
+    found, _whole = closures(line, solution)
+    return found
 
 
 def line_closure(line: Flowsheet, solution: Solution) -> Closure:
     """Mass and energy closure of the whole line: feeds against products."""
-    power = sum((p for unit in solution.powers.values() for p in unit.values()), jnp.zeros(()))
-    return closure(line.feeds.values(), [solution.streams[n] for n in line.products], power)
+    _units, whole = closures(line, solution)
+    return whole
+
+
+def closures(line: Flowsheet, solution: Solution) -> tuple[dict[str, Closure], Closure]:
+    """Closure of every unit and of the whole line, all streams at once."""
+    stacked = jax.tree.map(
+        lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *(solution.streams[k.name] for k in line.links)
+    )
+    entering = np.array([[k.target_unit == unit for k in line.links] for unit in line.order] + [[not k.origin for k in line.links]])
+    leaving = np.array([[k.source_unit == unit for k in line.links] for unit in line.order] + [[not k.target for k in line.links]])
+    powers = [sum(solution.powers[unit].values(), 0.0) for unit in line.order]
+    powers = jnp.stack([jnp.asarray(p, dtype=float) for p in [*powers, sum(powers, 0.0)]])
+    mass, energy, by_component = _closures(stacked, entering.astype(float), leaving.astype(float), powers)
+    rows = [Closure(mass[i], energy[i], by_component[i]) for i in range(len(line.order) + 1)]
+    return dict(zip(line.order, rows[:-1], strict=True)), rows[-1]
+
+
+@jax.jit
+def _closures(streams: Stream, entering: Any, leaving: Any, powers: Any) -> tuple[Any, Any, Any]:
+    components, enthalpies = jax.vmap(lambda s: (s.components, s.enthalpy_flow))(streams)
+    mass_in, mass_out = entering @ components, leaving @ components
+    by_component = (mass_out - mass_in) / jnp.maximum(jnp.sum(mass_in, axis=1, keepdims=True), 1e-300)
+    turnover = (entering + leaving) @ jnp.abs(enthalpies) + jnp.abs(powers)
+    energy = jnp.abs((leaving - entering) @ enthalpies - powers) / jnp.maximum(turnover, 1e-300)
+    return jnp.max(jnp.abs(by_component), axis=1), energy, by_component

@@ -44,10 +44,10 @@ def outlets_of(line: Flowsheet, solution: Solution, unit: str) -> Any:
     return thing.outlet_type()(**made, **solution.powers[unit])
 
 
-def design(line: Flowsheet, targets: tuple[Target, ...]) -> Designed:
+def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False) -> Designed:
     """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from mid-range."""
     if not targets:
-        solution = solve(line)
+        solution = solve(line, sheets=sheets)
         return Designed(line, solution, {}, solution.converged)
     if len(targets) == 1:
         target = targets[0]
@@ -72,5 +72,5 @@ def design(line: Flowsheet, targets: tuple[Target, ...]) -> Designed:
         values = {t.vary: low[i] + width[i] * outcome.state[i] for i, t in enumerate(targets)}
         found = outcome.converged & inside
     final = line.with_values(values)
-    solution = solve(final)
+    solution = solve(final, sheets=sheets)
     return Designed(final, solution, values, found & solution.converged)

@@ -1,7 +1,9 @@
 """Fixed points and roots of systems, for any pytree of unknowns, with implicit derivatives."""
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -60,40 +62,42 @@ class Anderson(AbstractMethod):
     window: int = eqx.field(static=True, default=5)
     damping: float = 1.0
 
-    def solve(self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int) -> tuple[jax.Array, jax.Array, jax.Array]:
-        slots = min(self.window, start.size) + 1
-
-        def step(carry: tuple) -> tuple:
-            x, best, base, points, residuals, rejected, number = carry
-            r = residual(x)
-            size = _size(r)
-            accepted = size <= 2.0 * best[1]
-            instructive = ~accepted & (size <= 10.0 * best[1]) & (rejected == 0)
-            best = _choose(size < best[1], (x, size), best)
-            base = _choose(accepted, (x, r), base)
-            rejected = jnp.where(accepted, 0, rejected + 1)
-            slot = number % slots
-            points, residuals = _choose(
-                accepted | instructive,
-                (points.at[slot].set(x), residuals.at[slot].set(r)),
-                (jnp.broadcast_to(base[0], points.shape), jnp.broadcast_to(base[1], points.shape)),
-            )
-            points = jnp.where(number == 0, x, points)
-            residuals = jnp.where(number == 0, r, residuals)
-            moves, changes = points - base[0], residuals - base[1]
-            move = self.damping * base[1]
-            move = move - _fitted(changes, base[1]) @ (moves + self.damping * changes)
-            length = jnp.where(instructive, 1.0, 0.5**rejected)
-            return base[0] + length * move, best, base, points, residuals, rejected, number + 1
-
-        history = jnp.zeros((slots, start.size), start.dtype)
-        best = (start, jnp.full((), jnp.inf, start.dtype))
-        base = (start, jnp.zeros_like(start))
+    def begin(self, start: jax.Array) -> tuple:
+        """The state of an iteration that has evaluated nothing yet; its first item is where to evaluate, its second the best so far."""
+        history = jnp.zeros((min(self.window, start.size) + 1, start.size), start.dtype)
         zero = jnp.zeros((), int)
+        best = (start, jnp.full((), jnp.inf, start.dtype))
+        return start, best, (start, jnp.zeros_like(start)), history, history, zero, zero
+
+    def proceed(self, carry: tuple, r: jax.Array) -> tuple:
+        """The next state, given the residual at its first item."""
+        x, best, base, points, residuals, rejected, number = carry
+        slots = len(points)
+        size = _size(r)
+        accepted = size <= 2.0 * best[1]
+        instructive = ~accepted & (size <= 10.0 * best[1]) & (rejected == 0)
+        best = _choose(size < best[1], (x, size), best)
+        base = _choose(accepted, (x, r), base)
+        rejected = jnp.where(accepted, 0, rejected + 1)
+        slot = number % slots
+        points, residuals = _choose(
+            accepted | instructive,
+            (points.at[slot].set(x), residuals.at[slot].set(r)),
+            (jnp.broadcast_to(base[0], points.shape), jnp.broadcast_to(base[1], points.shape)),
+        )
+        points = jnp.where(number == 0, x, points)
+        residuals = jnp.where(number == 0, r, residuals)
+        moves, changes = points - base[0], residuals - base[1]
+        move = self.damping * base[1]
+        move = move - _fitted(changes, base[1]) @ (moves + self.damping * changes)
+        length = jnp.where(instructive, 1.0, 0.5**rejected)
+        return base[0] + length * move, best, base, points, residuals, rejected, number + 1
+
+    def solve(self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int) -> tuple[jax.Array, jax.Array, jax.Array]:
         carry = lax.while_loop(
             lambda carry: (carry[1][1] > tolerance) & (carry[-1] < max_steps),
-            step,
-            (start, best, base, history, history, zero, zero),
+            lambda carry: self.proceed(carry, residual(carry[0])),
+            self.begin(start),
         )
         (x, size), number = carry[1], carry[-1]
         return x, size, number
@@ -237,6 +241,85 @@ def solve_system(
         max_steps,
     )
     return found
+
+
+class Settled(NamedTuple):
+    """Outcome of `settle`: as for `fixed_point`, with what else the function made at the state."""
+
+    state: jax.Array
+    made: Any
+    converged: jax.Array
+    steps: jax.Array
+    residual: jax.Array
+
+
+def settle(
+    function: Callable[[jax.Array], tuple[jax.Array, Any]],
+    start: jax.Array,
+    *,
+    method: Anderson = Anderson(),
+    tolerance: float = 1e-10,
+    max_steps: int = 200,
+) -> Settled:
+    """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further results on the way.
+
+    The function is run once in Python and stands once in the compiled code, so that a large one compiles fast. Derivatives with
+    respect to closed-over values follow from the implicit function theorem, forward and reverse, for the state and what is made.
+
+    Example:
+        >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
+        >>> found.state, found.made["sine"]
+        (Array([0.73908513], dtype=float64), Array([0.67361203], dtype=float64))
+    """
+    start = lax.stop_gradient(_as_real(start))
+    shape: list[Any] = []
+
+    def flat(state: jax.Array) -> tuple[jax.Array, jax.Array]:
+        image, made = function(state)
+        leaves, tree = jax.tree.flatten(made)
+        leaves = [jnp.asarray(leaf) for leaf in leaves]
+        shape[:] = [tree, [(leaf.shape, leaf.dtype) for leaf in leaves]]
+        # One vector: each array that a loop carries costs as much compilation as a formula.
+        return image, jnp.concatenate([jnp.ravel(leaf).astype(start.dtype) for leaf in leaves] or [jnp.zeros((0,), start.dtype)])
+
+    traced, closed_over = jax.closure_convert(flat, start)
+    tree, kinds = shape
+
+    @jax.custom_jvp
+    def search(closed_over: Any, start: jax.Array) -> tuple:
+        def advance(carry: tuple) -> tuple:
+            iteration, kept = carry
+            image, made = traced(iteration[0], *closed_over)
+            following = method.proceed(iteration, image - iteration[0])
+            return following, jnp.where(following[1][1] < iteration[1][1], made, kept)
+
+        def unfinished(carry: tuple) -> jax.Array:
+            iteration = carry[0]
+            return (iteration[1][1] > tolerance) & (iteration[-1] < max_steps)
+
+        blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
+        iteration, made = lax.while_loop(unfinished, advance, (method.begin(start), blank))
+        (x, size), number = iteration[1], iteration[-1]
+        return x, made, size, number.astype(x.dtype)
+
+    @search.defjvp
+    def _derivative(primals: tuple, tangents: tuple) -> tuple:
+        closed_over, start = primals
+        x, made, size, number = search(closed_over, start)
+        _, linear = jax.linearize(lambda x, c: traced(x, *c), x, closed_over)
+        still = jax.tree.map(jnp.zeros_like, closed_over)
+        pushed, _ = linear(jnp.zeros_like(x), tangents[0])
+        change = _solve_linear(lambda v: v - linear(v, still)[0], pushed)
+        _, along = linear(change, tangents[0])
+        return (x, made, size, number), (change, along, jnp.zeros_like(size), jnp.zeros_like(number))
+
+    x, packed, size, number = search(closed_over, start)
+    parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
+    made = jax.tree.unflatten(tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)])
+    # A change smaller than the rounding of a state that ran away proves nothing.
+    rounding = jnp.finfo(start.dtype).eps * _size(lax.stop_gradient(x))
+    size = lax.stop_gradient(size)
+    return Settled(x, made, (size <= tolerance) & (rounding <= tolerance), number.astype(int), jnp.maximum(size, rounding))
 
 
 def _solve(

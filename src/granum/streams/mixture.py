@@ -46,14 +46,6 @@ class Species:
         return self.reference_enthalpy + total
 
 
-def _polynomial(coefficients: tuple[float, ...], temperature: Any) -> Any:
-    theta = temperature - ZERO_CELSIUS
-    total = 0.0
-    for c in reversed(coefficients):
-        total = total * theta + c
-    return total
-
-
 @dataclass(frozen=True, eq=False)
 class Mixture:
     """The species a set of streams shares. Immutable and hashable, so that compiled code is reused between equal mixtures.
@@ -131,12 +123,34 @@ class Mixture:
             raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=phase))
         return names.index(name)
 
+    @cached_property
+    def _tables(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Coefficients of enthalpy and density, species × powers of the temperature above 0 °C, for each phase."""
+        tables = {}
+        for phase in ("solids", "liquids", "gases"):
+            species = getattr(self, phase)
+            heats = [(s.reference_enthalpy, *(c / (power + 1) for power, c in enumerate(s.heat_capacity))) for s in species]
+            tables[phase] = (_table(heats), _table([s.density for s in species]))
+        return tables
+
     def enthalpies(self, phase: str, temperature: Any) -> Any:
         """Specific enthalpies of the species of a phase, J/kg."""
-        species = getattr(self, phase)
-        return jnp.stack([jnp.asarray(s.enthalpy(temperature)) for s in species]) if species else jnp.zeros((0,))
+        return _horner(self._tables[phase][0], temperature)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""
-        species = getattr(self, phase)
-        return jnp.stack([jnp.asarray(_polynomial(s.density, temperature)) for s in species]) if species else jnp.zeros((0,))
+        return _horner(self._tables[phase][1], temperature)
+
+
+def _table(rows: list[tuple[float, ...]]) -> np.ndarray:
+    width = max((len(row) for row in rows), default=1)
+    return np.array([row + (0.0,) * (width - len(row)) for row in rows]).reshape(len(rows), width)
+
+
+def _horner(table: np.ndarray, temperature: Any) -> Any:
+    theta = jnp.asarray(temperature, dtype=float) - ZERO_CELSIUS
+    columns = [column.reshape((-1,) + (1,) * theta.ndim) for column in table.T]
+    total = jnp.broadcast_to(columns[-1], (len(table), *theta.shape)) if columns else jnp.zeros((0, *theta.shape))
+    for column in reversed(columns[:-1]):
+        total = total * theta + column
+    return total

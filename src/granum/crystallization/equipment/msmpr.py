@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
@@ -27,6 +28,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
 
@@ -69,6 +71,7 @@ def _median(masses: Any, edges: Any) -> Any:
 class _Continuous(Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
+    @shared
     def _steady(self, feed: Stream) -> tuple[SteadyState, Roles]:
         found = roles(feed.mixture, self.solid, self.solvent)
         densities = feed.mixture.densities("liquids", self.temperature)
@@ -119,9 +122,9 @@ class _Continuous(Unit):
         """Fines dissolved and product classified; none by default."""
         return None
 
+    @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
-        raise NotImplementedError
 
 
 @equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",

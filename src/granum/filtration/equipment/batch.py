@@ -10,10 +10,12 @@ from typing import Any
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Length, Time, VoidFraction
+from granum.core.kinds import Diffusivity, Length, Time, VoidFraction
 from granum.filtration.equipment.cake_filter import CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
+from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.streams.cakes import Filtered
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 
@@ -24,6 +26,7 @@ _CHAMBER = "chamber depth"
 _LEAF_CAKE = "cake thickness on a leaf"
 _NUTSCHE_CAKE = "cake thickness in a Nutsche"
 _CANDLE = "cake thickness over candle radius"
+_REACHED = "share of the possible squeezing reached"
 _SQUEEZED = "void fraction after squeezing over before"
 
 
@@ -55,6 +58,7 @@ class BatchFilter(CakeFilter):
             s.dry_cake_per_filtrate, self.medium_resistance,
         )  # fmt: skip
 
+    @shared
     def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
         s = self.slurry(feed)
         loading, formation = self.loading(s), self.formation_time(s)
@@ -106,15 +110,30 @@ class ChamberPress(Press):
 
 @equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
 class MembranePress(Press):
-    """Chamber press whose membranes squeeze the washed cake to a lower void fraction in a squeezing time."""
+    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing time.
+
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber draining on one face; without,
+    it is taken as reached.
+    """
 
     void_fraction_squeezed: VoidFraction
     squeezing_time: Time = 600.0
+    consolidation_coefficient: Diffusivity | None = None
+
+    @property
+    def consolidation_ratio(self) -> Any:
+        """Share of the possible squeezing that its time reaches."""
+        if self.consolidation_coefficient is None:
+            return 1.0
+        solid = self.full_thickness * (1.0 - self.void_fraction)
+        return consolidation_ratio_terzaghi(consolidation_time(self.squeezing_time, self.consolidation_coefficient, solid))
 
     def squeezed(self) -> Any:
         after, before = self.void_fraction_squeezed, self.void_fraction
-        return (after / (1.0 - after)) / (before / (1.0 - before))
+        whole = (after / (1.0 - after)) / (before / (1.0 - before))
+        return 1.0 - self.consolidation_ratio * (1.0 - whole)
 
+    @shared
     def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
         plan = super().plan(feed, wash)
         longer = (plan.cycle_time + self.squeezing_time) / plan.cycle_time
@@ -124,6 +143,7 @@ class MembranePress(Press):
         return (
             *super().checks(inlets, outlets),
             Check(_SQUEEZED, self.void_fraction_squeezed / self.void_fraction, 0.3, 1.0, "dimensionless", "wakeman2005"),
+            Check(_REACHED, self.consolidation_ratio, 0.8, 1.0, "dimensionless", "shirato1974"),
         )
 
 

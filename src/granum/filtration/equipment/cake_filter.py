@@ -5,7 +5,7 @@ from __future__ import annotations
 import abc
 from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
@@ -15,6 +15,7 @@ from granum.core.kinds import (
     Diffusivity,
     Distance,
     Fraction,
+    Law,
     Length,
     MediumResistance,
     MoistureDryBasis,
@@ -30,6 +31,8 @@ from granum.filtration.formulas.resistance import cake_permeability, cake_resist
 from granum.filtration.quantities import MassPerArea
 from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
+from granum.streams.dissolution import dissolved_share
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -68,6 +71,7 @@ class CakeFigures(NamedTuple):
     solute_remaining: Fraction
     cake_saturation: Fraction
     moisture_dry_basis: MoistureDryBasis
+    dissolved_share: Fraction
 
 
 class Slurry(NamedTuple):
@@ -85,7 +89,7 @@ class CakeFilter(Unit):
     """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle goes.
 
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power ``compressibility`` of the
-    pressure drop. The surface–volume diameter for washing and deliquoring is that of the solid in the feed unless given.
+    pressure drop. The surface–volume diameter for washing and deliquoring is that of the solid in the feed unless given. Crystals dissolve in the wash by ``wash_dissolution``, if one is given.
     """
 
     area: Area
@@ -100,6 +104,7 @@ class CakeFilter(Unit):
     surface_tension: SurfaceTension = 0.072
     diffusivity: Diffusivity = 1e-9
     particle_diameter: Length | None = None
+    wash_dissolution: Annotated[Any, Law("wash_dissolution")] | None = None
 
     @abc.abstractmethod
     def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
@@ -114,6 +119,7 @@ class CakeFilter(Unit):
         """Resistance of what carries the cake."""
         return self.medium_resistance
 
+    @shared
     def slurry(self, feed: Stream) -> Slurry:
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
@@ -139,6 +145,7 @@ class CakeFilter(Unit):
         void = self.slurry(feed).void_volume_flow
         return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
 
+    @shared
     def solute_left(self, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
         """Fraction of the mother liquor that washing leaves in the cake, by dispersion but never better than practice."""
         if wash is None:
@@ -147,6 +154,7 @@ class CakeFilter(Unit):
         number = practical_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), self._diameter(feed), self.diffusivity)
         return remaining_fraction(self.wash_ratio(feed, wash), number)
 
+    @shared
     def saturation(self, feed: Stream, plan: Plan) -> Any:
         """Saturation of the cake at discharge."""
         s = self.slurry(feed)
@@ -171,7 +179,8 @@ class CakeFilter(Unit):
         plan = self.plan(feed, wash)
         wet = self.saturation(feed, plan) * self.squeezed()
         left = self.solute_left(feed, wash, plan)
-        return part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=left)
+        parted = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=left)
+        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution(parted)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> CakeFigures:
         feed, wash = inlets["feed"], inlets.get("wash")
@@ -191,6 +200,7 @@ class CakeFilter(Unit):
             solute_remaining=self.solute_left(feed, wash, plan),
             cake_saturation=self.saturation(feed, plan),
             moisture_dry_basis=cake.moisture_dry_basis,
+            dissolved_share=dissolved_share(feed, self.solids_recovery, cake),
         )
 
     def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:

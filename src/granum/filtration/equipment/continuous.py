@@ -13,6 +13,7 @@ from granum.core.kinds import Fraction, Length, Permeability, RotationSpeed, Spe
 from granum.filtration.equipment.cake_filter import CakeFilter, Plan
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
 from granum.streams.cakes import Filtered
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 
@@ -40,6 +41,7 @@ class ContinuousFilter(CakeFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         """Shares of the turn for forming, washing and draining."""
 
+    @shared
     def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
         s, turn = self.slurry(feed), self.turn_time
         form, washed, drained = (share * turn for share in self.shares)

@@ -33,6 +33,18 @@ _CONDUCTIVITY = np.array(
 _RANGE = {"temperature": (273.15, 1173.15)}
 
 
+def _series(terms: np.ndarray, x: Any, y: Any) -> Any:
+    """Sum of H x^i y^j over rows (i, j, H), by Horner's rule in both."""
+    total: Any = 0.0
+    for i in range(int(terms[:, 0].max()), -1, -1):
+        row = {int(j): H for k, j, H in terms if k == i}
+        inner: Any = 0.0
+        for j in range(max(row, default=0), -1, -1):
+            inner = inner * y + row[j] if j in row else inner * y
+        total = total * x + inner
+    return total
+
+
 def _dilute_viscosity(T: Any) -> Any:
     tau = _CRITICAL_TEMPERATURE / T
     return 100.0 * tau**-0.5 / (1.67752 + 2.20462 * tau + 0.6366564 * tau**2 - 0.241605 * tau**3)  # µPa s
@@ -61,7 +73,7 @@ def dynamic_viscosity_iapws(temperature: Temperature, density: Concentration) ->
     """
     tau, delta = jnp.asarray(_CRITICAL_TEMPERATURE / temperature), jnp.asarray(density / _CRITICAL_DENSITY)
     x, y = tau - 1.0, delta - 1.0
-    total = sum(H * x ** int(i) * y ** int(j) for i, j, H in _VISCOSITY)
+    total = _series(_VISCOSITY, x, y)
     return 1e-6 * _dilute_viscosity(temperature) * jnp.exp(delta * total)
 
 

@@ -11,6 +11,7 @@ from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import limiting_flux_underflow
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -42,6 +43,7 @@ class Thickener(Unit):
     underflow_concentration: Concentration
     settling: Settling
 
+    @shared
     def limit(self, feed: Stream) -> Any:
         """Limiting flux and the layer that causes it."""
         return limiting_flux_underflow(self.underflow_concentration, concentration(feed), self.settling)
