@@ -19,7 +19,7 @@ else:
 
 _SUBPACKAGES = ("core", "numerics", "estimation", "materials", "particles", "porous", "humid_gas", "streams", "comminution",
                 "settling", "cyclones", "fluidization", "filtration", "centrifuges", "crystallization", "drying",
-                "flowsheet", "studies", "reports", "cases", "app")  # fmt: skip
+                "flowsheet", "studies", "costs", "reports", "cases", "app")  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

@@ -162,6 +162,11 @@ Diffusivity = Annotated[Any, _positive("diffusivity", "m^2/s", "cm^2/s")]
 # rates of crystals
 GrowthRate = Annotated[Any, _any("growth rate", "m/s", "um/s", "um/min", "nm/s")]
 NucleationRate = Annotated[Any, _nonnegative("nucleation rate", "1/(m^3*s)", "1/(L*s)", "1/(cm^3*s)")]
+# money: US dollars, whatever the year; other currencies are converted before
+Cost = Annotated[Any, _any("cost", "USD", "USD")]
+CostRate = Annotated[Any, _any("cost per time", "USD/s", "USD/year", "USD/hour", "USD/day")]
+EnergyPrice = Annotated[Any, _nonnegative("price of energy", "USD/J", "USD/kWh", "USD/MWh", "USD/GJ")]
+MassPrice = Annotated[Any, _nonnegative("price per mass", "USD/kg", "USD/kg", "USD/tonne")]
 # numbers
 Number = Annotated[Any, _any("number", "dimensionless", "dimensionless")]
 Ratio = Annotated[Any, _nonnegative("ratio", "dimensionless", "dimensionless", "percent")]

@@ -13,7 +13,7 @@ from granum.core.errors import unknown_name
 from granum.core.i18n import _
 
 DOMAINS = ("materials", "particles", "porous", "humid_gas", "streams", "comminution", "settling", "cyclones",
-           "fluidization", "filtration", "centrifuges", "crystallization", "drying", "studies")  # fmt: skip
+           "fluidization", "filtration", "centrifuges", "crystallization", "drying", "studies", "costs")  # fmt: skip
 _declared: dict[str, Any] = {}
 _families: dict[str, dict[str, Any]] = {}
 _loaded: set[str] = set()

@@ -35,6 +35,7 @@ def _registry() -> Any:
         "barg = 1e5 * pascal; offset: 101325 = bar_gauge",
         "svedberg = 1e-13 * second",
         "mmH2O = 9.80665 * pascal",
+        "USD = [currency] = dollar",
     ):
         ureg.define(line)
     return ureg

@@ -96,7 +96,7 @@ class Evaluator:
         accelerator = jax.default_backend() != "cpu"
         sort = "accelerator" if accelerator and not subject.batched else "batched" if subject.batched else "line"
         size = min(CHUNKS[sort], 1 << max(count - 1, 0).bit_length())
-        arrays = jax.tree.map(jnp.asarray, subject.arrays())
+        arrays = subject.numbers()
         one = subject.traced(inputs, outputs)
         # one after the other in compiled code beats side by side for a line on a processor: no case waits for the slowest
         many = jax.vmap(one, in_axes=(None, 0)) if sort != "line" else lambda a, x: jax.lax.map(lambda v: one(a, v), x)
@@ -135,7 +135,7 @@ class Evaluator:
         run = self.subject.traced(self.inputs, self.outputs)
         for case in fine:
             try:
-                figures, code = run(self.subject.arrays(), [float(v) for v in x[case]])
+                figures, code = run(self.subject.numbers(), [float(v) for v in x[case]])
                 codes[case] = int(code)
                 y[case] = np.asarray(figures) if int(code) == FINE else np.nan
             except GranumError as problem:

@@ -24,7 +24,7 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.specifications import Target, design, outlets_of
 from granum.streams.stream import Stream
 from granum.studies.expressions import Lookup
-from granum.studies.subjects import FINE, NOT_CONVERGED, UNMET, Subject, Variable, as_arrays, split_index
+from granum.studies.subjects import FINE, NOT_CONVERGED, UNMET, Subject, Variable, split_index
 
 PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
 FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
@@ -149,7 +149,7 @@ class LineSubject(Subject):
         return tuple(dict.fromkeys((*(t.vary for t in self.targets), *own, *self.quantities)))
 
     def arrays(self) -> Any:
-        return as_arrays(self.sheet)
+        return self.sheet
 
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         found = design(self._changed(arrays, values), self.targets)

@@ -101,7 +101,7 @@ class Search:
             self._compiled = jax.jit(lambda a, z: jax.vmap(lambda e: one(a, z, e))(jnp.asarray(self.samples)))
         else:
             self._compiled = jax.jit(lambda a, z: jax.lax.map(lambda e: one(a, z, e), jnp.asarray(self.samples)))
-        self._arrays = jax.tree.map(jnp.asarray, self.subject.arrays())
+        self._arrays = self.subject.numbers()
         self._known: dict[bytes, Point] = {}
 
     def values(self, z: np.ndarray) -> dict[str, float]:

@@ -83,7 +83,7 @@ class Subject(abc.ABC):
 
     @abc.abstractmethod
     def arrays(self) -> Any:
-        """The numbers of the model as a pytree, handed to ``traced`` so that compiled code is reused when they change."""
+        """The model as a pytree; its numbers are handed to ``traced``, so that compiled code is reused when they change."""
 
     @abc.abstractmethod
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
@@ -141,12 +141,21 @@ class Subject(abc.ABC):
             own |= dict.fromkeys(self._needed(inner)) if path in self.quantities else {path: None}
         return tuple(own)
 
-    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> Traced:
-        """A pure function (arrays, vector of inputs) → (vector of figures, code)."""
+    def numbers(self) -> list[Any]:
+        """The numbers of the model, as ``traced`` takes them."""
+        return [jnp.asarray(leaf, dtype=float) for leaf in jax.tree.leaves(self.arrays()) if _is_number(leaf)]
 
-        def run(arrays: Any, vector: Any) -> tuple[Any, Any]:
+    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> Traced:
+        """A pure function (numbers of the model, vector of inputs) → (vector of figures, code)."""
+
+        leaves, tree = jax.tree.flatten(self.arrays())
+        moving = [_is_number(leaf) for leaf in leaves]
+
+        def run(numbers: Any, vector: Any) -> tuple[Any, Any]:
+            given = iter(numbers)
+            model = tree.unflatten([next(given) if moves else leaf for leaf, moves in zip(leaves, moving, strict=True)])
             values = {path: vector[i] for i, path in enumerate(inputs)}
-            own, code = self.compute(arrays, values, self._needed(outputs))
+            own, code = self.compute(model, values, self._needed(outputs))
 
             def lookup(path: str) -> Any:
                 return self.quantities[path].value(lookup) if path in self.quantities else own(path)
@@ -170,6 +179,10 @@ class Subject(abc.ABC):
             RAISED: _("the calculation refused the inputs"),
             NOT_RUN: _("not run: the study was stopped"),
         }[code]
+
+
+def _is_number(leaf: Any) -> bool:
+    return isinstance(leaf, (float, np.floating)) or (isinstance(leaf, (np.ndarray, jax.Array)) and np.issubdtype(leaf.dtype, np.floating))
 
 
 def split_index(path: str) -> tuple[str, int | None]:
@@ -286,7 +299,3 @@ def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: M
         made = FormulaSubject.of(thing, fixed or {})
     return made.with_quantities(quantities) if quantities else made
 
-
-def as_arrays(tree: Any) -> Any:
-    """Numbers as arrays, so that compiled code is reused when only values change."""
-    return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)

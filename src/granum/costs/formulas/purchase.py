@@ -1,0 +1,142 @@
+"""What equipment costs to buy and to install, from its size."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import flags, formula
+from granum.core.kinds import Area, Cost, Length, PositiveNumber, Ratio, Volume
+from granum.costs.tables import correlations
+
+BASE_INDEX = 397.0
+"""Plant cost index of the correlations: mid 2001."""
+
+
+class EquipmentCost(NamedTuple):
+    """Cost to buy and cost installed."""
+
+    purchased_cost: Cost
+    bare_module_cost: Cost
+
+
+def _cost(equipment: str, size: Any, name: str, card: str, cost_index: Any) -> EquipmentCost:
+    row = correlations()[equipment]
+    flags.record(
+        flags.EXTRAPOLATED,
+        (size < row.smallest) | (size > row.largest),
+        size,
+        name,
+        card,
+        row.smallest,
+        row.largest,
+        "turton2018, table A.1",
+    )
+    decades = jnp.log10(size)
+    bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX
+    return EquipmentCost(bought, bought * row.bare_module_factor)
+
+
+_EQUATION = r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2,\quad C_{BM} = C_p^0 F_{BM}\,\frac{I}{397}"
+
+
+@formula(
+    source="turton2018, eq. A.1, tables A.1 and A.7",
+    equation=_EQUATION,
+    title="Cost of equipment sized by area",
+    typical={"area": (3.0, 6.0)},
+)
+def equipment_cost_by_area(
+    area: Area,
+    equipment_by_area: Literal[
+        "plate_and_frame_filter", "tube_or_table_filter", "cartridge_filter", "disc_or_drum_filter", "gravity_filter", "leaf_filter", "drum_dryer",
+        "rotary_dryer", "tray_dryer", "sieve_bend", "rotary_screen", "stationary_screen", "vibrating_screen", "apron_conveyor", "belt_conveyor",
+        "pneumatic_conveyor", "screw_conveyor",
+    ] = "plate_and_frame_filter",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> EquipmentCost:  # fmt: skip
+    """Purchased and installed cost of filters, dryers, screens and conveyors from their area.
+
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001). Study estimate: ±30 %. Outside
+    the sizes of the table the value is flagged as extrapolated. The printed curve of stationary screens falls beyond 7.2 m², that of rotary and
+    vibrating screens below 0.7 m²: do not optimize there.
+
+    >>> cost = equipment_cost_by_area(equipment_by_area="plate_and_frame_filter", area=10.0, cost_index=397.0)
+    >>> f"{cost.purchased_cost:.4g} {cost.bare_module_cost:.4g}"
+    '5e+04 9.001e+04'
+    """
+    return _cost(equipment_by_area, area, "area", "costs.equipment_cost_by_area", cost_index)
+
+
+@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a shell-and-tube exchanger", typical={"area": (20.0, 500.0)},
+         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2")  # fmt: skip
+def purchased_cost_exchanger(
+    area: Area,
+    exchanger: Literal["floating_head_exchanger", "fixed_tube_exchanger"] = "floating_head_exchanger",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> Cost:
+    """Purchased cost of a shell-and-tube heat exchanger from its area.
+
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(purchased_cost_exchanger(exchanger="floating_head_exchanger", area=100.0), -3)
+    25000.0
+    """
+    return _cost(exchanger, area, "area", "costs.purchased_cost_exchanger", cost_index).purchased_cost
+
+
+@formula(
+    source="turton2018, eq. A.1, tables A.1 and A.7",
+    equation=_EQUATION,
+    title="Cost of equipment sized by volume",
+    typical={"volume": (2.0, 20.0)},
+)
+def equipment_cost_by_volume(
+    volume: Volume,
+    equipment_by_volume: Literal[
+        "batch_crystallizer", "baghouse", "cyclone_scrubber", "electrostatic_precipitator", "venturi_scrubber"
+    ] = "batch_crystallizer",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> EquipmentCost:
+    """Purchased and installed cost of batch crystallizers and dust collectors from their volume.
+
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(equipment_cost_by_volume(equipment_by_volume="batch_crystallizer", volume=10.0).purchased_cost, -2)
+    65600.0
+    """
+    return _cost(equipment_by_volume, volume, "volume", "costs.equipment_cost_by_volume", cost_index)
+
+
+@formula(
+    source="turton2018, eq. A.1, tables A.1 and A.7", equation=_EQUATION, title="Cost of a centrifuge", typical={"diameter": (0.5, 1.0)}
+)
+def equipment_cost_by_diameter(
+    diameter: Length,
+    centrifuge: Literal[
+        "solid_bowl_centrifuge", "batch_basket_centrifuge", "separator_centrifuge", "oscillating_screen_centrifuge"
+    ] = "solid_bowl_centrifuge",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> EquipmentCost:
+    """Purchased and installed cost of a centrifuge from its diameter.
+
+    Carbon steel, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(equipment_cost_by_diameter(centrifuge="solid_bowl_centrifuge", diameter=1.0).purchased_cost, -2)
+    93300.0
+    """
+    return _cost(centrifuge, diameter, "diameter", "costs.equipment_cost_by_diameter", cost_index)
+
+
+@formula(source="williams1947", equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}", title="Cost of a larger or smaller piece of the same kind",
+         typical={"scaling_exponent": (0.4, 0.9)})  # fmt: skip
+def purchased_cost_scaled(purchased_cost_known: Cost, capacity_ratio: PositiveNumber, scaling_exponent: Ratio = 0.6) -> Cost:
+    """Cost of equipment of another capacity from a known price, by the six-tenths rule.
+
+    Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment lie between 0.3 and 1.
+
+    >>> round(purchased_cost_scaled(purchased_cost_known=100.0, capacity_ratio=2.0), 1)
+    151.6
+    """
+    return purchased_cost_known * capacity_ratio**scaling_exponent
