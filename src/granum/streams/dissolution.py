@@ -6,12 +6,14 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core import law
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Fraction, MassRatio
+from granum.core.kinds import Fraction, MassFlow, MassRatio
 from granum.streams.cakes import Filtered
+from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
 MOST = 0.999  # of the crystals: a cake remains
@@ -31,8 +33,8 @@ class SaturatingWash(eqx.Module):
     dissolves nothing. Every size loses the same share. Short contact of coarse crystals needs an approach below 1; without a test, 1 is
     the safe assumption. Solid and solute are the species of one name; a hydrate gives its water back too.
 
-    >>> SaturatingWash(crystal="potassium nitrate", solvent="water", solubility="320 g/kg").approach
-    1.0
+    >>> float(SaturatingWash(crystal="potassium nitrate", solvent="water", solubility="320 g/kg")(solvent_flow=1.0, solute_flow=0.1))
+    0.22
     """
 
     crystal: str
@@ -40,32 +42,19 @@ class SaturatingWash(eqx.Module):
     solubility: MassRatio
     approach: Fraction = 1.0
 
-    def __call__(self, parted: Filtered) -> Filtered:
+    def __call__(self, solvent_flow: MassFlow, solute_flow: MassFlow, solute_fraction: Fraction = 1.0) -> MassFlow:
+        """Crystal that a liquor dissolves per time; infinite where a hydrate would melt in its own water."""
+        gain = solute_fraction - self.solubility * (1.0 - solute_fraction)  # solute beyond saturation per crystal dissolved
+        need = jnp.maximum(self.solubility * solvent_flow - solute_flow, 0.0)
+        return self.approach * jnp.where(gain > 0, need / jnp.where(gain > 0, gain, 1.0), jnp.inf)
+
+    def out_of(self, parted: Filtered) -> Filtered:
         """The same cake and washings after dissolution, at the temperature that the heat of solution leaves."""
         m = parted.cake.mixture
         row, solvent = m.index("solids", self.crystal), m.index("liquids", self.solvent)
-        shares = dict(m.solids[row].composition)
-        homes = {name: next((i for i, s in enumerate(m.liquids) if s.composition == ((name, 1.0),)), None) for name in shares}
-        solutes = [i for name, i in homes.items() if i is not None and i != solvent]
-        if None in homes.values() or len(solutes) != 1:
-            raise InputError(
-                _("The crystal '{crystal}' must be made of one dissolved species and, as a hydrate, of its solvent '{solvent}'.").format(
-                    crystal=self.crystal, solvent=self.solvent
-                ),
-                name="crystal",
-            )
-        solute = solutes[0]
-        take = jnp.zeros(len(m.liquids))
-        for name, i in homes.items():
-            take = take.at[i].add(shares[name])
-        gain = take[solute] - self.solubility * take[solvent]  # solute beyond saturation per crystal dissolved
-
-        def lacks(liquid: Any) -> Any:
-            need = self.solubility * liquid[solvent] - liquid[solute]
-            return jnp.where(gain > 0, jnp.maximum(need, 0.0) / jnp.where(gain > 0, gain, 1.0), jnp.inf)
-
+        take, solute = self._taken(m, row, solvent)
         crystals = jnp.sum(parted.cake.solid[row])
-        wanted = jnp.stack([lacks(parted.cake.liquid), lacks(parted.washings.liquid)]) * self.approach
+        wanted = jnp.stack([self(x.liquid[solvent], x.liquid[solute], take[solute]) for x in (parted.cake, parted.washings)])
         total = jnp.minimum(jnp.sum(wanted), MOST * crystals)
         part = jnp.where(jnp.isfinite(wanted), wanted, 1.0)
         part = total * part / jnp.where(jnp.sum(part) > 0, jnp.sum(part), 1.0)
@@ -75,3 +64,20 @@ class SaturatingWash(eqx.Module):
         washings = parted.washings.replace(liquid=parted.washings.liquid + part[1] * take)
         both = (cake + washings).at_enthalpy(heat)
         return Filtered(cake.replace(temperature=both.temperature), parted.filtrate, washings.replace(temperature=both.temperature))
+
+    def _taken(self, m: Mixture, row: int, solvent: int) -> tuple[np.ndarray, int]:
+        """Liquid species made per crystal dissolved, and which of them is the solute."""
+        shares = dict(m.solids[row].composition)
+        homes = {name: next((i for i, s in enumerate(m.liquids) if s.composition == ((name, 1.0),)), None) for name in shares}
+        solutes = [i for i in homes.values() if i is not None and i != solvent]
+        if None in homes.values() or len(solutes) != 1:
+            raise InputError(
+                _("The crystal '{crystal}' must be made of one dissolved species and, as a hydrate, of its solvent '{solvent}'.").format(
+                    crystal=self.crystal, solvent=self.solvent
+                ),
+                name="crystal",
+            )
+        take = np.zeros(len(m.liquids))
+        for name, i in homes.items():
+            take[i] += shares[name]
+        return take, solutes[0]

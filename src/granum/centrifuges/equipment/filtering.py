@@ -5,7 +5,7 @@ from __future__ import annotations
 import abc
 from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Diffusivity,
     Distance,
     Fraction,
+    Law,
     Length,
     MediumResistance,
     MoistureDryBasis,
@@ -37,6 +38,7 @@ from granum.core.kinds import (
 )
 from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
+from granum.streams.dissolution import dissolved_share
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -76,6 +78,7 @@ class SpinFigures(NamedTuple):
     solute_remaining: Fraction
     cake_saturation: Fraction
     moisture_dry_basis: MoistureDryBasis
+    dissolved_share: Fraction
     shaft_power: Power
 
 
@@ -96,6 +99,7 @@ class FilteringCentrifuge(Unit):
     surface_tension: SurfaceTension = 0.072
     diffusivity: Diffusivity = 1e-9
     particle_diameter: Length | None = None
+    wash_dissolution: Annotated[Any, Law("wash_dissolution")] | None = None
 
     @abc.abstractmethod
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
@@ -161,10 +165,11 @@ class FilteringCentrifuge(Unit):
         )
 
     def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
-        return part_cake(
+        parted = part_cake(
             feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction,
             saturation=self.saturation(feed, self.spin(feed, wash)), left=self.solute_left(feed, wash),
         )  # fmt: skip
+        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> SpinFigures:
         feed, wash = inlets["feed"], inlets.get("wash")
@@ -182,6 +187,7 @@ class FilteringCentrifuge(Unit):
             solute_remaining=self.solute_left(feed, wash),
             cake_saturation=self.saturation(feed, spin),
             moisture_dry_basis=outlets.cake.moisture_dry_basis,
+            dissolved_share=dissolved_share(feed, self.solids_recovery, outlets.cake),
             shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
         )
 

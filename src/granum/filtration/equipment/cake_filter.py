@@ -180,7 +180,7 @@ class CakeFilter(Unit):
         wet = self.saturation(feed, plan) * self.squeezed()
         left = self.solute_left(feed, wash, plan)
         parted = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=left)
-        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution(parted)
+        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> CakeFigures:
         feed, wash = inlets["feed"], inlets.get("wash")
