@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
+import contextlib
 import os
 import pickle
 import queue
@@ -76,7 +78,8 @@ class _Process:
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
         self._answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.known: set[str] = set()
-        threading.Thread(target=self._listen, daemon=True).start()
+        self._reader = threading.Thread(target=self._listen, daemon=True)
+        self._reader.start()
 
     def _listen(self) -> None:
         assert self._process.stdout is not None
@@ -104,8 +107,14 @@ class _Process:
             return ()
 
     def stop(self) -> None:
+        """End the process and close both ends of its pipes."""
         self._process.kill()
         self._process.wait()
+        self._reader.join(timeout=5.0)
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                with contextlib.suppress(OSError):
+                    pipe.close()
 
 
 class Crew:
@@ -124,6 +133,7 @@ class Crew:
         self._idle: list[_Process] = []
         self._lock = threading.Lock()
         self._now = 0
+        self._closed = False
         self._folder = tempfile.TemporaryDirectory(prefix="granum-", ignore_cleanup_errors=True)
 
     def submit(self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None) -> Job:
@@ -153,12 +163,14 @@ class Crew:
         threading.Thread(target=lambda: self._give(self._take("")), daemon=True).start()
 
     def close(self) -> None:
-        """Stop every idle process."""
+        """Stop every process: the idle ones now, a working one when it is given back."""
+        self._closed = True
         self._threads.shutdown(wait=False, cancel_futures=True)
         with self._lock:
-            for process in self._idle:
-                process.stop()
-            self._idle.clear()
+            idle, self._idle = self._idle, []
+        for process in idle:
+            process.stop()
+        self._folder.cleanup()
 
     def _take(self, key: str) -> _Process:
         with self._lock:
@@ -170,7 +182,10 @@ class Crew:
 
     def _give(self, process: _Process) -> None:
         with self._lock:
-            self._idle.append(process)
+            if not self._closed:
+                self._idle.append(process)
+                return
+        process.stop()
 
     def _work(self, job: Job, key: str) -> None:
         """In a thread: find a process, hand over the job, watch it."""
@@ -193,6 +208,8 @@ class Crew:
             if process.alive:
                 process.known.add(key)
                 self._give(process)
+            else:
+                process.stop()
 
     def _watch(self, job: Job, process: _Process) -> bytes:
         started, left = time.monotonic(), None
@@ -231,7 +248,9 @@ def _outcome(sort: str, *rest: Any) -> bytes:
 @cache
 def crew() -> Crew:
     """The crew of this process: every application in it shares the workers."""
-    return Crew()
+    made = Crew()
+    atexit.register(made.close)
+    return made
 
 
 class Jobs:

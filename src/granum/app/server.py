@@ -17,7 +17,7 @@ from starlette.exceptions import HTTPException
 import granum
 from granum.app import exercises
 from granum.app.forms import card_form
-from granum.app.jobs import Broken, crew
+from granum.app.jobs import Broken, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
 from granum.app.tasks import calculate, packed
 from granum.core import registry
@@ -53,6 +53,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     _refusals(app)
     _cards_and_formulas(app, quick)
     _long_work(app)
+    _studies(app)
     _files(app, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
@@ -149,6 +150,35 @@ def _long_work(app: FastAPI) -> None:
     async def report(request: Request, case: Annotated[str, Body(embed=True)]) -> HTMLResponse:
         """The report of a case file."""
         return HTMLResponse(await crew().run("report", {"case": case}, _structure(case), request))
+
+
+def _studies(app: FastAPI) -> None:
+    """Studies: started, asked about, cancelled. One that its page no longer asks about is cancelled too."""
+    jobs = Jobs(crew)
+
+    @app.post("/api/studies/choices")
+    async def study_choices(request: Request, inputs: Inputs) -> Response:
+        """What a study of a line (``case``) or a card (``card``, ``inputs``) may vary and watch."""
+        return _json(await crew().run("study_choices", inputs, _structure(str(inputs.get("case", ""))), request))
+
+    @app.post("/api/studies", status_code=202)
+    async def start(inputs: Inputs) -> Response:
+        """Start a study: ``{"case" or "card" and "inputs", "table"}``; gives its name."""
+        return Answer({"id": jobs.start("study", inputs, _structure(str(inputs.get("case", ""))), longest=900.0)}, status_code=202)
+
+    @app.get("/api/studies/{name}")
+    async def state(name: str) -> Response:
+        """How far a study is; its outcome when it is done."""
+        job = jobs.find(name)
+        if not job.future.done():
+            return Answer({"state": "running", "share": job.share})
+        return Response(b'{"state":"done","share":1,"outcome":' + job.future.result() + b"}", media_type="application/json")
+
+    @app.delete("/api/studies/{name}")
+    async def cancel(name: str) -> Response:
+        """Cancel a study."""
+        jobs.find(name).cancelled.set()
+        return Answer({"state": "cancelled"})
 
 
 def _no_progress(_share: float) -> None:

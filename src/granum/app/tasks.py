@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 import json
+import time
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
+from granum.app import studies
 from granum.app.spread import spread
 from granum.app.texts import described, label_of, plain_data
 from granum.core import registry
@@ -115,4 +117,30 @@ def report(payload: dict[str, Any], _tell: Tell) -> bytes:
     return line_report(_solved(payload["case"], current_language())).encode()
 
 
-TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {task.__name__: task for task in (calculate, others, chart, fit, run, report)}
+def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """What a study of a line or a card may vary and watch."""
+    return packed(studies.choices(payload))
+
+
+def study(payload: dict[str, Any], tell: Tell) -> bytes:
+    """Run a study."""
+    return packed(studies.study(payload, tell))
+
+
+def rest(payload: dict[str, Any], tell: Tell) -> bytes:
+    """Do nothing for a while, ready to be cancelled: shows that a worker process is there."""
+    until = time.monotonic() + float(payload["seconds"])
+    while time.monotonic() < until:
+        time.sleep(0.05)
+        tell(0.0)
+    return b"{}"
+
+
+def fill(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """Take memory and give it back: shows the limit of a worker process."""
+    return str(len(bytearray(int(payload["bytes"])))).encode()
+
+
+TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
+    task.__name__: task for task in (calculate, others, chart, fit, run, report, study_choices, study, rest, fill)
+}

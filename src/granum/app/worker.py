@@ -25,7 +25,7 @@ def _limit(megabytes: int) -> None:
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000,) * 2)
+        resource.setrlimit(resource.RLIMIT_DATA, (megabytes * 1_000_000, megabytes * 1_000_000))
 
 
 def _listen(source: BinaryIO, tasks: queue.SimpleQueue[Any], cancelled: threading.Event) -> None:

@@ -3,6 +3,7 @@ import { html, render, t, ask, useState, useEffect, readLink, link, settings, ke
 import { Calculate, isSelection } from './calculate.js';
 import { Lab } from './lab.js';
 import { Lines } from './lines.js';
+import { Studies } from './studies.js';
 import { Exercises } from './exercises.js';
 
 const PAGES = [
@@ -10,6 +11,7 @@ const PAGES = [
   ['lab', 'Lab data', (state) => html`<${Lab} state=${state} />`],
   ['lines', 'Lines', (state) => html`<${Lines} state=${state} />`],
   ['charts', 'Charts', (state) => html`<${Calculate} key="charts" state=${state} page="charts" keep=${(c) => c.sort === 'chart'} first="humid_gas.psychrometric_chart" />`],
+  ['studies', 'Studies', (state) => html`<${Studies} state=${state} />`],
   ['select', 'Select', (state) => html`<${Calculate} key="select" state=${state} page="select" keep=${isSelection} first="" />`],
   ['exercises', 'Exercises', (state) => html`<${Exercises} state=${state} />`],
 ];

@@ -1,5 +1,5 @@
 // Calculate: find a card, enter values, believe the result. Up to three cases side by side.
-import { html, t, ask, useAnswer, useState, useEffect, replaceLink, settings, Plot } from './core.js';
+import { html, t, ask, link, useAnswer, useState, useEffect, replaceLink, settings, Plot } from './core.js';
 import { Field, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Spread } from './spread.js';
@@ -40,7 +40,7 @@ function Work({ page, card, given }) {
       <form onSubmit=${(e) => e.preventDefault()}>${card.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set({ ...values, [p.name]: text })} problem=${wrong === p.name ? answer.error.message : ''} />`)}</form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => { setValues(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
-      <button class="button" onClick=${copy}>${t('Copy link')}</button> <span role="status" class="small dim">${copied}</span></div></section>
+      <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, values)}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
       <div aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>

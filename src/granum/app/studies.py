@@ -1,0 +1,163 @@
+"""Studies for a page: what may vary and what may be watched, and an outcome as charts and tables with numbers as people read them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from granum.app.texts import plain_data
+from granum.core.errors import GranumError, InputError
+from granum.core.i18n import _
+from granum.core.units import best_unit, format_number, from_si, pretty_unit
+from granum.reports.terminal import value_text
+
+MOST_CASES = 20_000
+SHOWN_CASES = 2_000
+FEED = ("mass_flow", "temperature")
+WATCHED = ("mass_flow", "solid_flow", "temperature", "moisture_dry_basis", "median_size")
+
+
+def subject(payload: Mapping[str, Any]) -> Any:
+    """The line of a case, or a card with its fixed inputs."""
+    from granum.studies import subject_of
+
+    if payload.get("case"):
+        from granum.cases import read_text
+
+        return subject_of(read_text(str(payload["case"])))
+    varied = set(payload.get("varied") or ())
+    fixed = {name: value for name, value in (payload.get("inputs") or {}).items() if name not in varied}
+    return subject_of(str(payload.get("card", "")), fixed)
+
+
+def choices(payload: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs with their present values, and figures, of a subject."""
+    found = subject(payload)
+    return {
+        "title": found.title,
+        "inputs": [row for path in _inputs(found) if (row := _input_row(found, path))],
+        "figures": [{"name": v.path, "label": v.label} for v in _figures(found)],
+    }
+
+
+def _inputs(found: Any) -> Iterator[str]:
+    sheet = getattr(found, "sheet", None)
+    if sheet is None:
+        yield from (p.name for p in found.thing.card.parameters if p.kind is not None)
+        return
+    for name, unit in sheet.units.items():
+        yield from (f"{name}.{p.name}" for p in type(unit).card.parameters if p.kind is not None)
+    for feed in sheet.feeds:
+        yield from (f"{feed}.{word}" for word in FEED)
+
+
+def _input_row(found: Any, path: str) -> dict[str, Any] | None:
+    try:
+        v = found.input(path)
+        value = float(found.nominal(path))
+    except (GranumError, TypeError, ValueError):
+        return None  # a list, a choice, or without a value: not for a form
+    kind = v.parameter.kind
+    unit = (v.parameter.units or (kind.unit,))[0] if not np.isfinite(value) or value == 0.0 else best_unit(value, kind)
+    number = f"{float(from_si(value, unit, kind)):.5g}" if np.isfinite(value) else ""
+    return {
+        "name": path,
+        "label": v.label,
+        "value": number,
+        "unit": "" if unit == "dimensionless" else unit,
+        "units": [{"unit": "" if u == "dimensionless" else u, "label": pretty_unit(u)} for u in dict.fromkeys((unit, *kind.units))],
+    }
+
+
+def _figures(found: Any) -> Iterator[Any]:
+    yield from (found.output(path) for path in found.outputs())
+    sheet = getattr(found, "sheet", None)
+    for link in sheet.links if sheet is not None else ():
+        for word in WATCHED:
+            try:
+                yield found.output(f"{link.name}.{word}")
+            except GranumError:
+                continue  # a stream without solid has no size
+
+
+def study(payload: Mapping[str, Any], tell: Callable[[float], None]) -> dict[str, Any]:
+    """Run a declared study; ``tell`` hears how far it is, and may raise to stop it."""
+    from granum.studies import Study
+
+    table = payload.get("table")
+    if not isinstance(table, dict):
+        raise InputError(_("'{name}' is missing.").format(name="table"), name="table")
+    for key in ("samples", "starts"):
+        if isinstance(table.get(key), (int, float)) and table[key] > MOST_CASES:
+            raise InputError(_("'{name}' may be at most {most} here.").format(name=key, most=MOST_CASES), name=key)
+    over = table.get("over")
+    if isinstance(over, dict) and all(isinstance(row, dict) for row in over.values()):
+        cases = np.prod([float(row["steps"]) if isinstance(row.get("steps"), (int, float)) else 1.0 for row in over.values()])
+        if cases > MOST_CASES:
+            raise InputError(_("'{name}' may be at most {most} here.").format(name="steps", most=MOST_CASES), name="steps")
+    declared = Study.of(str(table.get("kind", "")), table, subject(payload))
+    outcome = declared.run(progress=lambda p: tell(p.done / max(p.total, 1)))
+    return plain_data(outcome.as_json(cases=SHOWN_CASES)) | {
+        "charts": [{"name": name, "figure": json.loads(figure.to_json())} for name, figure in outcome.charts().items()],
+        "tables": _tables(outcome),
+    }
+
+
+def _text(value: Any, v: Any) -> str:
+    return "—" if value is None or not np.isfinite(value) else value_text(float(value), v.parameter)
+
+
+def _spread(value: Any, v: Any) -> str:
+    """A standard deviation: a difference, so a temperature keeps its kelvins."""
+    if value is None:
+        return "—"
+    return f"{format_number(value)} K" if v.unit == "K" else _text(value, v)
+
+
+def _tables(outcome: Any) -> list[dict[str, Any]]:
+    """The findings as tables of text."""
+    found = outcome.findings()
+    figures = {v.path: v for v in outcome.outputs}
+    inputs = {v.path: v for v in outcome.inputs}
+    tables: list[dict[str, Any]] = []
+    if outcome.kind == "monte_carlo":
+        rows = [
+            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95"))]
+            for p, s in found["statistics"].items()
+        ]  # fmt: skip
+        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %"]
+        tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
+        chances = [
+            [figures[p].label if p else _("all limits"), f"{100 * c['probability']:.3g} %"]
+            for p, c in found["limits"].items()
+            if "probability" in c
+        ]
+        if chances:
+            tables.append({"title": _("Chance of keeping the limits"), "columns": [_("limit"), _("chance")], "rows": chances})
+    if outcome.kind == "sobol":
+        rows = [
+            [figures[p].label, group, *("—" if s[k] is None else format_number(s[k], 3) for k in ("first", "total"))]
+            for p, groups in found["indices"].items()
+            for group, s in groups.items()
+        ]
+        tables.append(
+            {"title": _("Shares of the variance"), "columns": [_("result"), _("input"), _("alone"), _("with interactions")], "rows": rows}
+        )
+    if outcome.kind == "optimize":
+        rows = [[inputs[p].label, "—", _text(row["value"], inputs[p])] for p, row in found["inputs"].items()]
+        rows += [
+            [figures[p].label, _text(row["before"], figures[p]), _text(row["value"], figures[p])] for p, row in found["outputs"].items()
+        ]
+        tables.append({"title": _("Optimum"), "columns": [_("quantity"), _("before"), _("best")], "rows": rows})
+        held = [[(figures | inputs)[row["name"]].label, _text(row["limit"], (figures | inputs)[row["name"]])] for row in found["active"]]
+        if held:
+            tables.append({"title": _("What holds the optimum back"), "columns": [_("quantity"), _("limit")], "rows": held})
+    if outcome.kind == "sweep":
+        columns = {**inputs, **figures}
+        count = len(next(iter(found["table"].values())))
+        rows = [[_text(found["table"][p][i], v) for p, v in columns.items()] for i in range(min(count, 60))]
+        tables.append({"title": _("Cases"), "columns": [v.label for v in columns.values()], "rows": rows})
+    return tables

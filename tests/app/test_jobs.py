@@ -1,0 +1,139 @@
+"""Long work: studies with progress and cancel, limits of time and memory, a bounded queue, clients that leave."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from granum.app import jobs, tasks
+from granum.app.jobs import Crew, Jobs, Refused
+from granum.app.limits import Busy, Familiar
+from granum.app.server import create_app
+from granum.core.errors import InputError
+
+SPHERE = {"particle_diameter": "85 um", "particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
+STOKES = {"card": "particles.terminal_velocity_stokes", "inputs": SPHERE, "varied": ["particle_diameter"]}
+
+
+@pytest.fixture(scope="module")
+def client(serve: Any) -> Iterator[httpx.Client]:
+    with serve(create_app()) as address, httpx.Client(base_url=address, timeout=300.0) as found:
+        yield found
+
+
+@pytest.fixture
+def crew() -> Iterator[Crew]:
+    made = Crew(count=1, waiting=2, memory=4000)
+    yield made
+    made.close()
+
+
+def finished(client: httpx.Client, study: dict[str, Any]) -> httpx.Response:
+    started = client.post("/api/studies", json=study)
+    assert started.status_code == 202, started.text
+    until = time.monotonic() + 240
+    while time.monotonic() < until:
+        answer = client.get(f"/api/studies/{started.json()['id']}")
+        if answer.status_code != 200 or answer.json()["state"] == "done":
+            return answer
+        time.sleep(0.1)
+    raise AssertionError("the study did not end")
+
+
+def test_a_sweep_follows_the_law(client: httpx.Client) -> None:
+    table = {"kind": "sweep", "over": {"particle_diameter": {"from": "20 um", "to": "80 um", "steps": 4}}}
+    outcome = finished(client, STOKES | {"table": table}).json()["outcome"]
+    v = outcome["cases"]["terminal_velocity"]
+    assert [x / v[0] for x in v] == pytest.approx([1.0, 4.0, 9.0, 16.0])  # Stokes: the square of the diameter
+    assert outcome["charts"]
+    assert len(outcome["tables"][0]["rows"]) == 4
+    assert outcome["counts"]["failed"] == 0
+
+
+def test_choices_of_a_card_and_of_a_line(client: httpx.Client) -> None:
+    found = client.post("/api/studies/choices", json=STOKES).json()
+    diameter = next(i for i in found["inputs"] if i["name"] == "particle_diameter")
+    assert (diameter["value"], diameter["unit"]) == ("", "um")  # varied, so without a value of its own
+    assert found["figures"][0]["name"] == "terminal_velocity"
+    case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
+    line = client.post("/api/studies/choices", json={"case": case}, headers={"x-language": "fr"}).json()
+    names = {i["name"] for i in line["inputs"]}
+    assert {"mill.holdup_mass", "fresh.mass_flow"} <= names
+    assert "product.median_size" in {f["name"] for f in line["figures"]}
+
+
+@pytest.mark.parametrize(
+    "study",
+    [
+        {}, {"card": "no.card", "table": {"kind": "sweep"}}, STOKES | {"table": "sweep"}, STOKES | {"table": {"kind": "guess"}},
+        STOKES | {"table": {"kind": "sweep", "over": {"nothing": {"from": 1, "to": 2}}}},
+        STOKES | {"table": {"kind": "monte_carlo", "samples": 10**9, "uncertain": {"particle_diameter": {"distribution": "normal"}}}},
+        STOKES | {"table": {"kind": "sweep", "over": {"particle_diameter": {"from": 1, "to": 2, "steps": 1e300}}}},
+        {"case": "title = ", "table": {"kind": "sweep"}},
+    ],
+)  # fmt: skip
+def test_a_study_that_cannot_be_is_explained(client: httpx.Client, study: dict[str, Any]) -> None:
+    answer = finished(client, study)
+    assert answer.status_code == 422
+    assert answer.json()["error"]["message"]
+
+
+def test_a_study_can_be_cancelled(client: httpx.Client) -> None:
+    table = {"kind": "monte_carlo", "samples": 20000, "uncertain": {"drag": {}}}
+    name = client.post("/api/studies", json=STOKES | {"table": table}).json()["id"]
+    assert client.delete(f"/api/studies/{name}").json() == {"state": "cancelled"}
+    assert client.get("/api/studies/nobody").status_code == 422
+
+
+def test_what_nobody_asks_about_is_cancelled(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jobs, "GRACE", 0.2)
+    held = Jobs(lambda: crew, patience=0.3)
+    name = held.start("rest", {"seconds": 60}, "", longest=100.0)
+    job = held._jobs[name]
+    with pytest.raises(Busy, match="cancelled"):
+        job.future.result(timeout=60)
+    with pytest.raises(InputError, match="no job"):
+        held.find("other")
+
+
+def test_time_and_queue_are_bounded(crew: Crew) -> None:
+    slow = crew.submit("rest", {"seconds": 60}, longest=0.3)
+    second = crew.submit("calculate", {"key": "particles.terminal_velocity_stokes", "inputs": SPHERE})
+    with pytest.raises(Busy, match="busy"):
+        crew.submit("rest", {"seconds": 0})
+    with pytest.raises(Busy, match="given up"):
+        slow.future.result(timeout=100)
+    assert json.loads(second.future.result(timeout=100))["outputs"]["terminal_velocity"]["value"] == pytest.approx(5.28e-3, rel=1e-2)
+    with pytest.raises(Refused, match="not known"):
+        crew.submit("chart", {"key": "no.such", "inputs": {}}).future.result(timeout=100)
+
+
+def test_memory_is_bounded() -> None:
+    small = Crew(count=1, memory=1500)
+    try:
+        with pytest.raises(Busy, match="memory"):
+            small.submit("fill", {"bytes": 3_000_000_000}).future.result(timeout=100)
+        assert json.loads(small.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}  # the next job finds a new process
+    finally:
+        small.close()
+
+
+def test_familiar_calculations_are_those_of_one_number_each() -> None:
+    familiar = Familiar()
+    form = familiar._form
+    assert form("k", {"a": "85 um", "b": 1.0}) == form("k", {"a": "1,2e-3 mm", "b": 7})
+    assert form("k", {"a": "stokes"}) != form("k", {"a": "allen"})
+    assert form("k", {"a": "1 2 3 um"}) != form("k", {"a": "1 2 3 4 um"})
+    assert form("k", {"a": [1.0]}) is None
+    assert form("k", {"a": "x" * 61}) is None
+    assert not familiar.knows("k", {"a": 1})
+    familiar.meet("k", {"a": 1}, lambda: None)
+    assert familiar.knows("k", {"a": "2 mm"})
+    with pytest.raises(InputError):
+        familiar.meet("k", {"b": 1}, lambda: tasks.evaluable("no.card", ()))
+    assert not familiar.knows("k", {"b": 1})
