@@ -9,6 +9,7 @@ import pytest
 from jax import lax
 from tests.crystallization.cases import DURATION, START, linear_cooling, model, seeds
 
+from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.formulas.agglomeration import (
     Attrition,
     ConstantKernel,
@@ -17,29 +18,32 @@ from granum.crystallization.formulas.agglomeration import (
     SumKernel,
     TurbulentKernel,
 )
-from granum.crystallization.population.grid import Grid, births_by_pairs, breakage_matrix, march_grid
+from granum.crystallization.formulas.growth import PowerLawDissolution
+from granum.crystallization.population.grid import Classes, Collisions, check_classes, classes_of, fragments
 from granum.crystallization.population.lagrangian import march
+from granum.crystallization.population.moment_equations import march_moments
 from granum.crystallization.population.operations import Programmed
-from granum.crystallization.population.packets import Seeds
+from granum.crystallization.population.packets import Seeds, mean_power
 
 
 def exponential(cells, low, high):
     """Volume classes, and the numbers of exp(-v) in them: those below the grid join its first class."""
     v = np.concatenate([[0.0], np.geomspace(low, high, cells)])
-    number = np.exp(-v[:-1]) - np.exp(-v[1:])
-    return Grid(jnp.asarray(v ** (1 / 3))), jnp.asarray(number)
+    edges = jnp.asarray(v ** (1 / 3))
+    number = jnp.asarray(np.exp(-v[:-1]) - np.exp(-v[1:]))
+    # Every class with its exact volume as well: the mean cube of exp(-v) inside it.
+    volume = (1 + v[:-1]) * np.exp(-v[:-1]) - (1 + v[1:]) * np.exp(-v[1:])
+    values = jnp.stack([number * mean_power(edges[:-1], edges[1:], k) for k in range(5)], axis=1).at[:, 3].set(volume)
+    return Classes(edges[:-1], edges[1:], values, 0, 1)
 
 
-def integrate(rate, n, end, steps):
-    h = end / steps
+def collide(classes, collisions, end, steps):
+    step = lambda c, _: (collisions.act(c, 1.0, end / steps)[0], None)  # noqa: E731
+    return jax.jit(lambda c: lax.scan(step, c, None, length=steps)[0])(classes)
 
-    def step(n, _):
-        a = rate(n)
-        b = rate(n + 0.5 * h * a)
-        c = rate(n + 0.5 * h * b)
-        return n + h / 6 * (a + 2 * b + 2 * c + rate(n + h * c)), None
 
-    return jax.jit(lambda n: lax.scan(step, n, None, length=steps)[0])(n)
+def second_volume_moment(classes):
+    return float(jnp.sum(classes.values[:, 0] * classes.cubes**2))
 
 
 CASES = [
@@ -52,59 +56,89 @@ CASES = [
 @pytest.mark.parametrize(("kernel", "end", "steps", "span", "count", "second", "error"), CASES, ids=["constant", "sum", "product"])
 def test_agglomeration_of_an_exponential_distribution(kernel, end, steps, span, count, second, error):
     """Smoluchowski's moments in closed form: N(t) and the second moment of volume; volume itself is kept."""
-    grid, n = exponential(80, *span)
-    sizes = grid.sizes
-    beta = kernel(sizes[:, None], sizes[None, :])
-    start_volume, start_second = float(n @ grid.cubes), float(n @ grid.cubes**2)
-    out = integrate(lambda n: births_by_pairs(n, beta, grid), n, end, steps)
-    assert float(out @ grid.cubes) == pytest.approx(start_volume, rel=1e-10)
-    assert float(jnp.sum(out)) == pytest.approx(count, rel=error)
-    assert float(out @ grid.cubes**2) / (start_second / 2) == pytest.approx(second, rel=2 * error)
-    assert bool(jnp.all(out >= 0))
+    start = exponential(80, *span)
+    out = collide(start, Collisions(agglomeration=kernel), end, steps)
+    assert float(out.moments()[3]) == pytest.approx(float(start.moments()[3]), rel=1e-10)
+    assert float(out.moments()[0]) == pytest.approx(count, rel=error)
+    assert second_volume_moment(out) == pytest.approx(second, rel=2 * error)
+    assert bool(jnp.all(out.values >= 0))
 
 
 def test_breakage_of_ziff_and_mcgrady():
     """S = v and uniform binary fragments: n = (1 + t)^2 exp(-v (1 + t)), so 1 + t particles."""
-    grid, n = exponential(80, 1e-4, 30.0)
-    matrix = breakage_matrix(PowerBreakage(1.0, 1.0, 3.0), grid)
-    np.testing.assert_allclose(grid.cubes @ matrix, 0.0, atol=1e-12 * float(jnp.max(jnp.abs(matrix))))
-    t = 10.0
-    out = integrate(lambda n: matrix @ n, n, t, 2000)
-    assert float(out @ grid.cubes) == pytest.approx(float(n @ grid.cubes), rel=1e-9)
-    assert float(jnp.sum(out)) == pytest.approx(1 + t, rel=0.03)
-    v = np.asarray(grid.edges) ** 3
+    start = exponential(80, 1e-4, 30.0)
+    law, t = PowerBreakage(1.0, 1.0, 3.0), 10.0
+    kept = start.cubes @ fragments(law, start.cubes, start.low, start.high)
+    np.testing.assert_allclose(kept, start.cubes, rtol=1e-12)
+    out = collide(start, Collisions(breakage=law), t, 2000)
+    assert float(out.moments()[3]) == pytest.approx(float(start.moments()[3]), rel=1e-9)
+    assert float(out.moments()[0]) == pytest.approx(1 + t, rel=0.03)
+    v = np.append(np.asarray(start.low), float(start.high[-1])) ** 3
     exact = (1 + t) * (np.exp(-v[:-1] * (1 + t)) - np.exp(-v[1:] * (1 + t)))
-    assert float(np.sum(np.abs(np.asarray(out) - exact))) < 0.04 * (1 + t)
+    assert float(np.sum(np.abs(np.asarray(out.values[:, 0]) - exact))) < 0.04 * (1 + t)
 
 
 def test_attrition_keeps_volume():
-    grid, _n = exponential(60, 1e-4, 30.0)
-    matrix = breakage_matrix(Attrition(1.0, 1.0, 3.0, 0.02), grid)
-    np.testing.assert_allclose(grid.cubes @ matrix, 0.0, atol=1e-12 * float(jnp.max(jnp.abs(matrix))))
+    start = exponential(60, 1e-4, 30.0)
+    kept = start.cubes @ fragments(Attrition(1.0, 1.0, 3.0, 0.02), start.cubes, start.low, start.high)
+    np.testing.assert_allclose(kept, start.cubes, rtol=1e-12)
 
 
-def on_grid(**more):
-    edges = jnp.linspace(0.0, 800e-6, 401)
-    start = Seeds(seeds().low, seeds().high, seeds().number)
-    low, high, number = start.low, start.high, start.number
-    top = jnp.clip(edges[:, None], low, high)
-    counts = jnp.diff(jnp.sum(number * (top - low) / (high - low), axis=1))
-    return march_grid(model(), Programmed(linear_cooling), edges, counts, START, 1.0, jnp.linspace(0, DURATION, 1601), **more), counts
+def classed_seeds():
+    """The published seeds, with empty classes above them for what agglomerates."""
+    found = seeds()
+    above = jnp.geomspace(110e-6, 1500e-6, 31)
+    return Seeds(jnp.append(found.low, above[:-1]), jnp.append(found.high, above[1:]), jnp.append(found.number, jnp.zeros(30)))
 
 
-def test_grid_agrees_with_packets_on_the_published_batch():
-    found, _counts = on_grid()
-    exact = march(model(), Programmed(linear_cooling), seeds(), START, 1.0, jnp.linspace(0, DURATION, 1601))
+TIMES = jnp.linspace(0.0, DURATION, 401)
+
+
+def test_classes_agree_with_packets_and_moments_on_the_published_batch():
+    none = Collisions(agglomeration=ConstantKernel(0.0), nuclei_classes=40)
+    found = march(model(), Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, none)
+    packets = march(model(), Programmed(linear_cooling), seeds(), START, 1.0, TIMES)
+    moments = march_moments(model(), Programmed(linear_cooling), seeds(), START, 1.0, TIMES[::100])
     total = found.solute_per_solvent + found.crystals
     assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
-    assert float(jnp.max(found.courant)) < 1.0
-    assert float(found.moments[-1, 0] / exact.moments[-1, 0]) == pytest.approx(1.0, rel=0.01)
-    assert float(found.solute_per_solvent[-1]) == pytest.approx(float(exact.solute_per_solvent[-1]), rel=2e-4)
+    np.testing.assert_allclose(found.moments, packets.moments, rtol=1e-9)
+    np.testing.assert_allclose(found.moments[::100], moments, rtol=1e-4)
+    np.testing.assert_allclose(found.solute_per_solvent, packets.solute_per_solvent, rtol=1e-12)
+
+
+def test_constant_kernel_in_a_growing_batch():
+    """With a constant kernel dN/dt = B V - beta N^2 / (2 V), whatever grows: here seeds alone, N = N0 / (1 + beta N0 t / (2 V))."""
+    V, beta = 1.0e-3, 1e-11
+    few = model(kb=0.0)
+    found = march(few, Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, Collisions(ConstantKernel(beta)))
+    start = float(found.moments[0, 0])
+    exact = start / (1 + beta * start * np.asarray(TIMES) / (2 * V))
+    assert exact[-1] < 0.2 * start
+    assert bool(jnp.all(found.final.number >= 0))
+    assert float(jnp.max(found.collided)) < 0.05
+    np.testing.assert_allclose(found.moments[:, 0], exact, rtol=2e-4)
+    total = found.solute_per_solvent + found.crystals
+    assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
 
 
 def test_agglomeration_in_a_batch_lowers_the_number_and_keeps_the_mass():
-    plain, _counts = on_grid()
-    found, _counts = on_grid(agglomeration=TurbulentKernel(50.0, 0.05))
+    def run(collisions):
+        return march(model(), Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, collisions)
+
+    plain = run(Collisions(ConstantKernel(0.0), nuclei_classes=40))
+    found = run(Collisions(TurbulentKernel(50.0, 0.05), nuclei_classes=40))
     assert float(found.moments[-1, 0]) < 0.9 * float(plain.moments[-1, 0])
-    total = found.solute_per_solvent + found.crystals
-    assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
+    assert float(found.moments[-1, 4] / found.moments[-1, 3]) > float(plain.moments[-1, 4] / plain.moments[-1, 3])
+    broken = run(Collisions(breakage=Attrition(1e-4, 3e-4, 3.0, 0.01), nuclei_classes=40))
+    assert float(broken.moments[-1, 0]) > float(plain.moments[-1, 0])
+    for course in (found, broken):
+        total = course.solute_per_solvent + course.crystals
+        assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
+
+
+def test_what_classes_cannot_follow_is_refused():
+    with pytest.raises(ApplicabilityError, match="only while they grow"):
+        check_classes(model(dissolution=PowerLawDissolution(1e-5)), seeds())
+    with pytest.raises(InputError, match="side by side"):
+        check_classes(model(), Seeds.of_one_size(jnp.array([1e-4, 2e-4]), 1e-3, 1000.0))
+    assert classes_of(seeds(), 100, 40).low.shape == (72,)

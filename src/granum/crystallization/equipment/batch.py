@@ -1,7 +1,8 @@
-"""A batch crystallizer in a line: its mean flows over the cycle."""
+"""Batch crystallizers in a line, and the tube that does to each parcel what a batch does to its charge: mean flows over the cycle."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
@@ -9,9 +10,13 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import CaseError
+from granum.core.i18n import _
 from granum.core.kinds import (
+    Area,
     Concentration,
     Distance,
+    HeatTransferCoefficient,
     Law,
     Length,
     Mass,
@@ -21,24 +26,40 @@ from granum.core.kinds import (
     PositiveNumber,
     Power,
     Ratio,
+    Temperature,
+    TemperatureDifference,
     Time,
     Volume,
 )
+from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Programmed
+from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
-from granum.streams.stream import Stream
+from granum.crystallization.vessels.driven import wall_undercooling
+from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
 
 STEPS = 300
+_CROWDED = "solids in the suspension by volume"
+_HIGHEST = "highest relative supersaturation"
+_CRUST = "undercooling at the cooled wall"
 
 
 class BatchOutlets(NamedTuple):
     """Suspension and heat taken up, as means over the cycle."""
 
     product: Stream
+    heat_duty: Any
+
+
+class VacuumBatchOutlets(NamedTuple):
+    """Suspension, vapor and heat taken up, as means over the cycle."""
+
+    product: Stream
+    vapor: Stream
     heat_duty: Any
 
 
@@ -50,14 +71,132 @@ class BatchFigures(NamedTuple):
     magma_density: Concentration
     relative_supersaturation_maximum: Number
     mean_diameter: Distance
+    nuclei_mass_fraction: Ratio
     seed_mass: Mass
     volume: Volume
     heat_duty: Power
 
 
+class JacketedBatchFigures(NamedTuple):
+    """Figures of a batch crystallizer cooled through its jacket."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter: Distance
+    nuclei_mass_fraction: Ratio
+    seed_mass: Mass
+    vessel_count: Ratio
+    temperature_end: Temperature
+    temperature_difference_maximum: TemperatureDifference
+    undercooling_wall_maximum: TemperatureDifference
+    heat_duty: Power
+
+
+class VacuumBatchFigures(NamedTuple):
+    """Figures of a batch crystallizer under vacuum."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter: Distance
+    nuclei_mass_fraction: Ratio
+    seed_mass: Mass
+    volume: Volume
+    evaporation: MassFlow
+    evaporation_maximum: MassFlow
+
+
+class PlugFlowFigures(NamedTuple):
+    """Figures of a plug flow crystallizer."""
+
+    crystal_flow: MassFlow
+    yield_fraction: Ratio
+    magma_density: Concentration
+    relative_supersaturation_maximum: Number
+    mean_diameter: Distance
+    nuclei_mass_fraction: Ratio
+    residence_time: Time
+    heat_duty: Power
+
+
+class _Batch(Unit):
+    """What batches share; each says how long it runs and what drives it."""
+
+    @abstractmethod
+    def _time(self, feed: Stream) -> Any:
+        """Time from charge to product, s."""
+
+    @abstractmethod
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        """What drives the contents; one second of feed stands for the charge."""
+
+    def _model(self, feed: Stream, found: Roles) -> Model:
+        crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
+        return Model(self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.liquid_density))
+
+    def _seeding(self, feed: Stream, found: Roles) -> tuple[Any, Seeds]:
+        """Mass of seed held back from the product, and all seeds, those that come with the feed included."""
+        entering = feed_of(feed, found)
+        cube = self._model(feed, found).crystal.mass_per_cube
+        held = self.seed_mass_per_solvent * entering.solvent
+        added = narrow_seeds(self.seed_size, self.seed_width, held, cube)
+        edges = jnp.asarray(feed.mixture.edges)
+        low, high = edges[:-1], edges[1:]
+        number = entering.crystals / (cube * 0.25 * (low + high) * (low**2 + high**2))
+        return held, Seeds(jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number))
+
+    def _course(self, feed: Stream) -> tuple[Course, Roles, Any]:
+        """The batch of one second of feed (everything is proportional to it), and the seed held back."""
+        found = roles(feed.mixture, self.solid, self.solvent)
+        entering, duration = feed_of(feed, found), self._time(feed)
+        held, seeds = self._seeding(feed, found)
+        operation = self._operation(feed, found, duration)
+        times = jnp.linspace(0.0, duration, STEPS + 1)
+        return march(self._model(feed, found), operation, seeds, entering.solute, entering.solvent, times), found, held
+
+    def _product(self, feed: Stream, course: Course, found: Roles, held: Any) -> tuple[Stream, Any]:
+        """Suspension leaving, and the solvent that has evaporated (kg/s)."""
+        x, entering = found.solute_fraction, jnp.sum(feed_of(feed, found).crystals)
+        grown = course.crystals[-1]
+        kept = jnp.maximum(grown - held, 0.0)
+        classes = course.final.in_classes(feed.mixture.edges)
+        total = jnp.sum(classes)
+        classes = classes * jnp.where(total > 0, kept / jnp.where(total > 0, total, 1.0), 0.0)
+        gone = course.solvent[0] - course.solvent[-1]
+        solute = feed.liquid[found.solute] + x * (entering - kept)
+        solvent = feed.liquid[found.solvent] + (1.0 - x) * (entering - kept) - gone
+        liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
+        return feed.replace(solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]), gone
+
+    def _figures(self, feed: Stream, product: Stream) -> tuple[Any, ...]:
+        """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei; the course and the roles."""
+        course, found, _held = self._course(feed)
+        entering = feed_of(feed, found)
+        made = product.solid_by_species[found.solid]
+        fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
+        _mass, seeds = self._seeding(feed, found)
+        final = course.final
+        cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
+        seeded = jnp.sum(cubes[: seeds.low.shape[0]])
+        return (
+            made, found.solute_fraction * made / fed, made / product.slurry_volume_flow,
+            jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0, final.mean_size(4, 3),
+            1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300), course, found,
+        )  # fmt: skip
+
+    def _usual_checks(self, figures: Any, product: Stream) -> tuple[Check, ...]:
+        return (
+            Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+            Check(_HIGHEST, figures.relative_supersaturation_maximum, 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
+        )
+
+
 @equipment("batch_crystallizer", source="mullin2001, ch. 9; miller1994", title="Seeded batch crystallizer",
            equation=r"\dot m = m_{batch} / (t_f + t_{dead})")  # fmt: skip
-class BatchCrystallizer(Unit):
+class BatchCrystallizer(_Batch):
     """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over the cycle.
 
     Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut, which is taken from the product
@@ -77,67 +216,169 @@ class BatchCrystallizer(Unit):
     solid: str = eqx.field(static=True, default="")
     solvent: str = eqx.field(static=True, default="")
 
-    def _course(self, feed: Stream) -> tuple[Course, Roles]:
-        found = roles(feed.mixture, self.solid, self.solvent)
-        entering = feed_of(feed, found)
-        T = self.temperature_program(self.duration)
-        crystal = crystal_of(feed.mixture, found, T, self.volume_shape_factor)
-        model = Model(self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.replace(temperature=T).liquid_density))
-        added = narrow_seeds(self.seed_size, self.seed_width, self.seed_mass_per_solvent * entering.solvent, crystal.mass_per_cube)
-        own = Seeds.of_mass(1.0, feed.mixture.edges, jnp.ones(len(feed.mixture.edges) - 1), crystal.mass_per_cube)
-        low, high = own.low, own.high
-        number = entering.crystals / (crystal.mass_per_cube * 0.25 * (low + high) * (low**2 + high**2))
-        seeds = Seeds(jnp.concatenate([added.low, low]), jnp.concatenate([added.high, high]), jnp.concatenate([added.number, number]))
-        times = jnp.linspace(0.0, self.duration, STEPS + 1)
-        # One second of feed stands for the batch: everything is proportional to it.
-        return march(model, Programmed(self.temperature_program), seeds, entering.solute, entering.solvent, times), found
+    def _time(self, feed: Stream) -> Any:
+        return self.duration
+
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        return Programmed(self.temperature_program)
 
     def __call__(self, feed: Stream) -> BatchOutlets:
-        course, found = self._course(feed)
-        T = course.temperature[-1]
-        crystal = crystal_of(feed.mixture, found, T, self.volume_shape_factor)
-        x = found.solute_fraction
-        seeded = self.seed_mass_per_solvent * feed.liquid[found.solvent]
-        grown = course.crystals[-1]
-        kept = jnp.maximum(grown - seeded, 0.0)
-        classes = course.final.in_classes(feed.mixture.edges) * crystal.mass_per_cube
-        classes = classes * jnp.where(grown > 0, kept / jnp.where(grown > 0, grown, 1.0), 0.0)
-        solute = feed.liquid[found.solute] + x * (jnp.sum(feed_of(feed, found).crystals) - kept)
-        solvent = feed.liquid[found.solvent] + (1.0 - x) * (jnp.sum(feed_of(feed, found).crystals) - kept)
-        liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
-        product = feed.replace(solid=with_crystals(feed, found, classes), liquid=liquid, temperature=T)
+        product, _gone = self._product(feed, *self._course(feed))
         return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
 
     def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> BatchFigures:
-        feed = inlets["feed"]
-        course, found = self._course(feed)
-        entering = feed_of(feed, found)
+        *figures, _course, found = self._figures(inlets["feed"], outlets.product)
         cycle = self.duration + self.dead_time
-        made = outlets.product.solid_by_species[found.solid]
-        fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
-        flow = outlets.product.slurry_volume_flow
-        return BatchFigures(
-            made, found.solute_fraction * made / fed, made / flow, jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0,
-            course.final.mean_size(4, 3), self.seed_mass_per_solvent * entering.solvent * cycle, flow * cycle, outlets.heat_duty,
-        )  # fmt: skip
+        seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
+        return BatchFigures(*figures, seed, outlets.product.slurry_volume_flow * cycle, outlets.heat_duty)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
+        return self._usual_checks(self.results(inlets, outlets), outlets.product)
+
+
+@equipment("jacketed_batch_crystallizer", source="mullin2001, ch. 9; kern1950, ch. 20", title="Batch crystallizer cooled through a jacket",
+           equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}")  # fmt: skip
+class JacketedBatchCrystallizer(_Batch):
+    """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature follows from the heat balance.
+
+    The charge starts at the temperature of the feed. The wall is checked against encrustation: its undercooling should stay within the
+    metastable zone width.
+    """
+
+    jacket_program: Annotated[Any, Law("program")]
+    duration: Time
+    volume: Volume
+    area: Area
+    heat_transfer_coefficient: HeatTransferCoefficient
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    heat_transfer_coefficient_inside: HeatTransferCoefficient = 1000.0
+    metastable_width: TemperatureDifference = 5.0
+    dead_time: Time = 3600.0
+    seed_mass_per_solvent: MassRatio = 0.0
+    seed_size: Length = 100e-6
+    seed_width: Distance = 0.0
+    volume_shape_factor: PositiveNumber = 1.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _time(self, feed: Stream) -> Any:
+        return self.duration
+
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        exchange = self.heat_transfer_coefficient * self.area * feed.slurry_volume_flow / self.volume
+        return Jacketed(feed.temperature, self.jacket_program, exchange, StreamHeat.of(feed, found))
+
+    def __call__(self, feed: Stream) -> BatchOutlets:
+        product, _gone = self._product(feed, *self._course(feed))
+        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> JacketedBatchFigures:
+        feed = inlets["feed"]
+        *figures, course, found = self._figures(feed, outlets.product)
+        T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
+        wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside)
+        cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
+        count = feed.slurry_volume_flow * (self.duration + self.dead_time) / self.volume
+        seed = self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.volume / feed.slurry_volume_flow
+        return JacketedBatchFigures(*figures, seed, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
         figures = self.results(inlets, outlets)
         return (
-            Check(
-                "solids in the suspension by volume",
-                outlets.product.solids_volume_fraction,
-                0.0,
-                0.35,
-                "dimensionless",
-                "mullin2001, ch. 9",
-            ),
-            Check(
-                "highest relative supersaturation",
-                figures.relative_supersaturation_maximum,
-                0.0,
-                0.5,
-                "dimensionless",
-                "mullin2001, ch. 5",
-            ),
+            *self._usual_checks(figures, outlets.product),
+            Check(_CRUST, figures.undercooling_wall_maximum, -jnp.inf, self.metastable_width, "K", "mullin2001, ch. 9"),
         )
+
+
+@equipment("vacuum_batch_crystallizer", source="mullin2001, ch. 8 and 9", title="Batch crystallizer cooled by boiling under vacuum",
+           equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c")  # fmt: skip
+class VacuumBatchCrystallizer(_Batch):
+    """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a continuous feed in cycles.
+
+    The program is that of the boiling temperature; the feed flashes down to its start. Heat given back by the seeds that are held over is the small duty.
+    """
+
+    temperature_program: Annotated[Any, Law("program")]
+    duration: Time
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    dead_time: Time = 3600.0
+    seed_mass_per_solvent: MassRatio = 0.0
+    seed_size: Length = 100e-6
+    seed_width: Distance = 0.0
+    volume_shape_factor: PositiveNumber = 1.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _time(self, feed: Stream) -> Any:
+        return self.duration
+
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        if found.vapor is None:
+            raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
+        heat = StreamHeat.of(feed, found)
+        return Flashing(self.temperature_program, heat.latent, heat, feed.temperature)
+
+    def __call__(self, feed: Stream) -> VacuumBatchOutlets:
+        course, found, held = self._course(feed)
+        product, gone = self._product(feed, course, found, held)
+        assert found.vapor is not None
+        released = -jnp.diff(course.solvent)
+        middle = 0.5 * (course.temperature[1:] + course.temperature[:-1])
+        T = jnp.where(gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature)
+        vapor = empty(feed.mixture, 298.15).replace(gas=feed.gas.at[found.vapor].add(gone), temperature=T, pressure=feed.pressure)
+        product = product.replace(gas=0.0 * feed.gas)
+        return VacuumBatchOutlets(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> VacuumBatchFigures:
+        *figures, course, found = self._figures(inlets["feed"], outlets.product)
+        cycle = self.duration + self.dead_time
+        seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
+        fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * cycle  # after the first flash
+        gone = course.solvent[0] - course.solvent[-1]
+        return VacuumBatchFigures(*figures, seed, outlets.product.slurry_volume_flow * cycle, gone, fastest)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> tuple[Check, ...]:
+        return self._usual_checks(self.results(inlets, outlets), outlets.product)
+
+
+@equipment("plug_flow_crystallizer", source="randolph1988, ch. 7; mullin2001, ch. 9", title="Plug flow crystallizer",
+           equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0")  # fmt: skip
+class PlugFlowCrystallizer(_Batch):
+    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence time.
+
+    The temperature along the tube is given by a program of the time since the inlet, which should end at the residence time. Backmixing
+    spreads the residence times: a series of mixed vessels then stands for the tube.
+    """
+
+    temperature_program: Annotated[Any, Law("program")]
+    volume: Volume
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    seed_mass_per_solvent: MassRatio = 0.0
+    seed_size: Length = 100e-6
+    seed_width: Distance = 0.0
+    volume_shape_factor: PositiveNumber = 1.0
+    solid: str = eqx.field(static=True, default="")
+    solvent: str = eqx.field(static=True, default="")
+
+    def _time(self, feed: Stream) -> Any:
+        return self.volume / feed.slurry_volume_flow
+
+    def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
+        return Programmed(self.temperature_program)
+
+    def __call__(self, feed: Stream) -> BatchOutlets:
+        product, _gone = self._product(feed, *self._course(feed))
+        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> PlugFlowFigures:
+        *figures, _course, _found = self._figures(inlets["feed"], outlets.product)
+        return PlugFlowFigures(*figures, self._time(inlets["feed"]), outlets.heat_duty)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
+        return self._usual_checks(self.results(inlets, outlets), outlets.product)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
@@ -23,9 +24,9 @@ class _Solubility(LabTest):
         moles = np.asarray(self.solute_per_solvent) / self.molar_mass
         return moles / (moles + 1.0 / self.solvent_molar_mass)
 
+    @abstractmethod
     def law(self) -> Any:
         """The fitted solubility as a law for simulations."""
-        raise NotImplementedError
 
     def chart(self) -> Any:
         """Solubility against temperature with the fitted line."""

@@ -1,61 +1,132 @@
-"""Crystals on a fixed grid of sizes: for batches in which they agglomerate or break.
+"""Crystals in size classes that move with the growth path: for batches in which they agglomerate or break.
 
-Growth is a flux-limited finite volume scheme; agglomeration uses the cell average technique of J. Kumar and others, which
-keeps number and volume of what is born; breakage is linear with a matrix that keeps both too. The solute follows from the
-grid's own third moment, so that it is conserved to rounding.
+Every class carries its moments 0 to 4. Growth shifts classes and moments exactly, as it does packets, so that the grid adds
+no numerical diffusion; only agglomeration and breakage are discretized, by the cell average technique of J. Kumar and
+others, which keeps number and volume of what is born. Crystals that are born open new classes at the nucleus size.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from math import comb
+from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import lax
 
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
-from granum.crystallization.population.compiled import compiled
-from granum.crystallization.population.lagrangian import Model
-from granum.crystallization.population.operations import Operation
-from granum.crystallization.population.packets import mean_power
-from granum.numerics.limiters import koren
+from granum.crystallization.population.packets import HIGHEST, Packets, Population, Seeds, mean_power
 from granum.numerics.smooth import safe_divide
 
-
-class GridCourse(NamedTuple):
-    """A batch on a grid, at the times of its steps; moments 0 to 4 in the vessel, final numbers by class."""
-
-    time: Any
-    temperature: Any
-    solute_per_solvent: Any
-    solubility_per_solvent: Any
-    crystals: Any
-    moments: Any
-    numbers: Any
-    courant: Any
+SMALLEST = 1e-9  # m, size that stands for an empty class in kernels
+ORDERS = range(HIGHEST + 1)
 
 
-class Grid(eqx.Module):
-    """Size classes with their representative cubes (the mean of an evenly filled class)."""
+class Classes(Population):
+    """Adjacent size classes, each with the moments 0 to 4 of its crystals; the first ``slots`` are for nuclei, youngest first."""
 
-    edges: Any
+    low: Any
+    high: Any
+    values: Any
+    slots: int = eqx.field(static=True)
+    steps_per_slot: int = eqx.field(static=True)
 
     @property
     def cubes(self) -> Any:
-        """Mean cube of the size in each class."""
-        return mean_power(self.edges[:-1], self.edges[1:], 3)
+        """Mean cube of the crystals of each class; of an evenly filled class where there are none."""
+        mean = safe_divide(self.values[:, 3], self.values[:, 0], mean_power(self.low, self.high, 3))
+        return jnp.clip(mean, self.low**3, self.high**3)
 
-    @property
-    def sizes(self) -> Any:
-        """Size of the mean cube."""
-        return self.cubes ** (1.0 / 3.0)
+    def moments(self) -> Any:
+        return jnp.sum(self.values, axis=0)
+
+    def cubes_after(self, path: Any) -> Any:
+        m, d = self.moments(), path
+        return m[3] + d * (3.0 * m[2] + d * (3.0 * m[1] + d * m[0]))
+
+    def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> Classes:
+        """As for packets; ``index`` counts the steps after the classes of the seeds, as it does there."""
+        step = jnp.asarray(index) - (self.low.shape[0] - self.slots)
+        slot = self.slots - 1 - step // self.steps_per_slot
+        position = jnp.arange(self.low.shape[0])
+        low = jnp.where(position <= slot, nucleus_size, self.low + path)
+        high = jnp.where(position < slot, nucleus_size, self.high + path)
+        shifted = jnp.stack([sum(comb(k, j) * path ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in ORDERS], axis=1)
+        fresh = jnp.stack([jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k), dtype=float) for k in ORDERS])
+        return Classes(low, high, shifted.at[slot].add(born * fresh), self.slots, self.steps_per_slot)
+
+    def kept(self, share: Any) -> Classes:
+        return Classes(self.low, self.high, self.values * share, self.slots, self.steps_per_slot)
+
+    def packets(self) -> Packets:
+        """Evenly filled packets with the numbers of the classes."""
+        return Packets(self.low, self.high, self.values[:, 0])
 
 
-def births_by_pairs(numbers: Any, kernel: Any, grid: Grid) -> Any:
-    """Rate of change of the numbers by agglomeration (kernel per volume already), number and volume of the newborn kept."""
-    x, edges = grid.cubes, grid.edges**3
+def classes_of(seeds: Seeds, steps: int, nuclei_classes: int) -> Classes:
+    """Classes from seeds that stand side by side, with room for the nuclei of a number of steps."""
+    slots = min(nuclei_classes, steps)
+    low, high = jnp.asarray(seeds.low, dtype=float), jnp.asarray(seeds.high, dtype=float)
+    values = jnp.stack([seeds.number * mean_power(low, high, k) for k in ORDERS], axis=1)
+    none = jnp.zeros(slots)
+    return Classes(jnp.append(none, low), jnp.append(none, high), jnp.concatenate([jnp.zeros((slots, HIGHEST + 1)), values]), slots,
+                   -(-steps // slots))  # fmt: skip
+
+
+class Collisions(eqx.Module):
+    """What crystals do to each other and to the impeller.
+
+    Parameters
+    ----------
+    agglomeration: kernel, m³/s. breakage: law. Either may be None.
+    nuclei_classes: most classes that the nuclei are sorted into.
+    """
+
+    agglomeration: Any = None
+    breakage: Any = None
+    nuclei_classes: int = eqx.field(static=True, default=80)
+
+    def rates(self, classes: Classes, volume: Any, span: Any) -> tuple[Any, Any, Any]:
+        """Births by class (1/s, at its mean cube), frequency (1/s) with which crystals of a class disappear, and its unlimited value.
+
+        A class that would lose more than it holds in the span collides less often, with the same for its partners: nothing
+        becomes negative and volume is kept whatever the step.
+        """
+        x, number = classes.cubes, classes.values[:, 0]
+        size = jnp.maximum(x, SMALLEST**3) ** (1.0 / 3.0)
+        none = jnp.zeros((x.shape[0],) * 2)
+        kernel = none if self.agglomeration is None else self.agglomeration(size[:, None], size[None, :]) / volume
+        rate = jnp.zeros_like(x) if self.breakage is None else self.breakage(size)
+        free = kernel @ number + rate
+        limit = jnp.minimum(1.0, safe_divide(1.0, free * span, 1.0))
+        born, lost, active = jnp.zeros_like(x), limit * rate, limit * number
+        if self.agglomeration is not None:
+            born = born + births_by_pairs(active, kernel, x, classes.low, classes.high)
+            lost = lost + limit * (kernel @ active)
+        if self.breakage is not None:
+            born = born + fragments(self.breakage, x, classes.low, classes.high) @ (rate * active)
+        return born, lost, free
+
+    def act(self, classes: Classes, volume: Any, span: Any) -> tuple[Classes, Any]:
+        """The classes after a span of time (Heun's step), and the share of the crystals that would collide in it."""
+        number = classes.values[:, 0]
+
+        def euler(values: Any) -> tuple[Any, Any]:
+            here = Classes(classes.low, classes.high, values, classes.slots, classes.steps_per_slot)
+            born, lost, free = self.rates(here, volume, span)
+            powers = jnp.stack([jnp.maximum(here.cubes, SMALLEST**3) ** (k / 3.0) for k in ORDERS], axis=1)
+            return values * (1.0 - span * lost)[:, None] + span * born[:, None] * powers, free
+
+        first, free = euler(classes.values)
+        second, _free = euler(first)
+        values = 0.5 * (classes.values + second)
+        busy = span * safe_divide(jnp.sum(free * number), jnp.sum(number))
+        return Classes(classes.low, classes.high, values, classes.slots, classes.steps_per_slot), busy
+
+
+def births_by_pairs(numbers: Any, kernel: Any, x: Any, low: Any, high: Any) -> Any:
+    """Births by class (1/s) by agglomeration (kernel per volume already), number and volume of the newborn kept; ``x`` mean cubes."""
     n = x.shape[0]
     j, k = jnp.triu_indices(n)
     rate = kernel[j, k] * numbers[j] * numbers[k] * jnp.where(j == k, 0.5, 1.0)
@@ -63,112 +134,44 @@ def births_by_pairs(numbers: Any, kernel: Any, grid: Grid) -> Any:
     # What would outgrow the grid stays in its last class with its volume.
     beyond = volume > x[-1]
     rate_kept, volume = jnp.where(beyond, rate * volume / x[-1], rate), jnp.minimum(volume, x[-1])
-    cell = jnp.clip(jnp.searchsorted(edges, volume, side="right") - 1, 0, n - 1)
+    cell = jnp.clip(jnp.searchsorted(low**3, volume, side="right") - 1, 0, n - 1)
     born = jax.ops.segment_sum(rate_kept, cell, n)
     held = jax.ops.segment_sum(rate_kept * volume, cell, n)
-    mean = safe_divide(held, born, x)
-    return _shared_out(born, mean, x) - numbers * (kernel @ numbers)
+    return _shared_out(born, safe_divide(held, born, x), x, high > low)
 
 
-def _shared_out(born: Any, mean: Any, x: Any) -> Any:
+def _shared_out(born: Any, mean: Any, x: Any, live: Any) -> Any:
     """Newborn of each cell given to its pivot and the neighbor on the side of their mean, keeping number and volume."""
     up = mean >= x
     right = jnp.append(x[1:], 2.0 * x[-1])
     left = jnp.concatenate([jnp.zeros(1), x[:-1]])
-    share_up = jnp.where(up, (mean - x) / (right - x), 0.0)
-    share_down = jnp.where(up, 0.0, (x - mean) / (x - left))
+    below = jnp.concatenate([jnp.zeros(1, bool), live[:-1]])
     # Below the first pivot and above the last there is no neighbor: volume is kept and number gives way.
-    share_up = share_up.at[-1].set(0.0)
+    share_up = jnp.where(up, safe_divide(mean - x, right - x), 0.0).at[-1].set(0.0)
+    share_down = jnp.where(~up & below, safe_divide(x - mean, x - left), 0.0)
+    alone = ~up & ~below
+    born = jnp.where(alone, born * safe_divide(mean, x, 1.0), born)
     out = born * (1.0 - share_up - share_down)
     out = out.at[1:].add((born * share_up)[:-1])
     return out.at[:-1].add((born * share_down)[1:])
 
 
-def breakage_matrix(breakage: Any, grid: Grid) -> Any:
-    """Matrix of the linear rate of change of the numbers by breakage: fragments on pivots, number and volume kept."""
-    x, edges = grid.cubes, grid.edges**3
-    rate = breakage(grid.sizes)
+def fragments(breakage: Any, x: Any, low: Any, high: Any) -> Any:
+    """Fragments by class (rows) of one breaking crystal of each class (columns), number and volume kept; ``x`` mean cubes."""
 
     def column(parent: Any) -> Any:
-        count, share = breakage.daughters(edges[:-1], edges[1:], parent)
-        mean = jnp.where(count > 0, safe_divide(share * parent, count, x), x)
-        return _shared_out(count, mean, x)
+        count, share = breakage.daughters(low**3, high**3, jnp.maximum(parent, SMALLEST**3))
+        return _shared_out(count, safe_divide(share * parent, count, x), x, high > low)
 
-    fragments = jax.vmap(column, out_axes=1)(x)
-    # Fragments below the grid keep their volume in the first class: scale so that every parent's volume is met exactly.
-    fragments = fragments * (x / (x @ fragments))[None, :]
-    return fragments * rate[None, :] - jnp.diag(rate)
+    found = jax.vmap(column, out_axes=1)(x)
+    # Fragments below the grid keep their volume in the first classes: scale so that every parent's volume is met exactly.
+    return found * safe_divide(x, x @ found, 1.0)[None, :]
 
 
-def growth_rate_of_change(numbers: Any, rate: Any, births: Any, edges: Any) -> Any:
-    """Rate of change of the numbers by growth at one rate with nuclei entering the first class (Koren's limiter)."""
-    width = jnp.diff(edges)
-    density = numbers / width
-    slopes = jnp.diff(density) * 2.0 / (width[1:] + width[:-1])
-    ahead, behind = jnp.append(slopes, 0.0), jnp.concatenate([slopes[:1], slopes])
-    face = density + 0.5 * width * koren(behind, ahead)
-    flux = rate * jnp.maximum(face, 0.0)
-    # Growth beyond the grid is kept in the last class; dissolution is left to the packet engine.
-    flux = jnp.concatenate([jnp.asarray(births, dtype=float)[None], flux[:-1], jnp.zeros(1)])
-    return -jnp.diff(flux)
-
-
-@compiled
-def march_grid(model: Model, operation: Operation, edges: Any, numbers: Any, solute: Any, solvent: Any, times: Any,
-               agglomeration: Any = None, breakage: Any = None) -> GridCourse:  # fmt: skip
-    """Follow a batch on a grid of sizes (SSP Runge–Kutta, second order); see ``march`` for the arguments.
-
-    ``agglomeration`` is a kernel in m³/s, ``breakage`` a law; either may be None.
-    """
-    grid = Grid(jnp.asarray(edges, dtype=float))
-    times = jnp.asarray(times, dtype=float)
-    scale, x_c = model.crystal.mass_per_cube, model.crystal.solute_fraction
-    sizes = grid.sizes
-    kernel = None if agglomeration is None else agglomeration(sizes[:, None], sizes[None, :])
-    matrix = None if breakage is None else breakage_matrix(breakage, grid)
-    powers = jnp.stack([mean_power(grid.edges[:-1], grid.edges[1:], k) for k in range(5)])
-
-    def rates(numbers: Any, contents: Any) -> tuple[Any, Any, Any, Any]:
-        crystals = scale * jnp.sum(numbers * grid.cubes)
-        ratio, saturated = model.ratio(contents, crystals), model.saturated(contents)
-        G = model.growth(ratio, saturated, contents.temperature)
-        change = growth_rate_of_change(numbers, G, model.births(ratio, saturated, contents, crystals), grid.edges)
-        if kernel is not None:
-            liquor = contents.solute + contents.solvent - crystals
-            volume = model.volume(liquor, contents.solvent - (1.0 - x_c) * crystals, crystals, model.crystal)
-            change = change + births_by_pairs(numbers, kernel / volume, grid)
-        if matrix is not None:
-            change = change + matrix @ numbers
-        return change, ratio, saturated, G
-
-    def advance(carry: tuple[Any, Any], given: tuple[Any, Any]) -> tuple[tuple[Any, Any], tuple[Any, ...]]:
-        numbers, contents = carry
-        start, end = given
-        span = end - start
-        before = scale * jnp.sum(numbers * grid.cubes)
-        first, _ratio, _saturated, G = rates(numbers, contents)
-        trial = numbers + span * first
-        there = operation.step(contents, start, end, before, scale * jnp.sum(trial * grid.cubes))
-        second, *_rest = rates(trial, there)
-        new = numbers + 0.5 * span * (first + second)
-        crystals = scale * jnp.sum(new * grid.cubes)
-        contents = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), operation.step(contents, start, end, before, crystals))
-        courant = G * span / jnp.min(jnp.diff(grid.edges))
-        out = (contents.temperature, model.ratio(contents, crystals), model.saturated(contents), crystals, powers @ new, courant)
-        return (new, contents), out
-
-    numbers = jnp.asarray(numbers, dtype=float)
-    mass = scale * jnp.sum(numbers * grid.cubes)
-    contents = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), operation.start(solute + x_c * mass, solvent + (1.0 - x_c) * mass))
-    begin = (contents.temperature, model.ratio(contents, mass), model.saturated(contents), mass, powers @ numbers)
-    (last, _contents), rows = lax.scan(advance, (numbers, contents), (times[:-1], times[1:]))
-    joined = [jnp.concatenate([jnp.asarray(a)[None], b]) for a, b in zip(begin, rows[:-1], strict=True)]
-    temperature, ratio, saturated, crystals, all_moments = joined
-    return GridCourse(times, temperature, ratio, saturated, crystals, all_moments, last, rows[-1])
-
-
-def check_grid(edges: Any, numbers: Any) -> None:
-    """Raise when seeds do not fit on the grid."""
-    if len(edges) - 1 != len(numbers):
-        raise InputError(_("{count} classes need {edges} boundaries; {given} were given.").format(
-            count=len(numbers), edges=len(numbers) + 1, given=len(edges)))  # fmt: skip
+def check_classes(model: Any, seeds: Seeds) -> None:
+    """Raise where the classes could not follow a batch."""
+    if model.dissolution is not None or model.size_map is not None:
+        raise ApplicabilityError(_("Crystals that agglomerate or break are followed only while they grow, at a rate that does not depend on size."))  # fmt: skip
+    low, high = jax.device_get((seeds.low, seeds.high))
+    if len(low) > 1 and abs(high[:-1] - low[1:]).max() > 1e-9 * high[-1]:
+        raise InputError(_("The size classes of the seeds must stand side by side where crystals agglomerate or break."))

@@ -15,11 +15,21 @@ import jax.numpy as jnp
 from jax import lax
 
 from granum.crystallization.population.compiled import compiled
+from granum.crystallization.population.grid import Classes, Collisions, classes_of
 from granum.crystallization.population.operations import Contents, Operation
-from granum.crystallization.population.packets import Packets, Population, Seeds, ShiftedMoments, SizeMap
+from granum.crystallization.population.packets import (
+    DispersedMoments,
+    GrowthDispersion,
+    Packets,
+    Population,
+    Seeds,
+    ShiftedMoments,
+    SizeMap,
+    mean_power,
+)
 from granum.crystallization.vessels.crystals import Crystal, ratio_left
 
-NEWTON_STEPS = 7  # of the scalar closure; its slope is monotone, so that Newton from the explicit end does not overshoot
+MOST_ROUNDS, SETTLED = 80, 1e-7  # of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
 
 
 class SuspensionVolume(eqx.Module):
@@ -50,6 +60,7 @@ class Model(eqx.Module):
     crystal: the crystal. volume: what nucleation rates and magma densities are counted on.
     dissolution: positive rate of shrinking below saturation; None where the solution stays supersaturated.
     size_map: size dependence of growth, or None. nucleus_size: m.
+    dispersion: growth rates that differ between crystals, or None; not together with dissolution or size dependence.
     """
 
     solubility: Any
@@ -60,6 +71,7 @@ class Model(eqx.Module):
     dissolution: Any = None
     size_map: SizeMap | None = None
     nucleus_size: Any = 0.0
+    dispersion: GrowthDispersion | None = None
 
     def saturated(self, contents: Contents) -> Any:
         """Solubility at the temperature (and antisolvent fraction) of the contents."""
@@ -76,13 +88,21 @@ class Model(eqx.Module):
         rate = self.growth(ratio, saturated, temperature)
         return rate if self.dissolution is None else rate - self.dissolution(ratio, saturated, temperature)
 
-    def births(self, ratio: Any, saturated: Any, contents: Contents, crystals: Any) -> Any:
-        """Nuclei born in the whole vessel per second, 1/s."""
+    def suspension(self, contents: Contents, crystals: Any) -> Any:
+        """Volume that rates are counted on, m³."""
         x = self.crystal.solute_fraction
         solvent = contents.solvent - (1.0 - x) * crystals
-        liquor = contents.solute + contents.solvent - crystals
-        volume = self.volume(liquor, solvent, crystals, self.crystal)
+        return self.volume(contents.solute + contents.solvent - crystals, solvent, crystals, self.crystal)
+
+    def births(self, ratio: Any, saturated: Any, contents: Contents, crystals: Any) -> Any:
+        """Nuclei born in the whole vessel per second, 1/s."""
+        volume = self.suspension(contents, crystals)
         return volume * self.nucleation(ratio, saturated, contents.temperature, crystals / volume)
+
+    def conditions(self, contents: Contents, crystals: Any) -> tuple[Any, Any, Any, Any]:
+        """Composition, solubility, growth rate and births of the vessel as it is."""
+        ratio, saturated = self.ratio(contents, crystals), self.saturated(contents)
+        return ratio, saturated, self.rate(ratio, saturated, contents.temperature), self.births(ratio, saturated, contents, crystals)
 
 
 class Course(NamedTuple):
@@ -91,7 +111,8 @@ class Course(NamedTuple):
     time: s. temperature: K. solute_per_solvent, solubility_per_solvent: kg/kg. crystals: kg in the vessel.
     moments: 0 to 4 of all crystals in the vessel, (steps + 1, 5). growth_rate: m/s. births: 1/s.
     solvent: total, kg. path: growth path since the start, m. born: crystals born in each step, (steps,).
-    residual: of the closure of each step, relative.
+    residual: of the closure of each step, relative. collided: share of the crystals that met another or broke in each half
+        step (0 without collisions); well below 1 where the steps are short enough.
     """
 
     time: Any
@@ -107,6 +128,7 @@ class Course(NamedTuple):
     path: Any
     born: Any
     residual: Any
+    collided: Any
     final: Packets
 
 
@@ -122,12 +144,16 @@ class _State(NamedTuple):
 
 
 @compiled
-def march(model: Model, operation: Operation, seeds: Seeds, solute: Any, solvent: Any, times: Any) -> Course:
+def march(
+    model: Model, operation: Operation, seeds: Seeds, solute: Any, solvent: Any, times: Any, collisions: Collisions | None = None
+) -> Course:
     """Follow a batch through given times (the first is the start).
 
     Parameters
     ----------
     solute: dissolved anhydrous solute at the start, kg. solvent: kg at the start.
+    collisions: agglomeration and breakage, in halves before and after the growth of each step; the seeds must then be classes
+        side by side that reach up to the largest agglomerate.
     """
     times = jnp.asarray(times, dtype=float)
     steps = times.shape[0] - 1
@@ -135,61 +161,109 @@ def march(model: Model, operation: Operation, seeds: Seeds, solute: Any, solvent
     tracked = model.dissolution is not None or model.size_map is not None
     crystal = model.crystal
     moments = seeds.moments()
-    population: Population = _packets(seeds, steps, model.size_map) if tracked else ShiftedMoments(moments)
+    population: Population = ShiftedMoments(moments)
+    if collisions is not None:
+        population = classes_of(seeds, steps, collisions.nuclei_classes)
+    elif model.dispersion is not None:
+        population = DispersedMoments.of(moments, model.dispersion)
+    elif tracked:
+        population = _packets(seeds, steps, model.size_map)
     mass = crystal.mass_per_cube * moments[3]
     contents = operation.start(solute + crystal.solute_fraction * mass, solvent + (1.0 - crystal.solute_fraction) * mass)
     contents = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), contents)
 
-    def conditions(contents: Contents, crystals: Any) -> tuple[Any, Any, Any, Any]:
-        ratio, saturated = model.ratio(contents, crystals), model.saturated(contents)
-        return ratio, saturated, model.rate(ratio, saturated, contents.temperature), model.births(ratio, saturated, contents, crystals)
+    def collided(population: Population, contents: Contents, crystals: Any, span: Any) -> tuple[Population, Any]:
+        if collisions is None or not isinstance(population, Classes):
+            return population, jnp.zeros(())
+        return collisions.act(population, model.suspension(contents, crystals), 0.5 * span)
 
     def advance(state: _State, given: tuple[Any, Any, Any]) -> tuple[_State, tuple[Any, ...]]:
         start, end, index = given
         span = end - start
-        scale = crystal.mass_per_cube
-        step = _Step(model, operation, state.population, state.contents, state.crystals, start, end)
-        path, residual = _closure(step, state.rate, span)
-        after = step.after
-        there, crystals = after(path)
-        ratio, saturated = model.ratio(there, crystals), model.saturated(there)
-        births = model.births(ratio, saturated, there, crystals)
-        born = jnp.maximum(0.5 * span * (state.births + births), 0.0)
-        population = state.population.grown(path, born, model.nucleus_size, kept + index)
-        crystals = scale * population.moments()[3]
+        before, busy = collided(state.population, state.contents, state.crystals, span)
+        population, path, born, residual, there, crystals = react(
+            model, operation, before, state.contents, state.crystals, (state.rate, state.births), (start, end), kept + index
+        )
+        population, busier = collided(population, there, crystals, span)
+        crystals = crystal.mass_per_cube * population.moments()[3]
         contents = operation.step(state.contents, start, end, state.crystals, crystals)
-        ratio, saturated, rate, births = conditions(contents, crystals)
+        ratio, saturated, rate, births = model.conditions(contents, crystals)
         new = _State(population, contents, crystals, ratio, saturated, rate, births, state.path + path)
-        out = (contents, crystals, ratio, saturated, rate, births, population.moments(), new.path, born, residual)
+        out = (
+            contents,
+            crystals,
+            ratio,
+            saturated,
+            rate,
+            births,
+            population.moments(),
+            new.path,
+            born,
+            residual,
+            jnp.maximum(busy, busier),
+        )
         return new, out
 
-    first = _State(population, contents, mass, *conditions(contents, mass), jnp.zeros(()))
+    first = _State(population, contents, mass, *model.conditions(contents, mass), jnp.zeros(()))
     first = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), first)
     last, rows = lax.scan(advance, first, (times[:-1], times[1:], jnp.arange(steps)))
     at_start = (contents, mass, first.ratio, first.saturated, first.rate, first.births, moments, jnp.zeros(()))
     joined = [jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), a, b) for a, b in zip(at_start, rows, strict=False)]
     course, crystals, ratio, saturated, rate, births, all_moments, path = joined
-    born, residual = rows[-2:]
-    final = last.population if isinstance(last.population, Packets) else _rebuilt(seeds, path, born, model.nucleus_size)
+    born, residual, busy = rows[-3:]
+    if isinstance(last.population, Classes):
+        final = last.population.packets()
+    else:
+        final = last.population if isinstance(last.population, Packets) else _rebuilt(seeds, path, born, model)
     return Course(times, course.temperature, ratio, saturated, crystals, all_moments, rate, births, course.solute, course.solvent, path, born,
-                  residual, final)  # fmt: skip
+                  residual, busy, final)  # fmt: skip
+
+
+def react(
+    model: Model, operation: Operation, population: Population, contents: Contents, crystals: Any, rates: tuple[Any, Any],
+    span: tuple[Any, Any], slot: Any,
+) -> tuple[Population, Any, Any, Any, Contents, Any]:  # fmt: skip
+    """Growth and nucleation over one step, from the growth rate and births at its start.
+
+    Returns the population, the growth path, the number born, the residual of the closure, and contents and crystals.
+    """
+    start, end = span
+    rate, births = rates
+    step = _Step(model, operation, population, contents, crystals, births, start, end)
+    path, residual = _closure(step, rate, end - start)
+    there, mass = step.after(path)
+    born = step.born(path)
+    return population.grown(path, born, model.nucleus_size, slot), path, born, residual, there, mass
 
 
 class _Step(eqx.Module):
-    """What the end of a step is like for a trial growth path."""
+    """What the end of a step is like for a trial growth path.
+
+    The newborn count as they will be added, so that even a burst of nuclei cannot take more solute than there is.
+    """
 
     model: Model
     operation: Operation
     population: Population
     contents: Contents
     crystals: Any
+    births: Any
     start: Any
     end: Any
 
     def after(self, path: Any) -> tuple[Contents, Any]:
         """Contents and crystal mass at the end."""
-        crystals = self.model.crystal.mass_per_cube * self.population.cubes_after(path)
+        nucleus = self.model.nucleus_size
+        fresh = self.born(path) * mean_power(nucleus, nucleus + jnp.maximum(path, 0.0), 3)
+        crystals = self.model.crystal.mass_per_cube * (self.population.cubes_after(path) + fresh)
         return self.operation.step(self.contents, self.start, self.end, self.crystals, crystals), crystals
+
+    def born(self, path: Any) -> Any:
+        """Crystals born: the mean of the births at both ends (at the later one beside the older crystals) over the step."""
+        model, crystals = self.model, self.model.crystal.mass_per_cube * self.population.cubes_after(path)
+        there = self.operation.step(self.contents, self.start, self.end, self.crystals, crystals)
+        later = model.births(model.ratio(there, crystals), model.saturated(there), there, crystals)
+        return jnp.maximum(0.5 * (self.end - self.start) * (self.births + later), 0.0)
 
     def state(self, path: Any) -> tuple[Any, Any, Any]:
         """Composition, solubility and growth rate at the end."""
@@ -217,15 +291,21 @@ def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
     begin, factor = lax.stop_gradient((explicit, implicit))
     far = begin + factor * frozen.rate(begin)
 
-    def improve(_round: Any, carry: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
-        path, low, high = carry
+    def unsettled(carry: tuple[Any, ...]) -> Any:
+        _path, _low, _high, change, size, rounds = carry
+        return (rounds < MOST_ROUNDS) & (change > SETTLED * size)
+
+    def improve(carry: tuple[Any, ...]) -> tuple[Any, ...]:
+        path, low, high, _change, _size, rounds = carry
         found, slope = jax.jvp(frozen.rate, (path,), (jnp.ones(()),))
         value = path - begin - factor * found
         low, high = jnp.where(value < 0, path, low), jnp.where(value > 0, path, high)
         ahead = path - value / (1.0 - factor * slope)
-        return jnp.where((ahead >= low) & (ahead <= high), ahead, 0.5 * (low + high)), low, high
+        ahead = jnp.where((ahead > low) & (ahead < high) | (value == 0), ahead, 0.5 * (low + high))
+        return ahead, low, high, jnp.abs(ahead - path), jnp.abs(far - begin) + jnp.abs(begin), rounds + 1
 
-    path, _low, _high = lax.fori_loop(0, NEWTON_STEPS, improve, (begin, jnp.minimum(begin, far), jnp.maximum(begin, far)))
+    ends = jnp.minimum(begin, far), jnp.maximum(begin, far)
+    path, *_rest = lax.while_loop(unsettled, improve, (begin, *ends, jnp.inf, jnp.zeros(()), 0))
     path = lax.stop_gradient(path)
     found, slope = jax.jvp(step.rate, (path,), (jnp.ones(()),))
     value = path - explicit - implicit * found
@@ -253,9 +333,14 @@ def _packets(seeds: Seeds, steps: int, size_map: SizeMap | None) -> Packets:
     return Packets(whole(low), whole(high), whole(seeds.number), size_map)
 
 
-def _rebuilt(seeds: Seeds, path: Any, born: Any, nucleus_size: Any) -> Packets:
+def _rebuilt(seeds: Seeds, path: Any, born: Any, model: Model) -> Packets:
     """Packets at the end of a run in which only the moments were carried."""
-    end = path[-1]
-    low = jnp.concatenate([seeds.low + end, nucleus_size + end - path[1:]])
-    high = jnp.concatenate([seeds.high + end, nucleus_size + end - path[:-1]])
-    return Packets(low, high, jnp.concatenate([seeds.number, born]))
+    end, nucleus = path[-1], model.nucleus_size
+    low, high = jnp.append(seeds.low, nucleus + jnp.zeros_like(born)), jnp.append(seeds.high, nucleus + jnp.zeros_like(born))
+    since, until = jnp.append(end + jnp.zeros_like(seeds.low), end - path[1:]), jnp.append(end + jnp.zeros_like(seeds.low), end - path[:-1])
+    number = jnp.append(seeds.number, born)
+    if model.dispersion is None:
+        return Packets(low + since, high + until, number)
+    shares, factors = model.dispersion.factors()
+    rows = [(low + f * since, high + f * until, share * number) for share, f in zip(shares, factors, strict=True)]
+    return Packets(*(jnp.concatenate(parts) for parts in zip(*rows, strict=True)))

@@ -74,8 +74,20 @@ class Programmed(Operation):
         return Contents(self.temperature(end), *self.addition.applied(old, start, end))
 
 
-class HeatData(eqx.Module):
-    """Heat capacities and the heat of crystallization.
+class Heat(eqx.Module):
+    """Heat balance of the contents of a vessel."""
+
+    @abstractmethod
+    def capacity(self, contents: Contents, crystals: Any) -> Any:
+        """Heat capacity of the suspension, J/K."""
+
+    @abstractmethod
+    def freed(self, old: Contents, crystals_before: Any, temperature: Any, crystals: Any) -> Any:
+        """Heat given off (J) by contents that go to a temperature while crystals form, no solvent leaving."""
+
+
+class HeatData(Heat):
+    """Constant heat capacities and heat of crystallization.
 
     Parameters
     ----------
@@ -87,8 +99,10 @@ class HeatData(eqx.Module):
     released: Any
 
     def capacity(self, contents: Contents, crystals: Any) -> Any:
-        """Heat capacity of the suspension, J/K."""
         return (contents.solute + contents.solvent - crystals) * self.liquid + crystals * self.crystal
+
+    def freed(self, old: Contents, crystals_before: Any, temperature: Any, crystals: Any) -> Any:
+        return self.capacity(old, crystals_before) * (old.temperature - temperature) + self.released * (crystals - crystals_before)
 
 
 class Jacketed(Operation):
@@ -102,7 +116,7 @@ class Jacketed(Operation):
     initial_temperature: Any
     jacket: Callable[[Any], Any]
     exchange: Any
-    heat: HeatData
+    heat: Heat
     addition: Addition = Addition()
 
     def start(self, solute: Any, solvent: Any) -> Contents:
@@ -114,7 +128,8 @@ class Jacketed(Operation):
         rate = self.exchange * span / capacity
         fall = jnp.where(rate > 1e-9, -safe_divide(jnp.expm1(-rate), rate, 1.0), 1.0)
         jacket = 0.5 * (self.jacket(start) + self.jacket(end))
-        gained = self.exchange * span * (jacket - old.temperature) + self.heat.released * (crystals - crystals_before)
+        released = self.heat.freed(old, crystals_before, old.temperature, crystals)
+        gained = self.exchange * span * (jacket - old.temperature) + released
         return Contents(old.temperature + gained * fall / capacity, *self.addition.applied(old, start, end))
 
 
@@ -125,17 +140,20 @@ class Flashing(Operation):
     ----------
     temperature: K as a function of time, the boiling point of the solution at the pressure of that time.
     heat_of_vaporization: J/kg as a function of temperature.
+    initial_temperature: of the charge, which flashes down to the program in the first step, K; None where it starts there.
     """
 
     temperature: Callable[[Any], Any]
     heat_of_vaporization: Callable[[Any], Any]
-    heat: HeatData
+    heat: Heat
+    initial_temperature: Any = None
 
     def start(self, solute: Any, solvent: Any) -> Contents:
-        return Contents(jnp.asarray(self.temperature(0.0), dtype=float), solute, solvent, jnp.zeros(()))
+        T = self.temperature(0.0) if self.initial_temperature is None else self.initial_temperature
+        return Contents(jnp.asarray(T, dtype=float), solute, solvent, jnp.zeros(()))
 
     def step(self, old: Contents, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Contents:
         T = self.temperature(end)
-        freed = self.heat.capacity(old, crystals_before) * (old.temperature - T) + self.heat.released * (crystals - crystals_before)
+        freed = self.heat.freed(old, crystals_before, T, crystals)
         flashed = freed / self.heat_of_vaporization(0.5 * (old.temperature + T))
         return Contents(T, old.solute, old.solvent - flashed, old.antisolvent)

@@ -14,11 +14,13 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.smooth import safe_divide
 
+FACTORS = 9  # growth rates that stand for a distribution of them
 HIGHEST = 4  # order of the highest moment carried: D[4,3] over time
 
 
@@ -66,6 +68,48 @@ class ShiftedMoments(Population):
 
     def kept(self, share: Any) -> ShiftedMoments:
         return ShiftedMoments(self.values * share)
+
+
+class GrowthDispersion(eqx.Module):
+    """Crystals that grow at rates of their own, constant multiples of the mean rate: log-normal with a coefficient of variation."""
+
+    variation: Any
+
+    def factors(self) -> tuple[np.ndarray, Any]:
+        """Shares of the crystals (Gauss–Hermite) and their multiples of the mean growth rate."""
+        x, w = np.polynomial.hermite_e.hermegauss(FACTORS)
+        square = jnp.log1p(jnp.asarray(self.variation, dtype=float) ** 2)
+        return w / w.sum(), jnp.exp(jnp.sqrt(square) * x - 0.5 * square)
+
+
+class DispersedMoments(Population):
+    """Moments of crystals sorted by their own growth rate: one row of moments 0 to 4 for each multiple of the mean rate."""
+
+    values: Any
+    factors: Any
+    shares: Any
+
+    @classmethod
+    def of(cls, moments: Any, dispersion: GrowthDispersion) -> DispersedMoments:
+        """Seeds of every size share out alike between the rates."""
+        shares, factors = dispersion.factors()
+        return cls(shares[:, None] * moments[None, :], factors, jnp.asarray(shares))
+
+    def moments(self) -> Any:
+        return jnp.sum(self.values, axis=0)
+
+    def cubes_after(self, path: Any) -> Any:
+        m, d = self.values, path * self.factors
+        return jnp.sum(m[:, 3] + d * (3.0 * m[:, 2] + d * (3.0 * m[:, 1] + d * m[:, 0])))
+
+    def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> DispersedMoments:
+        d = path * self.factors
+        shifted = [sum(comb(k, j) * d ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in range(HIGHEST + 1)]
+        fresh = [self.shares * mean_power(nucleus_size, nucleus_size + d, k) for k in range(HIGHEST + 1)]
+        return DispersedMoments(jnp.stack(shifted, axis=1) + born * jnp.stack(fresh, axis=1), self.factors, self.shares)
+
+    def kept(self, share: Any) -> DispersedMoments:
+        return DispersedMoments(self.values * share, self.factors, self.shares)
 
 
 class SizeMap(eqx.Module):

@@ -1,4 +1,4 @@
-"""A cooling batch from charge to product, with the error of the time steps estimated by halving them."""
+"""A batch from charge to product at a programmed temperature, with the error of the time steps estimated by halving them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import procedure
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
     Density,
@@ -26,12 +26,16 @@ from granum.core.kinds import (
     Time,
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.population.grid import Collisions, check_classes
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Addition, Programmed
-from granum.crystallization.population.packets import Seeds
+from granum.crystallization.population.operations import Addition, Operation, Programmed
+from granum.crystallization.population.packets import GrowthDispersion, Seeds
 from granum.crystallization.vessels.crystals import Crystal
+from granum.numerics.smooth import safe_divide
 
 SEED_PACKETS = 16
+LARGEST, EMPTY_CLASSES = 15.0, 40  # agglomerates up to so many times the largest seed, in so many classes
+BUSIEST = 0.5  # share of the crystals that may meet another in half a step
 
 
 class BatchCourse(NamedTuple):
@@ -66,22 +70,42 @@ def _parabola(x: Any) -> Any:
     return x - x**3 / 3.0
 
 
-def halved(run: Any, duration: Any, steps: int) -> tuple[Course, Any]:
-    """A run and the relative error of its crystal mass, number and size, by comparison with half the steps (second order).
+def with_room(seeds: Seeds) -> Seeds:
+    """Seeds with empty classes above them for agglomerates."""
+    above = seeds.high[-1] * jnp.geomspace(1.0, LARGEST, EMPTY_CLASSES + 1)
+    return Seeds(jnp.append(seeds.low, above[:-1]), jnp.append(seeds.high, above[1:]), jnp.append(seeds.number, jnp.zeros(EMPTY_CLASSES)))
 
-    The coarse run takes every second step with zero length, so that both are one compiled program.
+
+def simulated(model: Model, operation: Operation, seeds: Seeds, ratio: Any, duration: Any, steps: int,
+              collisions: Collisions | None = None) -> tuple[Course, float]:  # fmt: skip
+    """A batch of one kg of solvent, and the relative error of its crystal mass, number and size by comparison with half the steps.
+
+    The coarse run takes every second step with zero length, so that both are one compiled program (second order).
     """
     steps += steps % 2
     times = jnp.linspace(0.0, duration, steps + 1)
     index = np.arange(steps + 1)
-    fine, coarse = run(times), run(times[index + index % 2])
+    fine, coarse = (march(model, operation, seeds, ratio, 1.0, t, collisions) for t in (times, times[index + index % 2]))
 
     def figures(course: Course) -> Any:
         m = course.moments[-1]
-        return jnp.stack([m[3], m[0], jnp.where(m[2] > 0, m[3] / jnp.where(m[2] > 0, m[2], 1.0), 0.0)])
+        return jnp.stack([m[3], m[0], safe_divide(m[3], m[2])])
 
     a, b = figures(fine), figures(coarse)
-    return fine, jnp.max(jnp.abs(a - b) / jnp.maximum(jnp.abs(a), 1e-300)) / 3.0
+    return fine, float(jnp.max(jnp.abs(a - b) / jnp.maximum(jnp.abs(a), 1e-300)) / 3.0)
+
+
+def nuclei_share(course: Course, seeds: Seeds) -> float:
+    """Mass share of the crystals that were born in the batch."""
+    cubes = course.final.number * _cubes(course.final)
+    per_rate = cubes.reshape((-1, seeds.low.shape[0] + course.born.shape[0]))  # one row of packets for each growth rate
+    return float(1.0 - jnp.sum(per_rate[:, : seeds.low.shape[0]]) / jnp.maximum(jnp.sum(cubes), 1e-300))
+
+
+def mass_mean(course: Course) -> float:
+    """D[4,3] at the end; zero without crystals."""
+    m = course.moments[-1]
+    return float(safe_divide(m[4], m[3]))
 
 
 @procedure(
@@ -106,13 +130,15 @@ def batch(
     dissolution: Annotated[Any, Law("dissolution_rate")] | None = None,
     evaporation_program: Annotated[Any, Law("program")] | None = None,
     antisolvent_program: Annotated[Any, Law("program")] | None = None,
+    growth_dispersion: Ratio = 0.0,
     steps: int = 400,
 ) -> BatchCourse:
     """Concentration, temperature and crystals of a cooling batch over time, with its product and the error of the time steps.
 
     Seeds are a sieve cut of given mean size and width. Solute and crystals are conserved to rounding whatever the number of steps; the
     error of the rest is estimated by halving them. Without a dissolution law, crystals keep in an undersaturated solution. Programs of the mass
-    evaporated and of the antisolvent added, per kg of solvent charged, make it an evaporative or antisolvent batch.
+    evaporated and of the antisolvent added, per kg of solvent charged, make it an evaporative or antisolvent batch. ``growth_dispersion`` is the
+    coefficient of variation of the growth rate between crystals.
 
     >>> out = batch(solute_per_solvent=0.492990, solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
     ...     growth={"law": "power_law_growth", "growth_coefficient": 1.161167e-4, "growth_order": 1.32}, duration="80 min",
@@ -121,25 +147,102 @@ def batch(
     >>> round(float(out.solute_per_solvent[-1] + out.crystals_per_solvent[-1]), 6)
     0.49349
     """
-    _check(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program)
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program(0.0))
+    if growth_dispersion > 0 and dissolution is not None:
+        raise ApplicabilityError(
+            _("Crystals that grow at rates of their own are followed only while they grow: leave out the dissolution or the dispersion.")
+        )
     crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
-    model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density), dissolution)
+    model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density), dissolution,
+                  dispersion=GrowthDispersion(growth_dispersion) if growth_dispersion > 0 else None)  # fmt: skip
     seeds = narrow_seeds(seed_size, seed_width, seed_mass_per_solvent, crystal.mass_per_cube)
     addition = Addition(evaporated=evaporation_program, antisolvent=antisolvent_program)
-
-    def run(times: Any) -> Course:
-        return march(model, Programmed(temperature_program, addition), seeds, solute_per_solvent, 1.0, times)
-
-    course, error = halved(run, duration, steps)
-    final = course.final
-    grown_seed = jnp.sum(final.number[:SEED_PACKETS] * _cubes(final)[:SEED_PACKETS]) * crystal.mass_per_cube
-    all_crystals = course.crystals[-1]
-    fed = solute_per_solvent
+    course, error = simulated(model, Programmed(temperature_program, addition), seeds, solute_per_solvent, duration, steps)
     return BatchCourse(
         course.time, course.temperature, course.solute_per_solvent, course.solubility_per_solvent,
         course.solute_per_solvent / course.solubility_per_solvent - 1.0, course.crystals, course.moments[:, 0], course.growth_rate,
-        float(final.mean_size(4, 3)), float(median_size(final)), float(1.0 - grown_seed / jnp.maximum(all_crystals, 1e-300)),
-        float(solute_fraction_of_crystal * (all_crystals - course.crystals[0]) / fed), float(error),
+        mass_mean(course), float(median_size(course.final)), nuclei_share(course, seeds),
+        yield_of(course, solute_per_solvent, solute_fraction_of_crystal), error,
+    )  # fmt: skip
+
+
+def yield_of(course: Course, ratio: Any, solute_fraction: Any) -> float:
+    """Solute crystallized over solute charged."""
+    return float(solute_fraction * (course.crystals[-1] - course.crystals[0]) / ratio)
+
+
+class AgglomeratingCourse(NamedTuple):
+    """A batch in which crystals agglomerate or break, per kg of solvent charged, with its product."""
+
+    time: Annotated[Time, Series("points")]
+    temperature: Annotated[Temperature, Series("points")]
+    solute_per_solvent: Annotated[MassRatio, Series("points")]
+    relative_supersaturation: Annotated[Number, Series("points")]
+    crystals_per_solvent: Annotated[MassRatio, Series("points")]
+    crystals_number: Annotated[Ratio, Series("points")]
+    class_edges: Annotated[Distance, Series("edges")]
+    class_fractions: Annotated[Fraction, Series("classes")]
+    mean_diameter: Length
+    mass_median_size: Length
+    yield_fraction: Ratio
+    step_error: Ratio
+
+
+@procedure(
+    source="kumar2006; mullin2001, ch. 7",
+    title="Batch with agglomeration and breakage",
+    typical={"duration": (3600.0, 7200.0)},
+)
+def agglomerating_batch(
+    solute_per_solvent: MassRatio,
+    solubility: Annotated[Any, Law("solubility_law")],
+    growth: Annotated[Any, Law("growth_rate")],
+    temperature_program: Annotated[Any, Law("program")],
+    duration: Time,
+    crystal_density: Density,
+    agglomeration_kernel: Annotated[Any, Law("agglomeration_kernel")] | None = None,
+    breakage_law: Annotated[Any, Law("breakage_law")] | None = None,
+    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    seed_mass_per_solvent: MassRatio = 0.0,
+    seed_size: Length = 100e-6,
+    seed_width: Distance = 10e-6,
+    volume_shape_factor: PositiveNumber = 1.0,
+    solute_fraction_of_crystal: Fraction = 1.0,
+    liquid_density: Density = 1000.0,
+    steps: int = 400,
+) -> AgglomeratingCourse:
+    """A cooling batch whose crystals grow, are born, agglomerate and break, followed in size classes that move with the growth.
+
+    Agglomerates count as crystals of their volume. Growth is exact, so that the number of steps must only resolve the collisions; the error
+    is estimated by halving them.
+
+    >>> out = agglomerating_batch(solute_per_solvent=0.492990, solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    ...     growth={"law": "power_law_growth", "growth_coefficient": 1.161167e-4, "growth_order": 1.32}, duration="80 min",
+    ...     temperature_program={"law": "power_cooling", "temperature_start": 305.15, "temperature_end": 301.15, "duration": "80 min"},
+    ...     agglomeration_kernel={"law": "constant_kernel", "agglomeration_coefficient": 1e-12}, crystal_density=2110, seed_mass_per_solvent=0.0005,
+    ...     seed_width="20 um", steps=50)
+    >>> bool(out.crystals_number[-1] < out.crystals_number[0])
+    True
+    """
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program(0.0))
+    crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
+    model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density))
+    seeds = narrow_seeds(seed_size, jnp.maximum(seed_width, 1e-3 * seed_size), seed_mass_per_solvent, crystal.mass_per_cube)
+    room = with_room(seeds)
+    check_classes(model, room)
+    course, error = simulated(
+        model, Programmed(temperature_program), room, solute_per_solvent, duration, steps, Collisions(agglomeration_kernel, breakage_law)
+    )
+    busiest = float(jnp.max(course.collided))
+    if busiest > BUSIEST:
+        raise InputError(_("{share} % of the crystals collide within one time step: give at least {steps} steps, or check the unit of the kernel.").format(
+            share=round(200 * busiest), steps=int(np.ceil(steps * busiest / BUSIEST / 100) * 100)), name="steps")  # fmt: skip
+    edges = np.geomspace(1e-6, float(course.final.high[-1]), 61)
+    cubes = np.asarray(course.final.in_classes(edges))
+    return AgglomeratingCourse(
+        course.time, course.temperature, course.solute_per_solvent, course.solute_per_solvent / course.solubility_per_solvent - 1.0,
+        course.crystals, course.moments[:, 0], edges, cubes / max(cubes.sum(), 1e-300), mass_mean(course), float(median_size(course.final)),
+        yield_of(course, solute_per_solvent, solute_fraction_of_crystal), error,
     )  # fmt: skip
 
 
@@ -156,14 +259,14 @@ def median_size(packets: Any) -> Any:
     return jnp.interp(0.5 * below[-1], below, trial)
 
 
-def _check(size: Any, width: Any, steps: int, ratio: Any, solubility: Any, program: Any) -> None:
+def check_charge(size: Any, width: Any, steps: int, ratio: Any, solubility: Any, temperature: Any) -> None:
     """What would give a result without meaning."""
     if width >= 2.0 * size:
         raise InputError(_("Seeds of {size} µm cannot be {width} µm wide: the width must be below twice the size.").format(
             size=round(size * 1e6, 3), width=round(width * 1e6, 3)), name="seed_width")  # fmt: skip
     if steps < 2:
         raise InputError(_("'steps' = {value} is too few; give at least 2.").format(value=steps), name="steps")
-    saturated = float(np.asarray(solubility(program(0.0))))
+    saturated = float(np.asarray(solubility(temperature)))
     if not np.isfinite(saturated) or saturated <= 0:
         raise InputError(_("The solubility at the start, {value}, is not a positive number: is the temperature within its data?").format(
             value=saturated), name="solubility")  # fmt: skip

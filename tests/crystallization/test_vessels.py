@@ -1,0 +1,252 @@
+"""Jacketed and vacuum batches, tubes, vessels over time and growth dispersion: against SciPy, closed forms and each other."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from tests.crystallization.cases import B_ORDER, DENSITY, DURATION, G_ORDER, KB, KG, START, linear_cooling, model, seeds
+from tests.crystallization.test_batch import Constant, ConstantBirths
+from tests.crystallization.test_recipes import GROWTH, NUCLEATION, SEEDED, SOLUBILITY, mixture
+
+from granum.core.errors import ApplicabilityError, CaseError, InputError
+from granum.crystallization.equipment.batch import (
+    BatchCrystallizer,
+    JacketedBatchCrystallizer,
+    PlugFlowCrystallizer,
+    VacuumBatchCrystallizer,
+)
+from granum.crystallization.formulas.encrustation import temperature_difference_encrustation, wall_temperature_jacket
+from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling, TemperaturePoints
+from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
+from granum.crystallization.population.lagrangian import Model, SolventVolume, SuspensionVolume, march
+from granum.crystallization.population.operations import Programmed
+from granum.crystallization.population.packets import GrowthDispersion, Seeds
+from granum.crystallization.vessels.batch import agglomerating_batch, batch
+from granum.crystallization.vessels.crystals import Crystal
+from granum.crystallization.vessels.driven import jacketed_batch, vacuum_batch
+from granum.crystallization.vessels.dynamic import Inflow, SteadyFeed, march_cascade, msmpr_over_time
+from granum.crystallization.vessels.msmpr import Feed, steady_msmpr
+from granum.streams.audit import closure
+from granum.streams.mixture import Mixture
+from granum.streams.stream import empty
+
+LAWS = {"solubility": SOLUBILITY, "growth": GROWTH, "nucleation": NUCLEATION}
+
+
+def saturated(T):
+    t = T - 273.15
+    return 0.1286 + 5.88e-3 * t + 1.721e-4 * t * t
+
+
+def test_jacketed_batch_against_scipy():
+    """Moments, solute and temperature together by LSODA, written apart from the package: m cp dT = UA (Tj - T) dt + q dm."""
+    m0 = np.asarray(seeds().moments())
+    UA, cl, cc, q = 500.0 * 0.25 / 18.0, 3800.0, 920.0, 44.5e3
+
+    def jacket(t):
+        return 300.15 + 5.0 * np.exp(-t / 1800.0)
+
+    def rates(t, y):
+        m, T = y[:5] * m0, y[5]
+        crystals = DENSITY * m[3]
+        c = START + DENSITY * m0[3] - crystals
+        S = max(c / saturated(T) - 1, 0.0)
+        G, B = KG * S**G_ORDER, KB * S**B_ORDER * crystals
+        volume = (1.0 + c) / 1000.0 + crystals / DENSITY
+        dm = np.array([B * volume / volume, *(k * G * m[k - 1] for k in range(1, 5))])
+        heat = UA * (jacket(t) - T) + q * DENSITY * dm[3]
+        return [*(dm / m0), heat / ((1.0 + c) * cl + crystals * cc)]
+
+    exact = solve_ivp(rates, (0, DURATION), [1.0] * 5 + [305.15], method="LSODA", rtol=1e-10, atol=1e-12).y[:, -1]
+    out = jacketed_batch(
+        **SEEDED, jacket_program=NaturalCooling(305.15, 300.15, 1800.0), temperature_start=305.15, solvent_mass=18.0, area=0.25,
+        heat_transfer_coefficient=500.0, specific_heat_capacity=cl, specific_heat_capacity_crystal=cc, heat_released_per_crystal=q,
+    )  # fmt: skip
+    assert out.temperature[-1] == pytest.approx(exact[5], abs=2e-3)
+    assert out.mean_diameter == pytest.approx(exact[4] * m0[4] / (exact[3] * m0[3]), rel=2e-3)
+    assert out.crystals_per_solvent[-1] == pytest.approx(DENSITY * exact[3] * m0[3], rel=5e-4)
+    # The wall: half of the difference in the inner film (500 of 1000 W/m2K).
+    np.testing.assert_allclose(out.wall_temperature, 0.5 * (out.temperature + out.jacket_temperature), rtol=1e-12)
+    assert 0.0 < out.undercooling_wall_maximum < out.temperature_difference_maximum
+
+
+def test_wall_and_allowed_jacket_difference():
+    """In series: U (T - Tj) = hi (T - Tw); a bulk at the metastable limit allows no difference at all."""
+    T_w = wall_temperature_jacket(310.0, 290.0, 300.0, 900.0)
+    assert pytest.approx(900.0 * (310.0 - T_w)) == 300.0 * 20.0
+    allowed = temperature_difference_encrustation(6.0, 300.0, 900.0, 1.0)
+    assert 310.0 - wall_temperature_jacket(310.0, 310.0 - allowed, 300.0, 900.0) == pytest.approx(5.0)
+    assert temperature_difference_encrustation(6.0, 300.0, 900.0, 6.0) == 0.0
+
+
+def test_vacuum_batch_pays_its_vapor_from_its_heat():
+    program = PowerCooling(305.15, 301.15, DURATION)
+    out = vacuum_batch(**SEEDED, temperature_program=program, specific_heat_capacity=3800.0, heat_released_per_crystal=44.5e3,
+                       heat_of_vaporization=2.43e6)  # fmt: skip
+    made = out.crystals_per_solvent[-1] - out.crystals_per_solvent[0]
+    freed = 3800.0 * (START + 1.0) * 4.0 + 44.5e3 * made
+    assert float(out.evaporated_fraction[-1]) == pytest.approx(float(freed) / 2.43e6, rel=0.03)  # the capacity falls as crystals form
+    assert np.all(np.diff(out.evaporated_fraction) >= 0)
+    cooled = batch(**SEEDED, temperature_program=program)
+    assert out.yield_fraction > cooled.yield_fraction
+
+
+FEED = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))
+UNITS = {
+    "jacketed": lambda: JacketedBatchCrystallizer(NaturalCooling(333.15, 288.15, 5400.0), 14400.0, 5.0, 12.0, 600.0, seed_mass_per_solvent=0.01, **LAWS),
+    "vacuum": lambda: VacuumBatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, **LAWS),
+    "tube": lambda: PlugFlowCrystallizer(PowerCooling(333.15, 293.15, 7200.0, 2.0), 12.0, **LAWS),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", sorted(UNITS))
+def test_equipment_closes_its_balances(kind):
+    unit = UNITS[kind]()
+    out = unit(feed=FEED)
+    streams = [s for s in (out.product, getattr(out, "vapor", None)) if s is not None]
+    found = closure([FEED], streams, out.heat_duty)
+    assert float(found.mass) < 1e-12
+    assert float(found.energy) < 1e-12
+    figures, checks = unit.results({"feed": FEED}, out), {c.name: c for c in unit.checks({"feed": FEED}, out)}
+    if kind == "jacketed":
+        # 17 K to the jacket with h/U = 5/3: the wall is 10 K colder than the suspension, too much for a zone of 5 K.
+        assert not checks["undercooling at the cooled wall"].ok
+        assert float(figures.undercooling_wall_maximum) == pytest.approx(0.6 * float(figures.temperature_difference_maximum), abs=1.5)
+    if kind == "vacuum":
+        # Adiabatic: the duty is a small fraction of the heat that the vapor takes, which the flash balance predicts.
+        latent = 2.4e6 * float(figures.evaporation)
+        assert abs(float(out.heat_duty)) < 1e-3 * latent
+        assert 293.15 < float(out.vapor.temperature) < 333.15
+    if kind == "tube":
+        assert float(figures.residence_time) == pytest.approx(12.0 / float(FEED.slurry_volume_flow))
+
+
+def test_tube_does_to_its_feed_what_the_batch_does():
+    tube = UNITS["tube"]()
+    T = tube._time(FEED)
+    vessel = BatchCrystallizer(tube.temperature_program, float(T), **LAWS)
+    np.testing.assert_allclose(tube(feed=FEED).product.solid, vessel(feed=FEED).product.solid, rtol=1e-10, atol=1e-15)
+
+
+def test_vacuum_needs_a_vapor():
+    dry = Mixture(mixture().solids, mixture().liquids, (), mixture().size_edges)
+    with pytest.raises(CaseError, match="vapor"):
+        UNITS["vacuum"]()(feed=empty(dry, 333.15).replace(liquid=jnp.array([1.0, 1.0])))
+
+
+class Liquor(eqx.Module):
+    def __call__(self, solute, solvent):
+        return (solute + solvent) / 1000.0
+
+
+VESSELS = {"solute_per_solvent": 0.5, "solvent_flow": 1.0, "crystal_density": DENSITY, "seed_mass_per_solvent_start": 1e-3, **LAWS}
+
+
+def test_start_up_ends_in_the_steady_state():
+    rates = model()
+    steady = steady_msmpr(Feed(0.5, 1.0, jnp.zeros(40)), 293.15, 5.0, rates.solubility, rates.growth, rates.nucleation, Crystal(DENSITY), Liquor(),
+                          jnp.linspace(0.0, 4e-3, 41))  # fmt: skip
+    out = msmpr_over_time(**VESSELS, volumes=[5.0], temperatures=[293.15], duration="20 hour", steps=1000)
+    assert float(out.solute_per_solvent[-1]) == pytest.approx(float(steady.solute_per_solvent), rel=1e-5)
+    assert float(out.magma_density[-1]) == pytest.approx(float(steady.magma_density), rel=1e-5)
+    assert float(out.mean_diameter[-1]) == pytest.approx(4.0 * float(steady.length), rel=2e-4)  # D[4,3] of an exponential number density
+    assert out.step_error < 0.05
+
+
+def test_start_up_against_scipy():
+    """Moments and solute of one vessel of constant volume by LSODA, at 2.5 h, with the same start."""
+    c0, V, L0 = float(saturated(293.15)), 5.0, 1e-4
+    volume = (1 + c0) / 1000 + 1e-3 / DENSITY
+    m = np.array([1e-3 / (DENSITY * L0**3) * L0**k for k in range(5)]) / volume * V
+    unit = L0 ** np.arange(5) * 1e6
+
+    def rates(t, y):
+        m, s, w = y[:5] * unit, y[5], y[6]
+        S, held = max(s / w / c0 - 1, 0.0), (s + w) / 1000 + m[3]
+        G, B = KG * S**G_ORDER, KB * S**B_ORDER * DENSITY * m[3]
+        dm = np.array([B, *(k * G * m[k - 1] for k in range(1, 5))])
+        up = DENSITY * dm[3]
+        out = (1.5 / 1000 - up / 1000 + dm[3]) / held
+        return np.concatenate([(dm - m * out) / unit, [0.5 - up - s * out, 1.0 - w * out]])
+
+    start = np.concatenate([m / unit, [c0 / volume * V, V / volume]])
+    exact = solve_ivp(rates, (0, 9000.0), start, method="LSODA", rtol=1e-10, atol=1e-13).y[:, -1]
+    out = msmpr_over_time(**VESSELS, volumes=[V], temperatures=[293.15], duration=9000.0, steps=1000)
+    assert float(out.magma_density[-1]) == pytest.approx(DENSITY * exact[3] * unit[3] / V, rel=1e-3)
+    assert float(out.mean_diameter[-1]) == pytest.approx(exact[4] / exact[3] * L0, rel=5e-3)
+
+
+def test_cascade_conserves_and_settles_to_its_steady_stages():
+    edges = jnp.linspace(0.0, 4e-3, 1601)
+    rates = dataclasses.replace(model(), volume=SuspensionVolume(1000.0))
+    temperatures = (lambda t: 303.15 + 0.0 * t, lambda t: 293.15 + 0.0 * t)
+    inflow = SteadyFeed(Inflow(0.5, 1.0, jnp.zeros(5)))
+    start = (START / (1.5 / 1000), 1.0 / (1.5 / 1000), jnp.asarray(seeds().moments()) / (1.5 / 1000))
+    first, second = march_cascade(rates, temperatures, (2.0, 3.0), inflow, start, np.linspace(0.0, 72000.0, 1001))
+    # Matter: what came in less what left is what is there.
+    came = np.array([0.5, 1.0]) * 72.0
+    for stage, arriving in ((first, np.tile(came[None, :], (1000, 1))), (second, np.asarray(first.outflow))):
+        held = np.array([stage.solute[-1] - stage.solute[0], stage.solvent[-1] - stage.solvent[0]])
+        np.testing.assert_allclose(arriving.sum(axis=0) - np.asarray(stage.outflow).sum(axis=0), held, atol=1e-7)
+    a = steady_msmpr(
+        Feed(0.5, 1.0, jnp.zeros(1600)), 303.15, 2.0, rates.solubility, rates.growth, rates.nucleation, Crystal(DENSITY), Liquor(), edges
+    )
+    b = steady_msmpr(Feed(a.solute, a.solvent, a.crystals), 293.15, 3.0, rates.solubility, rates.growth, rates.nucleation, Crystal(DENSITY), Liquor(), edges)  # fmt: skip
+    assert float(first.crystals[-1] / first.volume[-1]) == pytest.approx(float(a.magma_density), rel=2e-4)
+    assert float(second.crystals[-1] / second.volume[-1]) == pytest.approx(float(b.magma_density), rel=2e-4)
+
+
+def test_growth_dispersion_of_seeds_and_nuclei():
+    """Constant mean rate: seeds of one size spread with the standard deviation CV G t; nuclei likewise over their ages.
+
+    E[L] = L0 + G t, Var[L] = (CV G t)^2 for the seeds; for nuclei born evenly E[L^2] = (1 + CV^2) (G t)^2 / 3.
+    """
+    G, t, cv = 1e-8, 5000.0, 0.3
+    rates = Model(
+        PolynomialSolubility([1e-6]), Constant(G), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), dispersion=GrowthDispersion(cv)
+    )
+    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.of_one_size(1e-4, 1e-3, 1000.0), 0.5, 1000.0, jnp.linspace(0, t, 11))
+    m = np.asarray(found.moments[-1])
+    assert m[1] / m[0] == pytest.approx(1e-4 + G * t, rel=1e-8)
+    assert np.sqrt(m[2] / m[0] - (m[1] / m[0]) ** 2) == pytest.approx(cv * G * t, rel=1e-6)
+    born = Model(
+        PolynomialSolubility([1e-6]),
+        Constant(G),
+        ConstantBirths(1e6),
+        Crystal(1000.0),
+        SolventVolume(1000.0),
+        dispersion=GrowthDispersion(cv),
+    )
+    found = march(born, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.none(), 0.5, 1000.0, jnp.linspace(0, t, 11))
+    m = np.asarray(found.moments[-1])
+    assert m[2] / m[0] == pytest.approx((1 + cv**2) * (G * t) ** 2 / 3, rel=1e-6)
+    np.testing.assert_allclose(found.final.moments(), m, rtol=1e-9)
+    with pytest.raises(ApplicabilityError, match="dispersion"):
+        batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION), growth_dispersion=0.2,
+              dissolution={"law": "power_law_dissolution", "dissolution_coefficient": 1e-5})  # fmt: skip
+
+
+def test_dispersion_of_zero_is_none():
+    times = jnp.linspace(0.0, DURATION, 201)
+    plain, same = (
+        march(model(dispersion=d), Programmed(linear_cooling), seeds(), START, 1.0, times) for d in (None, GrowthDispersion(1e-9))
+    )
+    np.testing.assert_allclose(same.moments, plain.moments, rtol=1e-7)
+
+
+def test_agglomerating_batch_asks_for_enough_steps():
+    program = TemperaturePoints([0.0, DURATION], [305.15, 301.15])
+    kernel = {"law": "constant_kernel", "agglomeration_coefficient": 3e-9}
+    with pytest.raises(InputError, match="at least"):
+        agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=kernel, steps=50)
+    plain = batch(**SEEDED, temperature_program=program, steps=100)
+    none = {**kernel, "agglomeration_coefficient": 0.0}
+    same = agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=none, steps=100)
+    assert same.mean_diameter == pytest.approx(plain.mean_diameter, rel=1e-9)
+    assert sum(same.class_fractions) == pytest.approx(1.0)
