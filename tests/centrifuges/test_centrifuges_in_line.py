@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
+from granum.centrifuges.equipment.screens import ScrollScreen, SlidingCakeScreen, TumblingScreen, VibratingScreen
 from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
+from granum.centrifuges.formulas import conveying
 from granum.core.constants import ZERO_CELSIUS
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
@@ -39,6 +41,18 @@ SETTLING = {
 COMMON = {"cake_resistance": 3e8, "void_fraction": 0.42}
 FILTERING = {
     "peeler": Peeler(radius_outer=0.6, cake_radius=0.5, radius_inner=0.47, rotation_speed="1000 rpm", basket_height=0.6, **COMMON),
+    "scroll_screen": ScrollScreen(
+        radius_outer=0.25, rotation_speed="1600 rpm", basket_length=0.4, scroll_pitch=0.08, differential_speed="25 rpm", **COMMON
+    ),
+    "sliding_screen": SlidingCakeScreen(
+        radius_outer=0.25,
+        rotation_speed="1600 rpm",
+        basket_length=0.4,
+        cone_angle="30 degree",
+        friction_angle="25 degree",
+        stay_time=8.0,
+        **COMMON,
+    ),
     "pusher": Pusher(radius_outer=0.25, cake_radius=0.21, rotation_speed="1600 rpm", basket_length=0.4, **COMMON),
 }
 
@@ -112,3 +126,35 @@ def test_gradient_of_moisture_with_speed():
     slope = float(jax.grad(moisture)(160.0))
     assert slope == pytest.approx(float((moisture(160.01) - moisture(159.99)) / 0.02), rel=1e-5)
     assert slope < 0
+
+
+def test_thin_cake_of_a_scroll_screen_by_hand():
+    # 0.4 m in pitches of 8 cm at 25 turns a minute: 12 s; the cake held is the feed of 12 s, the wall 2 π r L
+    feed, unit = stream(0.5, 0.6, 0.2), FILTERING["scroll_screen"]
+    held = 0.5 / 2100 / 0.58 * 12.0
+    assert float(unit.spin(feed).cycle_time) == pytest.approx(12.0)
+    inner = float(unit.inner_radius(feed))
+    assert np.pi * (0.25**2 - inner**2) * 0.4 == pytest.approx(held, rel=1e-9)
+    # twice the feed, twice the cake; a faster basket leaves it drier
+    double = stream(1.0, 1.2, 0.4)
+    assert 0.25**2 - float(unit.inner_radius(double)) ** 2 == pytest.approx(2 * (0.25**2 - inner**2), rel=1e-9)
+    fast = ScrollScreen(
+        radius_outer=0.25, rotation_speed="2400 rpm", basket_length=0.4, scroll_pitch=0.08, differential_speed="25 rpm", **COMMON
+    )
+    assert float(fast(feed).cake.moisture_dry_basis) < float(unit(feed).cake.moisture_dry_basis)
+
+
+def test_what_moves_a_cake_over_a_cone():
+    # resultant of ω²r and the shake at the edge of the friction cone, by components along and across a wall of 13°
+    g, f, w, r = np.radians(13.0), np.radians(25.0), 300 * np.pi / 30, 0.5
+    a = conveying.vibration_acceleration_least(w, r, g, f)
+    along, across = w**2 * r * np.sin(g) + a * np.cos(g), w**2 * r * np.cos(g) - a * np.sin(g)
+    assert along / across == pytest.approx(np.tan(f), rel=1e-12)
+    assert conveying.vibration_acceleration_least(w, r, f, g) == 0.0
+    coal = stream(5.0, 1.5, 0.0, median=3e-3)
+    cone = {"radius_outer": r, "rotation_speed": w, "basket_length": 0.6, "cone_angle": g, "friction_angle": f, **COMMON}
+    shaken = VibratingScreen(vibration_acceleration=1.2 * a, **cone)
+    weak = VibratingScreen(vibration_acceleration=0.8 * a, **cone)
+    tumbled = TumblingScreen(tumbling_angle="13 degree", **cone)
+    for unit, moves in ((shaken, True), (weak, False), (tumbled, True)):
+        assert unit.checks({"feed": coal}, unit(coal))[-1].ok is moves

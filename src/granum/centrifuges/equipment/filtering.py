@@ -83,13 +83,12 @@ class SpinFigures(NamedTuple):
 
 
 class FilteringCentrifuge(Unit):
-    """Abstract filtering centrifuge: a cylindrical cake between the basket wall and ``cake_radius``.
+    """Abstract filtering centrifuge: a cylindrical cake between the basket wall and an inner radius.
 
     The surface–volume diameter for washing and drainage is that of the solid in the feed unless given.
     """
 
     radius_outer: Length
-    cake_radius: Length
     rotation_speed: RotationSpeed
     cake_resistance: CakeResistance
     void_fraction: VoidFraction
@@ -110,15 +109,13 @@ class FilteringCentrifuge(Unit):
     def height(self) -> Any:
         """Length of the cake along the axis."""
 
-    @property
-    def cake_volume(self) -> Any:
-        """Volume of the cake ring."""
-        return jnp.pi * (self.radius_outer**2 - self.cake_radius**2) * self.height
+    @abc.abstractmethod
+    def inner_radius(self, feed: Stream) -> Any:
+        """Inner radius of the cake."""
 
-    @property
-    def thickness(self) -> Any:
+    def thickness(self, feed: Stream) -> Any:
         """Cake thickness."""
-        return self.radius_outer - self.cake_radius
+        return self.radius_outer - self.inner_radius(feed)
 
     def permeability(self, feed: Stream) -> Any:
         """Permeability of the cake from its specific resistance."""
@@ -127,7 +124,7 @@ class FilteringCentrifuge(Unit):
     def case(self, feed: Stream) -> dict[str, Any]:
         """What the spinning formulas need."""
         return {
-            "radius_outer": self.radius_outer, "cake_radius": self.cake_radius, "rotation_speed": self.rotation_speed,
+            "radius_outer": self.radius_outer, "cake_radius": self.inner_radius(feed), "rotation_speed": self.rotation_speed,
             "liquid_density": feed.liquid_density, "dynamic_viscosity": feed.liquid_viscosity,
             "cake_permeability": self.permeability(feed), "medium_resistance": self.medium_resistance,
         }  # fmt: skip
@@ -141,22 +138,22 @@ class FilteringCentrifuge(Unit):
         """Fraction of the mother liquor that washing leaves, the wash liquor passing at the critical flow."""
         if wash is None:
             return jnp.ones(())
-        face = jnp.pi * (self.radius_outer + self.cake_radius) * self.height
+        face = jnp.pi * (self.radius_outer + self.inner_radius(feed)) * self.height
         velocity = filtrate_flow_critical(basket_height=self.height, **self.case(feed)) / face / self.void_fraction
-        number = practical_number(velocity, self.thickness, solid_diameter(feed, self.particle_diameter), self.diffusivity)
+        number = practical_number(velocity, self.thickness(feed), solid_diameter(feed, self.particle_diameter), self.diffusivity)
         return remaining_fraction(self.wash_ratio(feed, wash), number)
 
     def saturation(self, feed: Stream, spin: Spin) -> Any:
         """Saturation of the cake at discharge."""
-        d, middle = solid_diameter(feed, self.particle_diameter), 0.5 * (self.radius_outer + self.cake_radius)
+        d, middle = solid_diameter(feed, self.particle_diameter), 0.5 * (self.radius_outer + self.inner_radius(feed))
         lowest = irreducible_saturation_leung(
-            d, self.void_fraction, self.thickness, middle, self.rotation_speed, feed.liquid_density, self.surface_tension
+            d, self.void_fraction, self.thickness(feed), middle, self.rotation_speed, feed.liquid_density, self.surface_tension
         )
         return cake_saturation_spinning(
             spin.drainage_time,
             d,
             self.void_fraction,
-            self.thickness,
+            self.thickness(feed),
             middle,
             self.rotation_speed,
             feed.liquid_density,
@@ -176,7 +173,7 @@ class FilteringCentrifuge(Unit):
         spin = self.spin(feed, wash)
         return SpinFigures(
             capacity_use=spin.capacity_use,
-            cake_thickness=jnp.asarray(self.thickness, dtype=float),
+            cake_thickness=jnp.asarray(self.thickness(feed), dtype=float),
             loading_time=spin.loading_time,
             wash_time=spin.wash_time,
             spin_off_time=spin.spin_off_time,
@@ -198,13 +195,27 @@ class FilteringCentrifuge(Unit):
             Check(_COARSE, solid_diameter(feed, self.particle_diameter), diameter, 1e-2, "m", source),
             Check(_RICH, feed.solids_volume_fraction, *solids, "dimensionless", source),
             Check(_EFFECT, centrifugal_effect(self.radius_outer, self.rotation_speed), *effect, "dimensionless", source),
-            Check(_LAYER, self.thickness, *layer, "m", source),
+            Check(_LAYER, self.thickness(feed), *layer, "m", source),
         )
+
+
+class SetCake(FilteringCentrifuge):
+    """Abstract filtering centrifuge whose cake is cut or pushed at a set radius."""
+
+    cake_radius: Length
+
+    def inner_radius(self, feed: Stream) -> Any:
+        return self.cake_radius
+
+    @property
+    def cake_volume(self) -> Any:
+        """Volume of the cake ring."""
+        return jnp.pi * (self.radius_outer**2 - self.cake_radius**2) * self.height
 
 
 @equipment("peeler", source="grace1953; storrow1957; richardson2002, ch. 9", title="Basket (peeler) centrifuge",
            equation=r"t_c = t_1 + t_w + t_2 + t_d + t_{mort}")  # fmt: skip
-class Peeler(FilteringCentrifuge):
+class Peeler(SetCake):
     """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun off, drained, plowed.
 
     ``radius_inner`` is the free surface while loading and washing. Several baskets share the feed in turn.
@@ -242,7 +253,7 @@ class Peeler(FilteringCentrifuge):
 
 
 @equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")
-class Pusher(FilteringCentrifuge):
+class Pusher(SetCake):
     """Continuous basket along which strokes push a cake of even thickness: it forms, is washed and drains on its way out.
 
     The stay follows from the cake that the basket holds; the feed zone must let the mother liquor through (critical flow) or floods.
