@@ -197,7 +197,7 @@ def _from_card(name: str, table: dict[str, Any], where: str) -> Quantity:
         try:
             fixed.append((key, convert(value, known[key], " " + where)))
         except GranumError as problem:
-            if not isinstance(value, str) or known[key].kind is None or value[:1] in "0123456789.+-":
+            if not isinstance(value, str) or known[key].kind is None:
                 raise
             try:
                 moving.append((key, Expression.read(value)))

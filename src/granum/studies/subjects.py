@@ -298,4 +298,3 @@ def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: M
     else:
         made = FormulaSubject.of(thing, fixed or {})
     return made.with_quantities(quantities) if quantities else made
-

@@ -1,0 +1,151 @@
+"""``granum study`` as a user types it: tables, JSON, report, restart after a kill, workers, messages."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+from granum.cases import read_studies
+from granum.cli import app
+from granum.core.errors import GranumError
+
+ROOT = Path(__file__).parents[2]
+SETTLING = ROOT / "examples" / "studies" / "settling.toml"
+
+
+def granum(*words: str) -> tuple[int, str, str]:
+    outcome = CliRunner().invoke(app, ["study", *words])
+    return outcome.exit_code, outcome.stdout, outcome.stderr
+
+
+def test_settling_example() -> None:
+    """The spread of a lognormal diameter in Stokes' range: P90/P10 of the speed is close to 1.2**(2·2·1.2816) = 2.55, less inertia."""
+    code, out, _err = granum(str(SETTLING), "--json", "--samples", "1000")
+    data = json.loads(out)["studies"]
+    assert code == 0
+    assert set(data) == {"spread", "influence", "map"}
+    speed = data["spread"]["findings"]["statistics"]["terminal_velocity"]
+    assert 2.3 < speed["p90"] / speed["p10"] < 2.55
+    assert data["influence"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"]["total"] > 0.9
+    assert data["spread"]["counts"] == {"cases": 1000, "run": 1000, "failed": 0, "reasons": {}}
+
+
+def test_tables_and_report(tmp_path) -> None:
+    report = tmp_path / "r.html"
+    code, out, _err = granum(str(SETTLING), "spread", "--samples", "200", "--report", str(report), "--out", str(tmp_path / "cases.csv"))
+    assert code == 0
+    for words in ("P10", "P90", "settling_time ≤ 10 min", "saved to"):
+        assert words in out
+    html = report.read_text()
+    assert "plotly" in html
+    assert "<h2>Settling time over 1.5 m" in html
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["cases.csv", "r.html"]  # the parts are gone
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["none.toml"], "cannot be read"),
+        ([str(SETTLING), "spred"], "Did you mean 'spread'?"),
+        ([str(SETTLING), "map", "--samples", "5"], "has no 'samples'"),
+        ([str(SETTLING), "spread", "--out", "x.dat"], ".nc, .parquet or .csv"),
+        ([str(SETTLING), "spread", "--workers", "0"], "at least 1"),
+        ([str(ROOT / "examples" / "potassium-nitrate" / "line.toml")], "declares no study"),
+    ],
+)
+def test_bad_input_gets_one_message_and_status_two(words: list[str], message: str) -> None:
+    code, _out, err = granum(*words)
+    assert code == 2
+    assert message in err
+    assert len(err.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (('kind = "monte_carlo"', 'kind = "monte_carl"'), "Did you mean 'monte_carlo'?"),
+        (("samples = 4000", "sample = 4000"), "Did you mean 'samples'?"),
+        (("samples = 4000", 'samples = "many"'), "must be a whole number"),
+        (('limits = { settling_time = { upper = "10 min" } }', "limits = 3"), "must be a table"),
+        (('upper = "10 min"', 'uper = "10 min"'), "Did you mean 'upper'?"),
+        (('card = "particles.terminal_velocity"', ""), "name the model as case"),
+        (('card = "particles.terminal_velocity"', 'case = "nothing.toml"'), "belong to a card"),
+        (('terminal_velocity", kind', 'terminal_velocitty", kind'), "Did you mean 'terminal_velocity'?"),
+        (("[uncertain]", "[uncertan]"), "Did you mean 'uncertain'?"),
+        (('distribution = "lognormal", median', 'distribution = "lognormal", meidan'), "Did you mean 'median'?"),
+        (("title =", "title = ="), "not valid TOML"),
+    ],
+)
+def test_faults_in_the_file_are_named(tmp_path, change: tuple[str, str], message: str) -> None:
+    text = SETTLING.read_text()
+    assert change[0] in text
+    (tmp_path / "s.toml").write_text(text.replace(*change))
+    with pytest.raises(GranumError) as caught:
+        read_studies(tmp_path / "s.toml")["spread"].run()
+    assert message in caught.value.message
+    assert caught.value.exit_code == 2
+
+
+def test_continues_after_a_kill(tmp_path) -> None:
+    out, parts = tmp_path / "x.nc", tmp_path / "x.nc.parts"
+    words = [sys.executable, "-m", "granum.cli", "study", str(SETTLING), "spread", "--samples", "1000000", "--out", str(out), "--json"]
+    running = subprocess.Popen(words, stdout=subprocess.DEVNULL, cwd=ROOT)
+    deadline = time.monotonic() + 120
+    while len(list(parts.glob("cases-*.npz"))) < 2 and running.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.01)
+    running.send_signal(signal.SIGKILL)
+    running.wait()
+    kept = {p.name: p.stat().st_mtime_ns for p in parts.glob("cases-*.npz")}
+    assert 0 < len(kept) < 62
+    assert not out.exists()
+    seen = []
+    study = read_studies(SETTLING)["spread"].with_options(samples=1000000)
+    found = study.run(folder=parts, progress=seen.append)
+    assert seen[0].done == len(kept) * 16384
+    assert found.complete
+    assert {n: (parts / n).stat().st_mtime_ns for n in kept} == kept  # nothing was computed again
+    assert np.isfinite(found.column("terminal_velocity")).all()
+
+
+def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
+    """The same cases on two local Dask workers, one of them killed while it works, equal those computed here."""
+    distributed = pytest.importorskip("distributed")
+    import granum.studies.engine as engine
+
+    monkeypatch.setitem(engine.CHUNKS, "batched", 256)
+    study = read_studies(SETTLING)["spread"].with_options(samples=6400)
+    here = study.run()
+    killed: list[int] = []
+    local = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50)
+    with local as cluster, distributed.Client(cluster) as client:
+        pids = client.run(os.getpid)
+
+        def progress(found) -> None:
+            if found.done and not killed:
+                killed.append(next(iter(pids.values())))
+                os.kill(killed[0], signal.SIGKILL)
+
+        there = study.run(workers=client, progress=progress)
+    assert killed
+    assert there.complete
+    assert there.counts()["failed"] == 0
+    assert np.array_equal(here.cases.x, there.cases.x)
+    assert there.cases.y == pytest.approx(here.cases.y, rel=1e-12)
+
+
+def test_netcdf_of_the_command(tmp_path) -> None:
+    code, _out, _err = granum(str(SETTLING), "spread", "--samples", "100", "--out", str(tmp_path / "x.nc"), "--seed", "3")
+    assert code == 0
+    with xr.open_dataset(tmp_path / "x.nc", engine="h5netcdf") as data:
+        assert data.sizes["case"] == 100
+        assert data["settling_time"].attrs["units"] == "s"

@@ -1,0 +1,212 @@
+"""Studies of formulas against closed forms: moments, Sobol indices, failures kept, cancelling, restart."""
+
+from __future__ import annotations
+
+import json
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum import studies
+from granum.core.errors import GranumError
+from granum.core.formulas import Formula
+from granum.core.kinds import Number
+from granum.core.registry import _declared, _families
+from granum.studies.engine import Progress
+
+
+def own_formula(function) -> Formula:
+    """A formula for these tests only, out of the registry again."""
+    made = Formula(function, source="", equation="", fitted={}, typical={}, title=function.__name__, output="ratio", family="")
+    _declared.pop(made.key)
+    _families.pop("ratio", None)
+    return made
+
+
+def ishigami(x1: Number, x2: Number, x3: Number) -> Number:
+    """Ishigami's function."""
+    return jnp.sin(x1) + 7.0 * jnp.sin(x2) ** 2 + 0.1 * x3**4 * jnp.sin(x1)
+
+
+def root(x1: Number, x2: Number) -> Number:
+    """NaN below zero."""
+    return jnp.sqrt(x1) + x2
+
+
+ISHIGAMI, ROOT = own_formula(ishigami), own_formula(root)
+CIRCLE = {name: {"distribution": "uniform", "lower": -np.pi, "upper": np.pi} for name in ("x1", "x2", "x3")}
+STOKES = "particles.terminal_velocity_stokes"
+SLURRY = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
+SPREAD = {"particle_diameter": {"distribution": "lognormal", "median": "20 um", "geometric_standard_deviation": 1.3}}
+
+
+def test_sobol_indices_of_ishigami() -> None:
+    """Closed form (Saltelli et al. 2008, ex. 2.6.6): S1 = 0.314, 0.442, 0; ST = 0.558, 0.442, 0.244."""
+    found = studies.sobol(ISHIGAMI, CIRCLE, samples=4096, seed=1)
+    rows = found.indices()["ratio"]
+    assert [rows[n]["first"] for n in CIRCLE] == pytest.approx([0.3139, 0.4424, 0.0], abs=0.02)
+    assert [rows[n]["total"] for n in CIRCLE] == pytest.approx([0.5576, 0.4424, 0.2437], abs=0.02)
+    assert found.counts() == {"cases": 4096 * 5, "run": 4096 * 5, "failed": 0, "reasons": {}}
+
+
+def test_monte_carlo_against_closed_forms() -> None:
+    """Stokes velocity goes with the square of a lognormal size: lognormal again, with twice the log deviation."""
+    median = 1650.0 * 9.80665 * (20e-6) ** 2 / (18 * 1e-3)
+    limit = median * 1.3 ** (2 * 1.2815515655446004)  # its 90 % quantile
+    found = studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=20000, limits={"terminal_velocity": {"upper": limit}})
+    row = found.findings()["statistics"]["terminal_velocity"]
+    assert (row["p50"], row["p90"]) == pytest.approx((median, limit), rel=5e-3)
+    chance = found.findings()["limits"]["terminal_velocity"]
+    assert chance["probability"] == pytest.approx(0.9, abs=3e-3)
+    assert chance["interval_95"][0] < 0.9 < chance["interval_95"][1]
+    assert found.rank_correlations()["terminal_velocity"]["particle_diameter"] == pytest.approx(1.0)
+
+
+def test_failures_are_counted_and_kept() -> None:
+    uncertain = {
+        "x1": {"distribution": "uniform", "lower": -1.0, "upper": 3.0},
+        "x2": {"distribution": "uniform", "lower": 0.0, "upper": 1.0},
+    }
+    found = studies.monte_carlo(ROOT, uncertain, samples=4000)
+    counts = found.counts()
+    assert counts["failed"] == pytest.approx(1000, abs=5)  # a quarter of a Latin hypercube lies below zero
+    assert list(counts["reasons"]) == ["result 'ratio' is not a finite number"]
+    data = found.dataset
+    assert data.sizes["case"] == 4000
+    assert np.array_equal(np.isnan(data["ratio"]), data["x1"] < 0)
+    assert set(np.unique(data["reason"][data["x1"] < 0])) == set(counts["reasons"])
+    assert found.findings()["statistics"]["ratio"]["least"] >= 0.0
+    outside = studies.monte_carlo(
+        STOKES, {"particle_diameter": {"distribution": "normal", "mean": 1e-5, "standard_deviation": 1e-5}}, fixed=SLURRY
+    )
+    assert outside.counts()["failed"] == pytest.approx(159, abs=2)  # one standard deviation below the mean: 15.9 %
+    assert list(outside.counts()["reasons"]) == ["input 'particle_diameter' outside what is possible"]
+
+
+def test_one_failed_case_discards_its_sobol_block_only() -> None:
+    uncertain = {
+        "x1": {"distribution": "uniform", "lower": -0.02, "upper": 3.0},
+        "x2": {"distribution": "uniform", "lower": 0.0, "upper": 1.0},
+    }
+    found = studies.sobol(ROOT, uncertain, samples=512)
+    assert 0 < found.findings()["blocks"] - found.findings()["blocks_used"] < 20
+    # Var √x on 0-3 is 3/2 − (2√3/3)² = 1/6, Var x2 = 1/12
+    assert found.indices()["ratio"]["x1"]["first"] == pytest.approx(2 / 3, abs=0.05)
+
+
+def test_sweep_map_scenarios() -> None:
+    line = studies.sweep(STOKES, {"particle_diameter": {"from": "1 um", "to": "100 um", "steps": 3, "spacing": "log"}}, fixed=SLURRY)
+    table = line.findings()["table"]
+    assert table["particle_diameter"] == pytest.approx([1e-6, 1e-5, 1e-4])
+    assert table["terminal_velocity"][2] / table["terminal_velocity"][0] == pytest.approx(1e4)
+    plane = studies.parameter_map(
+        ROOT, {"x1": [1.0, 4.0, -1.0], "x2": {"from": 0.0, "to": 1.0, "steps": 2}}, limits={"ratio": {"upper": 2.5}}
+    )
+    assert plane.grid("ratio")[:2] == pytest.approx(np.array([[1.0, 2.0], [2.0, 3.0]]))
+    assert plane.allowed().tolist() == [[True, True], [True, False], [False, False]]
+    sides = studies.scenarios(STOKES, {"cold": {}, "warm": {"dynamic_viscosity": "0.5 mPa*s"}}, fixed={**SLURRY, "particle_diameter": 1e-5})
+    rows = sides.findings()["scenarios"]
+    assert rows["warm"]["outputs"]["terminal_velocity"] == pytest.approx(2 * rows["cold"]["outputs"]["terminal_velocity"])
+
+
+def test_expressions_among_the_figures() -> None:
+    found = studies.sweep(
+        STOKES, {"particle_diameter": [1e-5, 2e-5]}, fixed=SLURRY, outputs=["'1 m' / terminal_velocity", "terminal_velocity"]
+    )
+    assert found.column("'1 m' / terminal_velocity") * found.column("terminal_velocity") == pytest.approx(1.0)
+
+
+def test_cancel_keeps_what_is_done(monkeypatch) -> None:
+    monkeypatch.setitem(studies.engine.CHUNKS, "batched", 64)
+    seen: list[Progress] = []
+    found = studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=640, progress=seen.append, cancel=lambda: len(seen) > 3)
+    assert not found.complete
+    assert found.counts()["run"] == seen[-1].done == 192
+    assert found.counts()["reasons"] == {"not run: the study was stopped": 448}
+    assert json.dumps(found.as_json(), allow_nan=False)
+
+
+def test_restart_from_disk(tmp_path, monkeypatch) -> None:
+    monkeypatch.setitem(studies.engine.CHUNKS, "batched", 32)
+    folder, seen = tmp_path / "parts", []
+    how = {"fixed": SLURRY, "samples": 320, "folder": folder}
+    first = studies.monte_carlo(STOKES, SPREAD, **how, progress=seen.append, cancel=lambda: len(seen) > 4)
+    assert 0 < first.counts()["run"] < 320
+    again: list[Progress] = []
+    second = studies.monte_carlo(STOKES, SPREAD, **how, progress=again.append)
+    assert again[0].done == first.counts()["run"]  # nothing is computed twice
+    assert second.complete
+    assert np.array_equal(second.cases.y, studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=320).cases.y)
+    with pytest.raises(GranumError, match="another study"):
+        studies.monte_carlo(STOKES, SPREAD, **{**how, "samples": 400})
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "letter.txt").write_text("dear")
+    with pytest.raises(GranumError, match="holds no study"):
+        studies.monte_carlo(STOKES, SPREAD, **{**how, "folder": tmp_path / "mine"})
+
+
+def test_files(tmp_path) -> None:
+    import pandas as pd
+    import xarray as xr
+
+    found = studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=50, title="Spread")
+    found.to_netcdf(tmp_path / "a.nc")
+    with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as data:
+        assert data["terminal_velocity"].attrs["units"] == "m/s"
+        assert data.attrs["title"] == "Spread"
+        assert np.array_equal(data["terminal_velocity"], found.column("terminal_velocity"))
+    found.save(tmp_path / "a.csv")
+    assert list(pd.read_csv(tmp_path / "a.csv"))[1:3] == ["particle_diameter [m]", "terminal_velocity [m/s]"]
+    with pytest.raises(GranumError, match=r"\.nc, \.parquet or \.csv"):
+        found.save(tmp_path / "a.dat")
+    with pytest.raises(GranumError, match="no folder"):
+        found.save(tmp_path / "none" / "a.nc")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.csv", "a.nc"]
+
+
+@pytest.mark.parametrize("kind", ["charts", "json"])
+def test_every_outcome_draws_and_serializes(kind: str) -> None:
+    fixed = {**SLURRY, "particle_diameter": 1e-5}
+    two = {"particle_diameter": ("1 um", "50 um"), "dynamic_viscosity": (5e-4, 2e-3)}
+    made = [
+        studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=64, limits={"terminal_velocity": {"lower": 0.0}}),
+        studies.sobol(ISHIGAMI, CIRCLE, samples=16),
+        studies.sweep(STOKES, {"particle_diameter": [1e-5, 2e-5]}, fixed=SLURRY),
+        studies.parameter_map(STOKES, {k: {"from": a, "to": b, "steps": 4} for k, (a, b) in two.items()}, fixed=fixed),
+        studies.scenarios(STOKES, {"one": {}, "two": {"particle_diameter": 2e-5}}, fixed=fixed),
+        studies.optimize(STOKES, two, maximize="terminal_velocity", fixed=fixed, starts=1),
+    ]
+    for outcome in made:
+        if kind == "json":
+            assert json.dumps(outcome.as_json(cases=5), allow_nan=False)
+        else:
+            assert all(len(f.data) for f in outcome.charts().values())
+
+
+@pytest.mark.parametrize(
+    ("run", "message"),
+    [
+        (lambda: studies.monte_carlo("particles.terminal_velocity_stoks", {}), "Did you mean"),
+        (lambda: studies.monte_carlo(STOKES, {}, fixed=SLURRY), "No input is uncertain"),
+        (lambda: studies.monte_carlo(STOKES, {"particle_diametre": {}}, fixed=SLURRY), "Did you mean 'particle_diameter'"),
+        (lambda: studies.monte_carlo(STOKES, SPREAD), "needs"),
+        (lambda: studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=0), "whole number from 1"),
+        (lambda: studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, method="lhs"), "Sampling method"),
+        (lambda: studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, outputs=["terminal_velocty"]), "Did you mean 'terminal_velocity'"),
+        (
+            lambda: studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, limits={"terminal_velocity": {"upper": "3 kg"}}),
+            "unit 'kg' does not fit",
+        ),
+        (lambda: studies.sweep(STOKES, {"particle_diameter": {"from": 0.0, "to": 1e-5, "spacing": "log"}}, fixed=SLURRY), "greater than 0"),
+        (lambda: studies.sweep(STOKES, {"particle_diameter": {"from": 1e-6}}, fixed=SLURRY), "'to' is missing"),
+        (lambda: studies.parameter_map(STOKES, {"particle_diameter": [1e-6]}, fixed=SLURRY), "two inputs"),
+        (lambda: studies.scenarios(STOKES, {"a": {}}, fixed=SLURRY), "change nothing"),
+        (lambda: studies.sobol("filtration.leaf_test", {}), "a study takes a formula"),
+    ],
+)
+def test_bad_input_gets_one_clear_message(run, message: str) -> None:
+    with pytest.raises(GranumError) as caught:
+        run()
+    assert message in caught.value.message
+    assert caught.value.exit_code == 2

@@ -1,0 +1,129 @@
+"""Studies of a small line with a recycle whose balance is known: fresh feed F, share s leaves, so F/s goes round."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import granum as gr
+from granum import studies
+from granum.cases import read_studies, studies_of_line
+from granum.core.errors import GranumError
+from granum.studies.lines import LineSubject
+
+CASE = Path(__file__).with_name("small.toml")
+
+
+@pytest.fixture(scope="module")
+def line():
+    return gr.read(CASE)
+
+
+def test_recycle_by_hand_and_a_case_without_solution(line) -> None:
+    """With s = 0 nothing leaves: that case fails, says why and is kept."""
+    found = studies.sweep(
+        line, {"divide.side_fraction": [0.2, 0.5, 1.0, 0.0]}, outputs=["hot.mass_flow", "warm.heat_duty", "out.liquid.water"]
+    )
+    assert found.column("hot.mass_flow")[:3] == pytest.approx([5.0, 2.0, 1.0], rel=1e-9)
+    assert found.column("warm.heat_duty")[:3] == pytest.approx([found.column("warm.heat_duty")[0]] * 3, rel=1e-9)  # the loop keeps its heat
+    assert found.column("out.liquid.water")[:3] == pytest.approx([0.9] * 3)
+    assert found.counts()["reasons"] == {"a loop did not converge": 1}
+    assert np.isnan(found.column("hot.mass_flow")[3])
+
+
+def test_feeds_as_inputs(line) -> None:
+    """Flows and shares of feeds: salt at 20 % and 3 kg/s, twice as hot a product needs twice the heat."""
+    cases = {
+        "base": {},
+        "salty": {"fresh.liquid.sodium chloride": "20 %", "fresh.mass_flow": "3 kg/s"},
+        "cool": {"warm.temperature": "40 degC"},
+    }
+    rows = studies.scenarios(line, cases, outputs=["out.liquid.water", "out.mass_flow", "warm.heat_duty"]).findings()["scenarios"]
+    assert rows["salty"]["outputs"]["out.liquid.water"] == pytest.approx(0.8)
+    assert rows["salty"]["outputs"]["out.mass_flow"] == pytest.approx(3.0)
+    assert rows["cool"]["outputs"]["warm.heat_duty"] == pytest.approx(rows["base"]["outputs"]["warm.heat_duty"] / 2, rel=0.01)
+
+
+def test_optimum_through_the_recycle(line) -> None:
+    """The smallest share that keeps the loop below 8 kg/s is 1/8; its price is d(s)/d(limit) = −1/64."""
+    found = studies.optimize(line, {"divide.side_fraction": (0.05, 0.9)}, minimize="divide.side_fraction", limits={"hot.mass_flow": {"upper": 8.0}},
+                             starts=1)  # fmt: skip
+    assert found.values["divide.side_fraction"] == pytest.approx(0.125, rel=1e-6)
+    assert found.prices["hot.mass_flow upper"] == pytest.approx(-1 / 64, rel=1e-3)
+
+
+def test_studies_declared_for_a_line(line) -> None:
+    table = {"spread": {"kind": "monte_carlo", "samples": 50, "outputs": ["hot.mass_flow"]}}
+    doubt = {"divide.side_fraction": {"distribution": "uniform", "lower": 0.2, "upper": 0.3}}
+    found = studies_of_line(line, table, doubt)["spread"].run()
+    assert found.findings()["statistics"]["hot.mass_flow"]["mean"] == pytest.approx(np.log(1.5) / 0.1, rel=1e-3)  # mean of 1/s
+    assert found.counts()["failed"] == 0
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("wram.temperature", "Did you mean 'warm'?"),
+        ("warm.temprature", "Did you mean 'temperature'?"),
+        ("fresh.solid_flow", "carries no solid"),
+        ("fresh.liquid.watter", "Did you mean 'liquid.water'?"),
+        ("warm.temperature[1]", "leave out the index"),
+    ],
+)
+def test_unknown_inputs_suggest(line, path: str, message: str) -> None:
+    with pytest.raises(GranumError) as caught:
+        LineSubject.of(line).input(path)
+    assert message in caught.value.message
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [("warm.heat_dty", "Did you mean 'heat_duty'?"), ("out.mass_flw", "Did you mean 'mass_flow'?"), ("nothing", "is not known")],
+)
+def test_unknown_figures_suggest(line, path: str, message: str) -> None:
+    with pytest.raises(GranumError) as caught:
+        LineSubject.of(line).output(path)
+    assert message in caught.value.message
+
+
+SPECIFIED = (
+    CASE.read_text()
+    + """
+[specifications.loop]
+vary = "divide.side_fraction"
+so_that = "blend.mass_flow"
+equals = "4 kg/s"
+lower = 0.05
+upper = 0.95
+
+[uncertain]
+"fresh.mass_flow" = { distribution = "uniform", lower = "1 kg/s", upper = "3 kg/s" }
+
+[quantities]
+heat_per_product = { expression = "warm.heat_duty / out.mass_flow", kind = "SpecificEnergy" }
+
+[study.sizes]
+kind = "monte_carlo"
+samples = 40
+outputs = ["divide.side_fraction", "heat_per_product"]
+"""
+)
+
+
+def test_sizes_found_by_a_specification_under_uncertainty(tmp_path) -> None:
+    """A loop of 4 kg/s needs a share of F/4; the heat per product does not depend on the flow."""
+    (tmp_path / "case.toml").write_text(SPECIFIED)
+    found = read_studies(tmp_path / "case.toml")["sizes"].run()
+    assert found.counts()["failed"] == 0
+    assert found.column("divide.side_fraction") == pytest.approx(found.column("fresh.mass_flow") / 4.0, rel=1e-6)
+    assert np.ptp(found.column("heat_per_product")) < 1e-6 * found.column("heat_per_product")[0]
+    (tmp_path / "case.toml").write_text(SPECIFIED.replace('upper = "3 kg/s"', 'upper = "7 kg/s"'))  # above 3.8 kg/s: no share can do it
+    found = read_studies(tmp_path / "case.toml")["sizes"].run()
+    assert found.counts()["reasons"] == {"the design specifications cannot be met": int((found.column("fresh.mass_flow") > 3.8).sum())}
+    (tmp_path / "case.toml").write_text(
+        SPECIFIED.replace('"fresh.mass_flow" =', '"divide.side_fraction" =').replace('kg/s", upper', '", upper')
+    )
+    with pytest.raises(GranumError):
+        read_studies(tmp_path / "case.toml")["sizes"].run()
