@@ -180,6 +180,40 @@ def test_a_bad_case_is_explained(client: httpx.Client, case: str) -> None:
     assert message(client.post("/api/run", json={"case": case}))
 
 
+def test_a_case_is_shown_as_forms_and_edited_without_losing_comments(client: httpx.Client) -> None:
+    case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
+    form = client.post("/api/case/form", json={"case": case}, headers={"x-language": "fr"}).json()
+    assert form["units"]["mill"]["values"]["holdup_mass"] == "1.6 tonne"
+    assert form["feeds"]["fresh"]["values"]["solid_flow"] == "20 t/h"
+    assert form["units"]["mill"]["laws"]["selection"]["selection_exponent"].startswith("exposant")
+
+    def edit(table: str, name: str, key: str, text: str) -> httpx.Response:
+        return client.post("/api/case/edit", json={"case": case, "table": table, "name": name, "key": key, "text": text})
+
+    changed = edit("units", "mill", "holdup_mass", "2 tonne").json()["case"]
+    assert changed == case.replace('holdup_mass = "1.6 tonne"', 'holdup_mass = "2 tonne"')
+    law = edit("units", "mill", "mixing", '{"law": "plug_flow"}').json()["case"]
+    assert 'mixing = {law = "plug_flow"}' in law
+    assert "shaft_power" not in edit("units", "mill", "shaft_power", "").json()["case"]
+    for odd in (("units", "none", "a", "1"), ("streams", "product", "a", "1"), ("units", "mill", "mixing", "{law")):
+        assert message(edit(*odd))
+    assert message(client.post("/api/case/form", json={"case": "a = "}))
+
+
+def test_a_case_reaches_no_file_outside_the_workspace(client: httpx.Client, workspace: Path) -> None:
+    case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
+    secret = str(workspace.parent / "secret.toml")
+    for named in (secret, "../secret.toml", "mine/../../secret.toml", "/etc/passwd"):
+        told = message(client.post("/api/run", json={"case": case.replace("[mixture]", f'[mixture]\nmaterials = ["{named}"]')}))
+        assert "not in the workspace" in told
+        fit = f'\n[fits.f]\ntest = "filtration.leaf_test"\ndata = "{named}"\ngives = {{}}\n'
+        assert "not in the workspace" in message(client.post("/api/run", json={"case": case + fit}))
+        assert "not in the workspace" in message(client.post("/api/studies/choices", json={"case": case + fit}))
+    assert "cannot be read" in message(
+        client.post("/api/run", json={"case": case.replace("[mixture]", '[mixture]\nmaterials = ["no.toml"]')})
+    )
+
+
 def test_charts_are_plotly_json(client: httpx.Client) -> None:
     figure = client.post("/api/chart/particles.drag_chart", json={}).json()
     assert figure["data"]

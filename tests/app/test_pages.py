@@ -107,6 +107,7 @@ PLACES = {
     "lab": "lab/filtration.leaf_test",
     "lines": "lines",
     "charts": "charts/particles.drag_chart",
+    "studies": f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{SPHERE}",
     "select": "select",
     "exercises": "exercises/buchner-to-filter",
     "questions": "exercises/quizzes",
@@ -216,11 +217,51 @@ def test_a_line_is_solved_and_its_diagram_answers_clicks(page: Page, language: s
     page.browser.execute_script("arguments[0].focus()", unit)
     unit.send_keys(Keys.ENTER)
     page.one("[data-figure^='mill.']")
+    page.browser.execute_script("document.querySelector('#case').closest('details').open = true")
     page.write("#case", "title = ")
     page.button("Solve" if language == "en" else "Résoudre").click()
     page.one("[role=alert]")
     page.settle()
     page.check(refused=True)
+
+
+def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None:
+    page.open(f"lines/{quote(CASE, safe='')}")
+    page.one(".diagram svg")
+    page.settle()
+    before = page.one("[data-figure='mill.residence_time']").text
+    page.button("Keep to compare").click()
+    page.browser.execute_script("document.querySelector('[data-unit=mill]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+    page.write("[data-panel=mill] input[id$=holdup_mass]", "2.4")
+    page.one("table[data-comparison]")
+    page.settle()
+    page.until(lambda: before in page.one("table[data-comparison]").text)
+    assert "2.4 tonne" in page.one("table[data-comparison]").text
+    page.check()
+    page.write("[aria-label='File name']", "mine/mill.toml")
+    page.button("Save").click()
+    page.until(lambda: "mill.toml" in page.browser.current_url)
+    saved = page.browser.execute_async_script(
+        "fetch('/api/workspace/mine/mill.toml').then((r) => r.json()).then((d) => arguments[0](d.text))"
+    )
+    assert 'holdup_mass = "2.4 tonne"' in saved
+    assert "# root-two classes" in saved  # comments survive
+    page.button("Undo").click()
+    page.until(lambda: page.one("[data-panel=mill] input[id$=holdup_mass]").get_attribute("value") == "1.6")
+
+
+@pytest.mark.parametrize(("language", "run"), [("en", "Run the study"), ("fr", "Lancer l'étude")])
+def test_a_study_runs_with_progress(page: Page, language: str, run: str) -> None:
+    page.open(PLACES["studies"], language)
+    page.button(run).click()
+    page.one("[data-study=sweep]")
+    page.one(".plot .main-svg .scatterlayer .trace")
+    page.settle()
+    page.check()
+    page.browser.execute_script("document.querySelectorAll('input[type=radio]')[2].click()")
+    page.button(run).click()
+    page.one("[data-study=monte_carlo]")
+    page.check()
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 
 import granum
 from granum.app import exercises
+from granum.app.case_forms import edited, line_form
 from granum.app.forms import card_form
 from granum.app.jobs import Broken, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
@@ -26,6 +27,8 @@ from granum.core.i18n import _, current_language
 
 STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
+Case = Annotated[str, Body(embed=True)]
+Place = Annotated[str, Body(embed=True)]
 
 
 class Answer(JSONResponse):
@@ -52,8 +55,9 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     quick = Workers(count=2, waiting=400, longest=60.0)
     _refusals(app)
     _cards_and_formulas(app, quick)
-    _long_work(app)
-    _studies(app)
+    _long_work(app, workspace)
+    _studies(app, workspace)
+    _case_forms(app, quick)
     _files(app, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
@@ -121,7 +125,7 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         return Answer(await quick.run(exercises.listing))
 
 
-def _long_work(app: FastAPI) -> None:
+def _long_work(app: FastAPI, workspace: Path | None) -> None:
     """What may take long or much memory, in processes of its own."""
 
     @app.post("/api/spread/{key}")
@@ -142,29 +146,40 @@ def _long_work(app: FastAPI) -> None:
         return _json(await crew().run("fit", {"key": key, "content": content, "name": name, "conditions": conditions}, key, request))
 
     @app.post("/api/run")
-    async def run(request: Request, case: Annotated[str, Body(embed=True)]) -> Response:
-        """Solve the text of a case file."""
-        return _json(await crew().run("run", {"case": case}, _structure(case), request))
+    async def run(request: Request, case: Case, place: Place = "") -> Response:
+        """Solve the text of a case file; ``place`` is where it was opened, for the files it names."""
+        return _json(await crew().run("run", {"case": case} | _folder(workspace, place), _structure(case), request))
 
     @app.post("/api/report", response_class=HTMLResponse)
-    async def report(request: Request, case: Annotated[str, Body(embed=True)]) -> HTMLResponse:
+    async def report(request: Request, case: Case, place: Place = "") -> HTMLResponse:
         """The report of a case file."""
-        return HTMLResponse(await crew().run("report", {"case": case}, _structure(case), request))
+        return HTMLResponse(await crew().run("report", {"case": case} | _folder(workspace, place), _structure(case), request))
 
 
-def _studies(app: FastAPI) -> None:
+def _studies(app: FastAPI, workspace: Path | None) -> None:
     """Studies: started, asked about, cancelled. One that its page no longer asks about is cancelled too."""
     jobs = Jobs(crew)
 
     @app.post("/api/studies/choices")
     async def study_choices(request: Request, inputs: Inputs) -> Response:
         """What a study of a line (``case``) or a card (``card``, ``inputs``) may vary and watch."""
-        return _json(await crew().run("study_choices", inputs, _structure(str(inputs.get("case", ""))), request))
+        return _json(
+            await crew().run(
+                "study_choices", inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))), request
+            )
+        )
 
     @app.post("/api/studies", status_code=202)
     async def start(inputs: Inputs) -> Response:
         """Start a study: ``{"case" or "card" and "inputs", "table"}``; gives its name."""
-        return Answer({"id": jobs.start("study", inputs, _structure(str(inputs.get("case", ""))), longest=900.0)}, status_code=202)
+        return Answer(
+            {
+                "id": jobs.start(
+                    "study", inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))), longest=900.0
+                )
+            },
+            status_code=202,
+        )
 
     @app.get("/api/studies/{name}")
     async def state(name: str) -> Response:
@@ -179,6 +194,31 @@ def _studies(app: FastAPI) -> None:
         """Cancel a study."""
         jobs.find(name).cancelled.set()
         return Answer({"state": "cancelled"})
+
+
+def _case_forms(app: FastAPI, quick: Workers) -> None:
+    """Case files as forms."""
+
+    @app.post("/api/case/form")
+    async def form(request: Request, case: Case) -> Response:
+        """Feeds and units of a case file as forms."""
+        return Answer(await quick.run(lambda: line_form(case), request))
+
+    @app.post("/api/case/edit")
+    async def edit(request: Request, case: Case, table: Case, name: Case, key: Case, text: Case) -> Response:
+        """The case file with one value changed."""
+        return Answer({"case": await quick.run(lambda: edited(case, table, name, key, text), request)})
+
+
+def _folder(workspace: Path | None, place: Any) -> dict[str, str]:
+    """Folder and root for the files a case names: those of the workspace, or of the example it was opened from."""
+    sort, _colon, name = str(place or "").partition(":")
+    if sort == "examples" and name in _examples():
+        return {"folder": str(_examples()[name].parent), "root": str(_examples()[name].parent)}
+    if workspace is None:
+        return {"folder": "", "root": ""}
+    folder = _inside(workspace, name).parent if sort == "workspace" and name else workspace.resolve()
+    return {"folder": str(folder), "root": str(workspace.resolve())}
 
 
 def _no_progress(_share: float) -> None:
@@ -250,7 +290,8 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
 def _examples() -> dict[str, Path]:
     root = Path(str(files("granum") / "examples"))
     root = root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"  # installed, or in a source tree
-    return {str(p.relative_to(root)): p for p in sorted(root.rglob("*.toml"))} if root.is_dir() else {}
+    found = sorted(root.rglob("*.toml")) if root.is_dir() else []
+    return {str(p.relative_to(root)): p for p in found if "[units." in p.read_text(encoding="utf-8")}
 
 
 def _inside(workspace: Path | None, path: str) -> Path:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from granum.app.case_forms import read_line
 from granum.app.texts import plain_data
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
@@ -25,9 +26,7 @@ def subject(payload: Mapping[str, Any]) -> Any:
     from granum.studies import subject_of
 
     if payload.get("case"):
-        from granum.cases import read_text
-
-        return subject_of(read_text(str(payload["case"])))
+        return subject_of(read_line(payload))
     varied = set(payload.get("varied") or ())
     fixed = {name: value for name, value in (payload.get("inputs") or {}).items() if name not in varied}
     return subject_of(str(payload.get("card", "")), fixed)

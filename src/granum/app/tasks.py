@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from granum.app import studies
+from granum.app.case_forms import read_line
 from granum.app.spread import spread
 from granum.app.texts import described, label_of, plain_data
 from granum.core import registry
@@ -89,11 +90,13 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 
 @lru_cache(maxsize=4)
-def _solved(case: str, _language: str) -> Any:
+def _solved(case: str, folder: str, root: str, _language: str) -> Any:
     """The solved line of a case, kept for its report."""
-    from granum.cases import read_text
+    return read_line({"case": case, "folder": folder, "root": root}).solve()
 
-    return read_text(case).solve()
+
+def _outcome(payload: dict[str, Any]) -> Any:
+    return _solved(payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
 
 
 def run(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -101,7 +104,7 @@ def run(payload: dict[str, Any], _tell: Tell) -> bytes:
     from granum.flowsheet.drawing import draw
     from granum.reports.terminal import value_text
 
-    outcome = _solved(payload["case"], current_language())
+    outcome = _outcome(payload)
     data = outcome.as_json()
     for name, report in outcome.units.items():
         data["units"][name]["title"] = report.model.card.title
@@ -114,7 +117,7 @@ def report(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The report of the text of a case file."""
     from granum.reports.html import line_report
 
-    return line_report(_solved(payload["case"], current_language())).encode()
+    return line_report(_outcome(payload)).encode()
 
 
 def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:

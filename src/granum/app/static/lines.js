@@ -1,48 +1,71 @@
-// Lines: open or write a case file, solve it, click through units and streams, report.
+// Lines: open or write a case file, edit it through forms made from the declarations, solve it, click through units and streams, compare, report.
 import { html, t, ask, number, useState, useEffect, useRef, replaceLink, Plot } from './core.js';
+import { Field } from './form.js';
+
+const MOST_KEPT = 2;
 
 export function Lines({ state }) {
   const [list, setList] = useState(null);
   const [path, setPath] = useState(state.key || '');
+  const [place, setPlace] = useState('');
   const [text, setText] = useState('');
   const [past, setPast] = useState([]);
   const [outcome, setOutcome] = useState(null);
+  const [form, setForm] = useState(null);
   const [error, setError] = useState(null);
   const [busy, setBusy] = useState(false);
   const [told, setTold] = useState('');
   const [kept, setKept] = useState([]);
   const stop = useRef(null);
-  useEffect(() => { Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files })); }, []);
+  const latest = useRef('');
+  const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files }));
+  useEffect(() => { files(); return () => stop.current?.abort(); }, []);
   useEffect(() => { if (state.key.includes(':')) open(state.key); }, [state.visit]);
-  const open = async (place) => {
-    if (!place) return;
-    const [sort, ...rest] = place.split(':');
+  const shown = (next) => { latest.current = next; setText(next); ask('/api/case/form', { case: next }).then((found) => { if (latest.current === next) setForm(found); }, () => setForm(null)); };
+  const change = (next) => { setPast((before) => [...before.slice(-50), text]); shown(next); };
+  const open = async (where) => {
+    if (!where) return;
+    const [sort, ...rest] = where.split(':');
     try {
       const found = await ask(`/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`);
-      setPast([...past, text]); setText(found.text); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null);
-      replaceLink('lines', place, {});
-      solve(found.text);
+      if (text) setPast([...past, text]);
+      shown(found.text); setPlace(where); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null); setKept([]);
+      replaceLink('lines', where, {});
+      solve(found.text, where);
     } catch (problem) { setError(problem); }
   };
-  const solve = async (given) => {
+  const solve = async (given, where = place) => {
     stop.current?.abort();
-    stop.current = new AbortController();
+    const mine = new AbortController();
+    stop.current = mine;
     setBusy(true); setError(null);
-    try { setOutcome(await ask('/api/run', { case: given }, { signal: stop.current.signal })); }
+    try { const found = await ask('/api/run', { case: given, place: where }, { signal: mine.signal }); if (stop.current === mine) setOutcome(found); }
     catch (problem) { if (problem.name !== 'AbortError') setError(problem); }
-    finally { setBusy(false); }
+    finally { if (stop.current === mine) setBusy(false); }
   };
+  const waiting = useRef(0);
+  const edit = async (table, name, key, value) => {
+    try {
+      const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
+      change(found.case);
+      clearTimeout(waiting.current);
+      waiting.current = setTimeout(() => solve(found.case), 400);
+    } catch (problem) { setError(problem); }
+  };
+  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); shown(before); if (outcome) solve(before); };
   const save = async () => {
-    try { await ask(`/api/workspace/${path}`, { text }, { method: 'PUT' }); setTold(t('Saved.')); setTimeout(() => setTold(''), 3000); }
-    catch (problem) { setError(problem); }
+    try {
+      await ask(`/api/workspace/${path.split('/').map(encodeURIComponent).join('/')}`, { text }, { method: 'PUT' });
+      setTold(t('Saved.')); setPlace('workspace:' + path); replaceLink('lines', 'workspace:' + path, {}); files(); setTimeout(() => setTold(''), 3000);
+    } catch (problem) { setError(problem); }
   };
   const report = async () => {
     setBusy(true);
     try {
-      const page = await ask('/api/report', { case: text }, { text: true });
-      const place = URL.createObjectURL(new Blob([page], { type: 'text/html' }));
-      Object.assign(document.createElement('a'), { href: place, download: 'report.html' }).click();
-      URL.revokeObjectURL(place);
+      const page = await ask('/api/report', { case: text, place }, { text: true });
+      const address = URL.createObjectURL(new Blob([page], { type: 'text/html' }));
+      Object.assign(document.createElement('a'), { href: address, download: 'report.html' }).click();
+      URL.revokeObjectURL(address);
     } catch (problem) { setError(problem); } finally { setBusy(false); }
   };
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
@@ -50,44 +73,96 @@ export function Lines({ state }) {
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f}>${f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
       <button class="button main" disabled=${!text || busy} onClick=${() => solve(text)}>${t('Solve')}</button>
-      <button class="button" disabled=${!past.length} onClick=${() => { setText(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button></div>
-    <label class="small dim" for="case">${t('Case file')}</label>
-    <textarea id="case" rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${() => setPast([...past, text])} onInput=${(e) => setText(e.target.value)}></textarea>
-    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button> <span role="status">${told}</span></div>`}</section>
+      <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button></div>
+    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button> <span role="status">${told}</span></div>`}
+    ${form && html`<${Forms} form=${form} edit=${edit} problem=${error?.details} message=${error?.message} />`}
+    <details open=${!form}><summary>${t('Case file')}</summary>
+    <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => { setPast([...past, latest.current]); shown(e.target.value); }} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
     <section aria-label=${t('Believe')}>
     ${busy && html`<div class="row" aria-busy="true"><span role="status">${t('Working… a new line takes a little while the first time.')}</span> <button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button></div>`}
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
     ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${f.replace(/\/[^/]*$/, '').replaceAll('-', ' ')}<span class="small dim">${f}</span></button>`)}</div>`}
-    ${outcome && html`<div class=${busy ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
-      <button class="button" disabled=${kept.length >= 2} onClick=${() => setKept([...kept, outcome])}>${t('Keep to compare')}</button>`} /></div>`}</section></main>`;
+    ${outcome && html`<div class=${busy || error ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} edit=${edit} clear=${() => setKept([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
+      <button class="button" disabled=${kept.length >= MOST_KEPT} onClick=${() => setKept([...kept, { ...outcome, form }])}>${t('Keep to compare')}</button>
+      <a class="button" href=${place ? `#/studies/${encodeURIComponent(place)}` : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
 }
 
-function Outcome({ data, kept, tools }) {
+/** Feeds and units, each a closed form that opens when asked. */
+function Forms({ form, edit, problem, message }) {
+  const groups = [['feeds', t('Feeds'), form.feeds], ['units', t('Units'), form.units]];
+  return groups.map(([table, label, items]) => Object.keys(items).length > 0 && html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => html`<details key=${table + name} open=${problem?.unit === name} data-form=${name}><summary><strong>${name}</strong> <span class="dim">${item.title || ''}</span></summary>
+    <${ItemForm} table=${table} name=${name} item=${item} edit=${edit} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`)}`);
+}
+
+/** The form of one unit or feed. What is typed waits a moment before it goes into the case. */
+function ItemForm({ table, name, item, edit, wrong, message, spot = 'form' }) {
+  const [typed, setTyped] = useState({});
+  const timer = useRef({});
+  useEffect(() => setTyped({}), [JSON.stringify(item.values)]);
+  const set = (key, value) => {
+    setTyped((before) => ({ ...before, [key]: value }));
+    clearTimeout(timer.current[key]);
+    timer.current[key] = setTimeout(() => edit(table, name, key, value), 500);
+  };
+  if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${{ ...p, name: `${spot}-${name}-${p.name}` }} labels=${item.laws?.[p.name]} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
+}
+
+function Outcome({ data, kept, form, edit, tools, clear }) {
   const [chosen, choose] = useState({ sort: '', name: '' });
+  const panel = useRef(null);
   const pick = (event) => {
     if (event.type === 'keydown' && event.key !== 'Enter' && event.key !== ' ') return;
-    const place = event.target.closest?.('[data-unit],[data-stream]');
-    if (!place) return;
+    const found = event.target.closest?.('[data-unit],[data-stream]');
+    if (!found) return;
     event.preventDefault();
-    choose(place.dataset.unit ? { sort: 'unit', name: place.dataset.unit } : { sort: 'stream', name: place.dataset.stream });
+    choose(found.dataset.unit ? { sort: 'unit', name: found.dataset.unit } : { sort: 'stream', name: found.dataset.stream });
   };
   const closes = Math.max(data.audit.mass_closure, data.audit.energy_closure) <= 1e-9;
-  const cases = [...kept, data];
+  const cases = [...kept, { ...data, form }];
   return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
     <p class=${closes ? 'ok' : 'out'}>${closes ? '● ' : '▲ '}${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>
-    <div class="diagram" onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
+    <div class="diagram" tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
+    <p class="small dim">${t('Click a unit or a stream, or reach it with the tabulator key and press Enter.')}</p>
+    <div ref=${panel} aria-live="polite">${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card" data-panel=${chosen.name}><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
+    ${chosen.sort === 'unit' && data.units[chosen.name] && html`<div class="card columns" data-panel=${chosen.name}><div><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>
+      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} edit=${edit} spot="panel" /></div>`}</div>`}</div>
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
-    ${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card"><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
-    ${chosen.sort === 'unit' && data.units[chosen.name] && html`<div class="card"><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>`}
-    <h2>${t('Streams')}</h2><div class="wide"><table><thead><tr><th scope="col">${t('stream')}</th><th class="n" scope="col">${t('solid')} kg/h</th><th class="n" scope="col">${t('liquid')} kg/h</th><th class="n" scope="col">${t('gas')} kg/h</th><th class="n" scope="col"><i>T</i> °C</th><th class="n" scope="col"><i>d</i><sub>50</sub> µm</th></tr></thead>
+    ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
+    <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th><th class="n" scope="col">${t('solid')} kg/h</th><th class="n" scope="col">${t('liquid')} kg/h</th><th class="n" scope="col">${t('gas')} kg/h</th><th class="n" scope="col"><i>T</i> °C</th><th class="n" scope="col"><i>d</i><sub>50</sub> µm</th></tr></thead>
       <tbody>${Object.entries(data.stream_rows).map(([name, row]) => html`<tr><td>${name}</td>${['solid', 'liquid', 'gas', 'temperature', 'median'].map((k) => html`<td class="n">${row[k] === null ? '' : number(row[k])}</td>`)}</tr>`)}</tbody></table></div>
     <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div>`;
 }
 
+/** What was changed between the kept cases, and what it did to the figures. */
+function Comparison({ cases, clear }) {
+  const inputs = new Map();
+  const figures = new Map();
+  cases.forEach((c, i) => {
+    for (const [sort, items] of [['feeds', c.form?.feeds], ['units', c.form?.units]]) {
+      for (const [name, item] of Object.entries(items || {})) {
+        for (const p of item.parameters) put(inputs, `${sort}.${name}.${p.name}`, `${name}: ${p.label}`, i, item.values[p.name] ?? '—');
+      }
+    }
+    for (const [name, unit] of Object.entries(c.units)) for (const [key, row] of Object.entries(unit.results)) put(figures, `${name}.${key}`, `${name}: ${row.label}`, i, row.text ?? number(row.value));
+  });
+  const differ = ([, row]) => cases.some((_, i) => row.values[i] !== row.values[0]);
+  const body = (rows, strong) => [...rows].filter(differ).map(([key, row]) => html`<tr key=${key} class=${strong ? '' : 'dim'}><td>${row.label}</td>${cases.map((_, i) => html`<td class="n">${strong ? html`<strong>${row.values[i] ?? '—'}</strong>` : row.values[i] ?? '—'}</td>`)}</tr>`);
+  const rows = [body(inputs, false), body(figures, true)];
+  return html`<h2>${t('Comparison')}</h2>${rows.flat().length === 0 ? html`<p class="small dim">${t('Nothing differs yet: change a parameter.')}</p>`
+    : html`<div class="wide" tabindex="0" role="region" aria-label=${t('Comparison')}><table data-comparison><thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${t('case {number}', { number: i + 1 })}</th>`)}</tr></thead><tbody>${rows}</tbody></table></div>`}
+    <div class="row"><button class="button" onClick=${clear}>${t('Clear')}</button></div>`;
+}
+
+function put(rows, key, label, index, value) {
+  if (!rows.has(key)) rows.set(key, { label, values: [] });
+  rows.get(key).values[index] = value;
+}
+
 function UnitPanel({ name, unit, cases }) {
-  return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide"><table><tbody>
+  return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide"><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
     ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? number(c.units[name]?.results[figure]?.value)}</td>`)}</tr>`)}
-    ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.low !== null ? `${number(c.low)} ≤ ` : ''}${number(c.value)}${c.high !== null ? ` ≤ ${number(c.high)}` : ''} ${c.unit === 'dimensionless' ? '' : c.unit}</td></tr>`)}</tbody></table></div>`;
+    ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.low !== null ? `${number(c.low)} ≤ ` : ''}${number(c.value)}${c.high !== null ? ` ≤ ${number(c.high)}` : ''} ${c.unit === 'dimensionless' ? '' : c.unit}</td></tr>`)}</tbody></table></div>`;
 }
 
 function StreamPanel({ stream: s }) {
