@@ -114,19 +114,25 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
 @app.command()
 @_one_message
 def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with units in the header.")], conditions: Pairs = None,
-        as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None) -> None:  # fmt: skip
-    """Fit a lab test to a data file: parameters with 95 % intervals."""
+        as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None,
+        estimate: Annotated[list[str] | None, typer.Option(help="Of a formula or law: a parameter to find, as NAME or NAME=first value.")] = None,
+        output: Annotated[str, typer.Option(help="Of a formula with several results: the measured one.")] = "",
+        robust: Annotated[bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")] = False) -> None:  # fmt: skip
+    """Fit a lab test, a formula or a law to a data file: parameters with 95 % intervals."""
     from granum.core import registry
 
     thing = registry.find(key)
-    if thing.card.sort != "lab test":
-        raise InputError(
-            _("'{key}' is a {sort}, not a lab test; 'granum list --sort \"lab test\"' shows those.").format(
-                key=key, sort=_(thing.card.sort)
-            )
-        )
-    test = thing.read(data, **_pairs(conditions))
-    found = test.fit()
+    if thing.card.sort == "lab test":
+        if estimate or output or robust:
+            raise InputError(_("A lab test knows what it estimates: leave out --estimate, --output and --robust."))
+        test = thing.read(data, **_pairs(conditions))
+        found = test.fit()
+    else:
+        from granum.estimation import CardData, Huber
+
+        wanted = {name: value or None for name, _equals, value in (word.partition("=") for word in estimate or ())}
+        test = CardData.read(thing, data, estimate=wanted, fixed=_pairs(conditions), output=output)
+        found = test.fit(Huber() if robust else None)
     if chart is not None:
         from granum.core.files import write_atomic
 

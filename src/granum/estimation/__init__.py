@@ -13,6 +13,9 @@ statistics, flags, ``predict`` with a band, ``profile``, ``bootstrap``, ``sample
 >>> round(found["slope"].value, 3), round(found["slope"].standard_error, 4)
 (1.96, 0.0632)
 
+``CardData.read(card, file, estimate=[…], fixed={…}).fit()`` fits any formula or law to the columns of a file; ``next_experiment`` says where to
+measure next, ``optimal_design`` plans a set.
+
 Writing a lab test
 ------------------
 A lab test is a frozen class in ``<domain>/lab_tests/<name>.py``. Its ``Series`` fields are the columns of the data file, its
@@ -43,10 +46,13 @@ but a choice of the evaluation is a plain ``int`` or ``bool`` field with a defau
 
 from __future__ import annotations
 
+from granum.estimation.cards import CardData
+from granum.estimation.design import NextExperiment, next_experiment, optimal_design
 from granum.estimation.lab_test import LabTest
 from granum.estimation.least_squares import fit
 from granum.estimation.losses import Huber, LeastSquares, Loss, SoftL1
 from granum.estimation.results import Estimate, Fit
 from granum.estimation.tables import read_table
 
-__all__ = ["Estimate", "Fit", "Huber", "LabTest", "LeastSquares", "Loss", "SoftL1", "fit", "read_table"]
+__all__ = ["CardData", "Estimate", "Fit", "Huber", "LabTest", "LeastSquares", "Loss", "NextExperiment", "SoftL1", "fit", "next_experiment",
+           "optimal_design", "read_table"]  # fmt: skip

@@ -52,6 +52,22 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     return found
 
 
+class Held(io.BytesIO):
+    """A data file held in memory under its name, so that it can be read twice."""
+
+    def __init__(self, content: bytes, name: str):
+        super().__init__(content)
+        self.name = name
+
+
+def held(source: Source) -> tuple[Held, tuple[str, ...]]:
+    """A data file in memory and the names of its columns."""
+    name = str(getattr(source, "name", source))
+    raw = _bytes(source, _(" in {file}").format(file=name))
+    first = next(iter(_rows(Held(raw, name), _(" in {file}").format(file=name))), (0, []))[1]
+    return Held(raw, name), tuple(_heading(str(cell or ""))[0] for cell in first)
+
+
 def _heading(cell: str) -> tuple[str, str | None]:
     match = _HEADER.match(cell)
     assert match is not None
