@@ -1,0 +1,132 @@
+"""Deep bed of sand in a line: capture by size class, head loss, run and backwash, averaged over the cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Area,
+    Density,
+    Distance,
+    Fraction,
+    Length,
+    OpenFraction,
+    SpecificSurface,
+    Speed,
+    Sphericity,
+    Time,
+    VoidFraction,
+    Within,
+)
+from granum.filtration.formulas.backwash import backwash_velocity
+from granum.filtration.formulas.depth import collector_efficiency_tufenkji, filter_coefficient, head_loss_clean_bed
+from granum.filtration.quantities import HeadLossPerDeposit
+from granum.numerics.smooth import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+HOUR = 3600.0
+_RATE = "filtration rate of a deep bed"
+_RUN = "run time between backwashes"
+_WASH = "wash water over filtrate"
+_THIN = "solids by volume in the feed"
+
+
+class DeepBedOutlets(NamedTuple):
+    """Filtrate, and the wash water with what the bed had caught."""
+
+    filtrate: Stream
+    washings: Stream
+
+
+class DeepBedFigures(NamedTuple):
+    """Figures of a deep bed."""
+
+    superficial_velocity: Speed
+    removal_efficiency: Fraction
+    head_loss_clean: Distance
+    run_time: Time
+    backwash_velocity: Speed
+    wash_water_share: Fraction
+
+
+@equipment("deep_bed_filter", source="iwasaki1937; ives1970; tufenkji2004; fair1933", title="Deep bed filter",
+           typical={"particle_density": (2500.0, 2700.0)})  # fmt: skip
+class DeepBedFilter(Unit):
+    """Bed of sand that catches thin suspensions by depth, and is expanded by its own filtrate when the head is used up.
+
+    Every size class is caught by its own coefficient (Tufenkji and Elimelech) times the attachment efficiency, or all by a given one. The
+    grains of the bed are no part of the streams; their sphericity counts for the head loss of the settled bed. Several beds take turns, so that flows are averaged over run and backwash.
+    """
+
+    area: Area
+    bed_depth: Length
+    collector_diameter: Length
+    _: KW_ONLY
+    void_fraction: VoidFraction = 0.42
+    attachment_efficiency: Fraction = 0.5
+    filter_coefficient: SpecificSurface | None = None
+    head_loss_allowed: Distance = 2.0
+    head_loss_per_deposit: HeadLossPerDeposit = 1.0
+    bed_expansion: Annotated[OpenFraction, Within(0.01, 0.9)] = 0.2
+    backwash_time: Time = 600.0
+    particle_density: Density = 2650.0
+    sphericity: Sphericity = 0.8
+
+    def _velocity(self, feed: Stream) -> Any:
+        return jnp.maximum(feed.slurry_volume_flow / self.area, 1e-12)
+
+    def caught(self, feed: Stream) -> Any:
+        """Share of each species and size class that the bed keeps."""
+        m = feed.mixture
+        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
+        if self.filter_coefficient is not None:
+            return -jnp.expm1(-self.filter_coefficient * self.bed_depth) + 0.0 * density
+        one = collector_efficiency_tufenkji(
+            jnp.asarray(m.sizes) + 0.0 * density, self.collector_diameter, self._velocity(feed), self.void_fraction, density, feed.liquid_density,
+            feed.liquid_viscosity, feed.temperature,
+        )  # fmt: skip
+        coefficient = filter_coefficient(jnp.minimum(one, 1.0), self.collector_diameter, self.void_fraction, self.attachment_efficiency)
+        return -jnp.expm1(-coefficient * self.bed_depth)
+
+    def _cycle(self, feed: Stream) -> tuple[Any, Any, Any, Any]:
+        """Clean head loss, run time, backwash velocity, share of the filtrate that the backwash takes."""
+        U = self._velocity(feed)
+        clean = head_loss_clean_bed(
+            self.bed_depth, self.sphericity * self.collector_diameter, U, self.void_fraction, feed.liquid_viscosity, feed.liquid_density
+        )
+        share = self.caught(feed)
+        kept = jnp.sum(feed.solid * share.reshape(share.shape + (1,) * len(feed.mixture.axes))) / self.area
+        run = safe_divide(jnp.maximum(self.head_loss_allowed - clean, 0.0), self.head_loss_per_deposit * kept, otherwise=1e9)
+        wash = backwash_velocity(
+            self.bed_expansion, jnp.reshape(self.collector_diameter, (1,)), jnp.ones(1), self.particle_density, feed.liquid_density,
+            feed.liquid_viscosity, self.void_fraction,
+        )  # fmt: skip
+        return clean, run, wash, jnp.minimum(safe_divide(wash * self.backwash_time, U * (run + self.backwash_time)), 0.999)
+
+    def __call__(self, feed: Stream) -> DeepBedOutlets:
+        share = self.caught(feed)
+        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+        water = self._cycle(feed)[3]
+        washings = feed.part(solid=share, liquid=water)
+        return DeepBedOutlets(feed.replace(solid=feed.solid - washings.solid, liquid=feed.liquid - washings.liquid), washings)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: DeepBedOutlets) -> DeepBedFigures:
+        feed = inlets["feed"]
+        clean, run, wash, water = self._cycle(feed)
+        return DeepBedFigures(self._velocity(feed), safe_divide(outlets.washings.solid_flow, feed.solid_flow), clean, run, wash, water)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: DeepBedOutlets) -> tuple[Check, ...]:
+        feed = inlets["feed"]
+        _clean, run, _wash, water = self._cycle(feed)
+        return (
+            Check(_RATE, HOUR * self._velocity(feed), 2.0, 25.0, "m/hour", "ives1970"),
+            Check(_RUN, run / HOUR, 8.0, 100.0, "hour", "ives1970"),
+            Check(_WASH, water, 0.0, 0.06, "dimensionless", "ives1970"),
+            Check(_THIN, feed.solids_volume_fraction, 0.0, 5e-4, "dimensionless", "svarovsky2001"),
+        )
