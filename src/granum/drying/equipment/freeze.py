@@ -1,0 +1,158 @@
+"""A freeze dryer for vials, in batches that follow one another: primary drying by the vial model, secondary drying by desorption."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Area,
+    Frequency,
+    HeatTransferCoefficient,
+    Length,
+    Mass,
+    MassFlow,
+    MassFlux,
+    MoistureDryBasis,
+    MolarEnergy,
+    PositiveNumber,
+    Power,
+    Pressure,
+    SpecificEnergy,
+    Temperature,
+    Time,
+    Volume,
+)  # fmt: skip
+from granum.drying.formulas.freeze_drying import SUBLIMATION_HEAT, choked_flow_rate, primary_drying, secondary_drying_time
+from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
+from granum.numerics import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+_LIMIT = "product temperature over its limit"
+_CAPACITY = "sublimation over the capacity of the machine"
+_CHOKED = "sublimation over the choked flow of the duct"
+_TIMES = "drying time of a batch"
+_PRINTED = "houdon2017"
+
+
+class FreezeDried(NamedTuple):
+    """Freeze-dried product, melted condenser ice, and the heat taken up in all, shelves less condenser."""
+
+    product: Stream
+    condensate: Stream
+    heat_duty: Any
+
+
+class FreezeFigures(NamedTuple):
+    """Figures of a freeze dryer."""
+
+    drying_time_primary: Time
+    drying_time_secondary: Time
+    cycle_time: Time
+    temperature_product: Temperature
+    sublimation_flux_highest: MassFlux
+    evaporation_rate: MassFlow
+    vial_count: PositiveNumber
+    mass_batch: Mass
+    heat_duty_shelf: Power
+    heat_duty_condenser: Power
+    energy_per_water: SpecificEnergy
+    sublimation_rate_highest: MassFlow
+    choked_flow_rate: MassFlow
+
+
+@equipment("freeze_dryer", source="pikal1985; pikal1990; shivkumar2019", title="Freeze dryer for vials")
+class FreezeDryer(Unit):
+    """Vials freeze, sublime on shelves that warm to a temperature, and desorb at a second one; batches follow one another without a break.
+
+    The feed's flow is the mean over the cycle and fixes how many vials are in a batch. Its dry solid per volume is the concentration. What
+    does not freeze, ``unfrozen_moisture`` per dry solid, stays for secondary drying, which ends at ``moisture_outlet``. ``heat_duty_shelf``
+    and ``heat_duty_condenser`` are means over the cycle of the heats of sublimation and desorption; melted condenser ice leaves at the
+    feed's temperature.
+    """
+
+    pressure_chamber: Pressure
+    temperature_shelf: Temperature
+    area_vial: Area
+    area_product: Area
+    volume_fill: Volume
+    vial_coefficient_contact: HeatTransferCoefficient
+    vial_coefficient_gas: HeatTransferPerPressure
+    vapor_resistance: VaporResistance
+    vapor_resistance_slope: VaporResistanceGradient = 0.0
+    vapor_resistance_saturation: PerLength = 0.0
+    vial_coefficient_saturation: PerPressure = 0.0
+    temperature_shelf_start: Temperature = 238.15
+    ramp_rate: RampRate = 1.0 / 60.0
+    temperature_shelf_secondary: Temperature = 298.15
+    ramp_rate_secondary: RampRate = 0.2 / 60.0
+    unfrozen_moisture: MoistureDryBasis = 0.2
+    moisture_outlet: MoistureDryBasis = 0.02
+    desorption_rate: Frequency = 1e-4
+    activation_energy: MolarEnergy = 4e4
+    freezing_time: Time = 10800.0
+    temperature_limit: Temperature = 241.15
+    duct_diameter: Length | None = None
+    sublimation_capacity: MassFlow | None = None
+
+    def __call__(self, feed: Stream) -> FreezeDried:
+        keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
+        kept = feed.liquid.at[0].set(keep)
+        product = feed.replace(liquid=kept, gas=jnp.zeros_like(feed.gas), temperature=jnp.asarray(self.temperature_shelf_secondary))
+        melted = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=feed.liquid - kept, gas=feed.gas)
+        duty = product.enthalpy_flow + melted.enthalpy_flow - feed.enthalpy_flow
+        return FreezeDried(product, melted, duty)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: FreezeDried) -> FreezeFigures:
+        feed = inlets["feed"]
+        concentration = safe_divide(feed.solid_flow, feed.slurry_volume_flow)
+        primary = primary_drying(
+            self.pressure_chamber, self.temperature_shelf, self.area_vial, self.area_product, self.volume_fill, concentration,
+            self.vial_coefficient_contact, self.vial_coefficient_gas, self.vapor_resistance, self.vapor_resistance_slope,
+            self.vapor_resistance_saturation, self.vial_coefficient_saturation, self.temperature_shelf_start, self.ramp_rate, feed.solid_density,
+        )  # fmt: skip
+        secondary = secondary_drying_time(
+            self.unfrozen_moisture, self.moisture_outlet, self.temperature_shelf_secondary, self.desorption_rate, self.activation_energy,
+            0.0, self.temperature_shelf, self.ramp_rate_secondary,
+        )  # fmt: skip
+        cycle = self.freezing_time + primary.drying_time + secondary
+        vials = feed.slurry_volume_flow * cycle / self.volume_fill
+        water = feed.liquid[0] - outlets.product.liquid[0]
+        heat = SUBLIMATION_HEAT * water
+        highest = primary.sublimation_flux_highest * self.area_product * vials
+        choked = jnp.inf if self.duct_diameter is None else choked_flow_rate(self.pressure_chamber, self.duct_diameter)
+        return FreezeFigures(
+            drying_time_primary=primary.drying_time,
+            drying_time_secondary=secondary,
+            cycle_time=cycle,
+            temperature_product=primary.temperature_product,
+            sublimation_flux_highest=primary.sublimation_flux_highest,
+            evaporation_rate=water,
+            vial_count=vials,
+            mass_batch=(feed.solid_flow + feed.liquid_flow) * cycle,
+            heat_duty_shelf=heat,
+            heat_duty_condenser=-heat,
+            energy_per_water=safe_divide(heat, water),
+            sublimation_rate_highest=highest,
+            choked_flow_rate=choked + 0.0 * highest,
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: FreezeDried) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        found = [
+            Check(_LIMIT, figures.temperature_product - self.temperature_limit, -1e3, 0.0, "delta_degC", "pikal1985"),
+            Check(_TIMES, figures.drying_time_primary + figures.drying_time_secondary, 36000.0, 259200.0, "s", _PRINTED),
+        ]
+        if self.duct_diameter is not None:
+            found.append(
+                Check(_CHOKED, figures.sublimation_rate_highest / figures.choked_flow_rate, 0.0, 1.0, "dimensionless", "patel2010")
+            )
+        if self.sublimation_capacity is not None:
+            found.append(
+                Check(_CAPACITY, figures.sublimation_rate_highest / self.sublimation_capacity, 0.0, 1.0, "dimensionless", "shivkumar2019")
+            )
+        return tuple(found)
