@@ -15,6 +15,7 @@ from granum.filtration.formulas.washing import wash_effluent_concentration
 from granum.filtration.lab_tests.cake_tests import CompressionCell, DeliquoringCurve, WashingCurve
 from granum.filtration.lab_tests.compressibility import Compressibility
 from granum.filtration.lab_tests.rate_tests import ConstantRateTest, VariablePressureTest
+from granum.filtration.lab_tests.stepped import SteppedPressureTest
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "leaf-filter"
 FOOT_PER_POUND = 0.3048 / 0.45359237
@@ -121,3 +122,45 @@ def test_compression_cell_washing_and_deliquoring():
     S = np.asarray(saturation_after_deliquoring(t, cake_permeability=3e-13, irreducible_saturation=0.18, **case))
     found = DeliquoringCurve(time=t, cake_saturation=S, **case).fit()
     assert found.values == pytest.approx({"cake_permeability": 3e-13, "irreducible_saturation": 0.18}, rel=1e-3)
+
+
+def stepped(noise=0.0, late=0.0):
+    """Readings every 2 cm of filtrate depth at 0.5, 1, 2 and 4 bar: t from the closed form within each step."""
+    A, eta, W, a0, n, R = CAKE["area"], CAKE["dynamic_viscosity"], CAKE["dry_cake_per_filtrate"], 4e10, 0.45, 6e10
+    V, p, t = [0.0], [5e4], [0.0]
+    for dp in (5e4, 1e5, 2e5, 4e5):
+        if len(V) > 1:
+            V, p, t = [*V, V[-1]], [*p, dp], [*t, t[-1]]
+        for _i in range(8):
+            v0, v1 = V[-1], V[-1] + 0.02 * A
+            cake = a0 * (dp / 1e5) ** n * W / (2 * A**2) * (v1**2 - v0**2)
+            V, p, t = [*V, v1], [*p, dp], [*t, t[-1] + eta / dp * (cake + R * (v1 - v0) / A)]
+    clock, place = np.unique(t, return_inverse=True)  # the two readings at a step are one reading of the clock
+    clock = clock * (1.0 + noise * np.random.default_rng(1).normal(size=len(clock))) + late * (clock > 0)
+    t = clock[place]
+    return {"time": t, "filtrate_volume": np.array(V), "pressure_drop": np.array(p), **CAKE}
+
+
+def test_stepped_pressure_tells_compressibility():
+    exact = SteppedPressureTest(**stepped()).fit()
+    assert exact.values == pytest.approx({"cake_resistance_reference": 4e10, "compressibility": 0.45, "medium_resistance": 6e10}, rel=1e-7)
+    late = SteppedPressureTest(**stepped(late=40.0)).fit()  # the clock started before the valve opened
+    assert [f["flag"] for f in late.flags] == ["points excluded"]
+    assert late.values == pytest.approx(exact.values, rel=1e-6)
+    found = SteppedPressureTest(**stepped(noise=2e-4)).fit()
+    for name, true in exact.values.items():
+        low, high = found[name].interval_95
+        assert low - 0.5 * (high - low) < true < high + 0.5 * (high - low), name
+    flat = stepped()
+    with pytest.raises(InputError, match="hardly changes"):
+        SteppedPressureTest(**flat | {"pressure_drop": np.full(len(flat["time"]), 1e5)}).fit()
+
+
+def test_constant_rate_leaves_out_a_bad_start():
+    t = np.linspace(30, 600, 15)
+    case = {**CAKE, "filtrate_flow": 2e-5}
+    dp = np.array(cr.pressure_drop_constant_rate(t, cake_resistance=4e11, medium_resistance=3e11, **case))
+    dp[:2] *= (0.4, 0.7)  # the pump was still filling the vessel
+    found = ConstantRateTest(time=t, pressure_drop=dp, **case).fit()
+    assert found.values == pytest.approx({"cake_resistance": 4e11, "medium_resistance": 3e11}, rel=1e-8)
+    assert found.flags[0]["flag"] == "points excluded"

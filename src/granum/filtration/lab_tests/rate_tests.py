@@ -37,6 +37,7 @@ NOTICEABLE_BEND = 0.3
 class ConstantRateTest(LabTest):
     """Cake and medium resistance from the rise of pressure at constant filtrate flow.
 
+    First points of a rigid cake that do not lie on its line are left out, and said so.
     With ``compressible`` the mean resistance is a power of the pressure drop across the cake, and its exponent is fitted too.
     """
 
@@ -63,7 +64,6 @@ class ConstantRateTest(LabTest):
         t, dp = np.asarray(self.time), np.asarray(self.pressure_drop)
         u = self.filtrate_flow / self.area
         per_cake, per_medium = self.dynamic_viscosity * self.dry_cake_per_filtrate * u**2, self.dynamic_viscosity * u
-        slope, intercept = np.polyfit(t, dp, 1)
         if self.compressible:
             p0 = self.reference_pressure
 
@@ -75,13 +75,16 @@ class ConstantRateTest(LabTest):
                      "medium_resistance": 0.3 * dp[0] / per_medium}  # fmt: skip
             bounds = {"cake_resistance_reference": (0.0, np.inf), "compressibility": (0.0, 0.95), "medium_resistance": (0.0, np.inf)}
             return self.fitted(soft, start, np.maximum(t, 1e-9 * t[-1]), dp, bounds=bounds)
-        flags = []
-        if abs(bend(t, dp)) > NOTICEABLE_BEND:
+        skip = bad_start(t, dp)
+        kept = np.arange(len(t)) >= skip
+        flags = [self.note("points excluded", _("First points left out: {count}.").format(count=skip), "time")] if skip else []
+        slope, intercept = np.polyfit(t[kept], dp[kept], 1)
+        if abs(bend(t[kept], dp[kept])) > NOTICEABLE_BEND:
             sentence = _("The pressure does not rise along a straight line: the cake is compressible; fit it with compressible = yes.")
             flags.append(self.note("bent line", sentence, "pressure_drop"))
         start = {"cake_resistance": abs(slope) / per_cake, "medium_resistance": max(intercept, 0.01 * dp.mean()) / per_medium}
         return self.fitted(
-            lambda p, t: p["cake_resistance"] * per_cake * t + p["medium_resistance"] * per_medium, start, t, dp, flags=flags,
+            lambda p, t: p["cake_resistance"] * per_cake * t + p["medium_resistance"] * per_medium, start, t, dp, keep=kept, flags=flags,
             bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
         )  # fmt: skip
 
