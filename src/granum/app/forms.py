@@ -15,7 +15,7 @@ from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.parameters import Parameter, convert
-from granum.core.units import best_unit, format_number, from_si, parse_unit, show
+from granum.core.units import best_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show
 from granum.reports.mathml import mathml
 
 
@@ -30,16 +30,22 @@ def card_form(key: str) -> dict[str, Any]:
         row["source_range"] = range_text(p, p.fitted) if p.fitted else ""
         row["options"] = options(p)
         if p.kind:
-            row["units"] = [u for u in row["units"] if same_dimension(u["unit"], p.kind)]
+            row["units"] = _units_of(p.kind, row["units"])
         row["default_shown"] = None if p.required or p.default is None else entry(p, p.default)
         row["example"] = example(p, examples)
     return data
 
 
+def _units_of(kind: Kind, rows: list[dict[str, str]]) -> list[dict[str, str]]:
+    """Units to choose from, customary ones first when they are wanted."""
+    wanted = [{"unit": u, "label": pretty_unit(u)} for u in field_units(kind)]
+    return wanted + [u for u in rows if same_dimension(u["unit"], kind) and u not in wanted]
+
+
 def usual_unit(p: Parameter, value: float) -> str:
     """The unit a value of a parameter is written in: the glossary's when it suits the size, else the best one."""
     assert p.kind is not None
-    usual = p.term.unit if p.term else None
+    usual = p.term.unit if p.term and not field_units(p.kind) else None
     if usual and same_dimension(usual, p.kind) and (value == 0.0 or 0.05 <= abs(from_si(value, usual, p.kind)) < 1e4):
         return usual
     return best_unit(value, p.kind)

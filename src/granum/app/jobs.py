@@ -24,6 +24,7 @@ from fastapi import Request
 from granum.app.limits import Busy
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _, current_language, language
+from granum.core.units import unit_system
 
 GRACE = 5.0  # seconds in which a cancelled job may still finish: it usually does, and its process stays warm
 
@@ -55,7 +56,7 @@ class Job:
 
     def __init__(self, task: str, payload: Any, longest: float, patience: float | None = None):
         self.task, self.payload, self.longest, self.patience = task, payload, longest, patience
-        self.language = current_language()
+        self.language, self.units = current_language(), unit_system()
         self.share = 0.0
         self.asked = time.monotonic()
         self.cancelled = threading.Event()
@@ -213,7 +214,7 @@ class Crew:
 
     def _watch(self, job: Job, process: _Process) -> bytes:
         started, left = time.monotonic(), None
-        process.send((job.task, job.payload, job.language))
+        process.send((job.task, job.payload, job.language, job.units))
         while True:
             message = process.receive(0.2)
             now = time.monotonic()

@@ -20,6 +20,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from granum.core.errors import GranumError
 from granum.core.i18n import LANGUAGES, _, set_language
+from granum.core.units import set_unit_system
 
 LARGEST_BODY = 5_000_000  # bytes
 POLICY = (
@@ -133,6 +134,7 @@ class Guard:
         headers, query = Headers(scope=scope), parse_qs(scope["query_string"].decode("latin-1"))
         asked = query.get("lang", [headers.get("x-language") or headers.get("accept-language", "")[:2]])[-1]
         set_language(asked if asked in LANGUAGES else "en")
+        set_unit_system("field" if headers.get("x-units") == "field" else "si")
         given = query.get("token", [""])[-1]
         if self._token and not self._known(given or _cookie(headers.get("cookie", ""))):
             await problem(401, _("This server needs the token that was printed when it started."))(scope, receive, send)

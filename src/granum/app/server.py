@@ -24,6 +24,7 @@ from granum.app.tasks import calculate, packed
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
+from granum.core.units import unit_system
 
 STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
@@ -106,8 +107,8 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
     @app.get("/api/cards/{key}")
     async def card(key: str) -> Response:
         """One card with everything a form needs."""
-        language = current_language()
-        return _json(_forms[key, language] if (key, language) in _forms else await quick.run(lambda: _form_text(key, language)))
+        place = (key, current_language(), unit_system())
+        return _json(_forms[place] if place in _forms else await quick.run(lambda: _form_text(*place)))
 
     @app.post("/api/calc/{key}")
     async def calc(request: Request, key: str, inputs: Inputs) -> Response:
@@ -325,11 +326,11 @@ def _cards_text() -> bytes:
     return _cards_in(current_language())[1]
 
 
-_forms: dict[tuple[str, str], bytes] = {}
+_forms: dict[tuple[str, str, str], bytes] = {}
 
 
-def _form_text(key: str, language: str) -> bytes:
-    text = _forms[key, language] = packed(card_form(key))
+def _form_text(key: str, language: str, units: str) -> bytes:
+    text = _forms[key, language, units] = packed(card_form(key))
     return text
 
 

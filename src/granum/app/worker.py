@@ -64,12 +64,14 @@ def main() -> None:
     from granum.core import registry
     from granum.core.errors import GranumError
     from granum.core.i18n import set_language
+    from granum.core.units import set_unit_system
 
     registry.everything()
     while True:
-        name, payload, code = tasks.get()
+        name, payload, code, units = tasks.get()
         cancelled.clear()
         set_language(code)
+        set_unit_system(units)
         try:
             send("done", TASKS[name](payload, tell))
         except Cancelled:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import threading
+from contextvars import ContextVar
 from functools import cache
 from typing import Any
 
@@ -167,7 +168,7 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 
 _PRETTY = {"um": "µm", "degC": "°C", "degF": "°F", "percent": "%", "dimensionless": "", "delta_degC": "K", "kelvin": "K",
-           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t"}  # fmt: skip
+           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t", "delta_degF": "°F", "inch": "in", "gallon": "gal"}  # fmt: skip
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -184,12 +185,45 @@ CUSTOMARY = frozenset(
 """Units that people type and that are never chosen to print a value."""
 
 
+FIELD: dict[str, tuple[str, ...]] = {
+    "m": ("inch", "ft", "um"), "m^2": ("ft^2", "inch^2"), "m^3": ("gallon", "ft^3", "inch^3"), "kg": ("lb", "oz"), "kg/s": ("lb/hour", "lb/s"),
+    "m^3/s": ("gallon/min", "ft^3/s"), "m/s": ("ft/s", "ft/min", "inch/s"), "kg/m^3": ("lb/ft^3",), "Pa": ("psi", "inH2O"),
+    "K": ("degF",), "J": ("Btu",), "W": ("hp", "Btu/hour"), "J/kg": ("Btu/lb",), "J/(kg*K)": ("Btu/(lb*delta_degF)",), "kg/(m^2*s)": ("lb/(ft^2*hour)",),
+    "W/(m^2*K)": ("Btu/(hour*ft^2*delta_degF)",), "W/(m*K)": ("Btu/(hour*ft*delta_degF)",), "N": ("lbf",), "Pa*s": ("cP",), "W/kg": ("hp/lb",),
+}  # fmt: skip
+"""Customary units of the United States by SI unit; particle sizes stay in micrometers, viscosities in centipoise."""
+SYSTEMS = ("si", "field")
+_system: ContextVar[str] = ContextVar("granum_units", default="si")
+
+
+def set_unit_system(code: str) -> None:
+    """Choose the units of displayed values for this context: ``si`` (with the usual multiples) or ``field`` (United States customary)."""
+    if code not in SYSTEMS:
+        raise ValueError(f"units '{code}' are not available; choose one of {', '.join(SYSTEMS)}")
+    _system.set(code)
+
+
+def unit_system() -> str:
+    """The units of displayed values: ``si`` or ``field``."""
+    return _system.get()
+
+
+def field_units(kind: Kind) -> tuple[str, ...]:
+    """Customary units of a kind when they are wanted, the usual one first; empty otherwise.
+
+    >>> from granum.core.kinds import KINDS
+    >>> field_units(KINDS["Pressure"])
+    ()
+    """
+    return FIELD.get(kind.unit, ()) if _system.get() == "field" else ()
+
+
 def best_unit(value: float, kind: Kind) -> str:
     """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred, then one below 1000.
 
-    Customary units are offered for typing, not chosen for printing.
+    Customary units are offered for typing, and chosen for printing only when they are wanted (``set_unit_system``).
     """
-    units = [u for u in kind.units if u not in CUSTOMARY] or list(kind.units)
+    units = list(field_units(kind)) or [u for u in kind.units if u not in CUSTOMARY] or list(kind.units)
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}

@@ -18,7 +18,7 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.results import Result
 from granum.core.symbols import text_symbol
-from granum.core.units import best_unit, format_number, from_si, pretty_unit, show
+from granum.core.units import best_unit, field_units, format_number, from_si, pretty_unit, show
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 
@@ -42,7 +42,7 @@ def value_text(value: Any, parameter: Parameter) -> str:
         return str(default_as_json(value))
     array = np.asarray(value, dtype=float)
     if array.ndim == 0:
-        preferred = parameter.units[0] if parameter.term and parameter.term.unit else None
+        preferred = parameter.units[0] if parameter.term and parameter.term.unit and not field_units(parameter.kind) else None
         number = float(array)
         if preferred and number and 0.05 <= abs(from_si(number, preferred, parameter.kind)) < 1e4:
             return show(number, parameter.kind, preferred)

@@ -34,6 +34,7 @@ function App() {
     <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(([name, label]) => html`<a href=${link(name)} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`)}</nav>
       <div class="tools"><button lang=${other} onClick=${() => set('language', other)}>${other === 'fr' ? 'Français' : 'English'}</button>
+        <button aria-label=${t('Units: SI or customary of the United States')} title=${t('Units: SI or customary of the United States')} onClick=${() => set('units', settings.units === 'field' ? 'si' : 'field')}>${settings.units === 'field' ? 'ft·lb' : 'SI'}</button>
         <button aria-label=${t('Light or dark')} onClick=${() => set('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>
     ${page[2](state)}`;
 }

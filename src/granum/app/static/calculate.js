@@ -11,11 +11,11 @@ export const isSelection = (c) => c.sort === 'procedure' && c.card.split('.')[1]
 export function Calculate({ state, page = 'calculate', keep = CALCULATED, first = 'particles.terminal_velocity' }) {
   const cards = useCards(keep);
   const key = state.key || (cards?.some((c) => c.card === first) ? first : cards?.[0]?.card);
-  const { data: card, error } = useAnswer((signal) => (key ? ask(`/api/cards/${encodeURIComponent(key)}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language], 0);
+  const { data: card, error } = useAnswer((signal) => (key ? ask(`/api/cards/${encodeURIComponent(key)}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language, settings.units], 0);
   const ready = card && card.card === key;
   return html`<main class=${page === 'charts' ? 'three chart' : 'three'} id="main"><${Finder} page=${page} current=${key} cards=${cards} />
     ${error ? html`<section><h1>${t('Calculate')}</h1><p class="message out">${error.message}</p></section><section />`
-      : ready ? html`<${Work} key=${`${key} ${settings.language} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
+      : ready ? html`<${Work} key=${`${key} ${settings.language} ${settings.units} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
         : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
 }
 
@@ -32,6 +32,11 @@ function Work({ page, card, given }) {
   const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
   const set = (next) => { setPast([...past.slice(-50), values]); setValues(next); };
   const wrong = answer.error?.details?.name;
+  const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
+  const addState = (x, y) => {
+    const found = stateAt(answer.data, x, y);
+    if (found) set({ ...values, temperature: appended(values.temperature, found.celsius, 'degC'), humidity_ratio: appended(values.humidity_ratio, found.grams, 'g/kg') });
+  };
   const copy = async () => {
     try { await navigator.clipboard.writeText(location.href); setCopied(t('Copied.')); } catch { setCopied(location.href); }
     setTimeout(() => setCopied(''), 4000);
@@ -45,9 +50,52 @@ function Work({ page, card, given }) {
       <div aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
-      ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} />`
+      ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
         : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${kept} keep=${() => setKept([...kept, answer.data])} clear=${() => setKept([])} choose=${set} />`)}</div>
+      ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
+}
+
+/** Temperature and humidity ratio at a place of a chart of humid gas: a plane through the nearest places of the grid that the chart carries. */
+function stateAt(figure, x, y) {
+  const grid = figure.data.find((trace) => trace.customdata && trace.mode === 'markers');
+  if (!grid) return null;
+  const list = (values) => (Array.isArray(values) ? values : decoded(values));
+  const [gx, gy] = [list(grid.x), list(grid.y)];
+  const rows = Array.isArray(grid.customdata) ? grid.customdata : rowsOf(grid.customdata);
+  const [spanX, spanY] = ['xaxis', 'yaxis'].map((axis) => Math.abs(figure.layout[axis].range[1] - figure.layout[axis].range[0]));
+  const near = gx.map((_, i) => i).sort((a, b) => far(a) - far(b)).slice(0, 6);
+  function far(i) { return ((gx[i] - x) / spanX) ** 2 + ((gy[i] - y) / spanY) ** 2; }
+  if (far(near[0]) > 0.03 ** 2) return null; // fog, or beside the chart
+  const plane = (k) => fitPlane(near.map((i) => [(gx[i] - x) / spanX, (gy[i] - y) / spanY, rows[i][k]]));
+  return { celsius: plane(0), grams: Math.max(0, plane(1)) };
+}
+
+/** Value at the origin of the plane through points (x, y, z), least squares; the nearest point's value when they lie on a line. */
+function fitPlane(points) {
+  const sum = (f) => points.reduce((total, p) => total + f(p), 0);
+  const [n, sx, sy, sz] = [points.length, sum((p) => p[0]), sum((p) => p[1]), sum((p) => p[2])];
+  const [xx, xy, yy, xz, yz] = [sum((p) => p[0] * p[0]), sum((p) => p[0] * p[1]), sum((p) => p[1] * p[1]), sum((p) => p[0] * p[2]), sum((p) => p[1] * p[2])];
+  const minor = xx * yy - xy * xy;
+  const whole = n * minor - sx * (sx * yy - xy * sy) + sy * (sx * xy - xx * sy);
+  if (Math.abs(whole) < 1e-14 * n * (xx + yy) ** 2) return points[0][2];
+  return (sz * minor - sx * (xz * yy - xy * yz) + sy * (xz * xy - xx * yz)) / whole;
+}
+
+const TYPES = { f8: Float64Array, f4: Float32Array, i4: Int32Array, i2: Int16Array, i1: Int8Array, u1: Uint8Array };
+/** Numbers that Plotly packs in base 64. */
+const decoded = ({ dtype, bdata }) => [...new TYPES[dtype](Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0)).buffer)];
+function rowsOf(packed) {
+  const flat = decoded(packed);
+  const width = Number(String(packed.shape).split(',')[1]);
+  return Array.from({ length: flat.length / width }, (_, i) => flat.slice(i * width, (i + 1) * width));
+}
+
+/** A list with one more number; a list in another unit starts again. */
+function appended(text, value, unit) {
+  const shown = String(Number(value.toPrecision(3)));
+  const before = text?.endsWith(` ${unit}`) ? text.slice(0, -unit.length - 1) : '';
+  return `${before ? before + ' ' : ''}${shown} ${unit}`;
 }
 
 function Result({ card, values, data, kept, keep, clear, choose }) {

@@ -3,7 +3,7 @@ import { html, t, ask, link, useAnswer, useState, settings } from './core.js';
 import { english } from './strings.fr.js';
 
 export function useCards(keep) {
-  const { data } = useAnswer(() => ask('/api/cards'), [settings.language], 0);
+  const { data } = useAnswer(() => ask('/api/cards'), [settings.language, settings.units], 0);
   return data ? data.cards.filter(keep) : null;
 }
 

@@ -26,6 +26,7 @@ export function replaceLink(page, key, values) {
 const store = (name, fallback) => { try { return localStorage.getItem(name) || fallback; } catch { return fallback; } };
 export const settings = {
   language: new URLSearchParams(location.search).get('lang') || store('granum-language', navigator.language.startsWith('fr') ? 'fr' : 'en'),
+  units: store('granum-units', 'si'),
   theme: store('granum-theme', matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'),
 };
 export function keep(name, value) {
@@ -61,7 +62,7 @@ export async function ask(path, body, options = {}) {
   const form = body instanceof FormData;
   const response = await fetch(path, {
     method: options.method || (body === undefined ? 'GET' : 'POST'),
-    headers: { 'x-language': settings.language, ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
+    headers: { 'x-language': settings.language, 'x-units': settings.units, ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
     body: body === undefined ? undefined : form ? body : JSON.stringify(body),
     signal: options.signal,
   });
@@ -110,10 +111,12 @@ function fitted({ layout, data }, width) {
   const margin = { ...layout.margin, t: 36, ...(narrow ? { l: 56, r: 12 } : {}) };
   const legend = narrow ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.22, yanchor: 'top', font: { size: 11 } } : layout.legend;
   const axes = narrow ? { xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 }, ...(count > 8 ? { showlegend: false } : {}) } : {};
-  return { ...layout, title: undefined, autosize: true, margin, legend, ...axes };
+  return { ...layout, title: undefined, width: undefined, autosize: true, margin, legend, ...axes };
 }
 
-export function Plot({ figure, label }) {
+export function Plot({ figure, label, onPoint }) {
+  const clicked = useRef(null);
+  clicked.current = onPoint;
   const place = useRef(null);
   useEffect(() => {
     let alive = true;
@@ -122,6 +125,12 @@ export function Plot({ figure, label }) {
         Plotly.react(place.current, figure.data, fitted(figure, place.current.clientWidth), {
           responsive: true, displaylogo: false, displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
           toImageButtonOptions: { format: 'svg', filename: 'granum' },
+        });
+        place.current.removeAllListeners?.('plotly_click');
+        place.current.on('plotly_click', (event) => {
+          const edge = place.current.getBoundingClientRect();
+          const { xaxis, yaxis } = place.current._fullLayout;
+          clicked.current?.(xaxis.p2d(event.event.clientX - edge.left - xaxis._offset), yaxis.p2d(event.event.clientY - edge.top - yaxis._offset));
         });
       }
     });

@@ -3,7 +3,7 @@ import { html, t, ask, link, number, useAnswer, useState, settings } from './cor
 import { Quiz } from './quiz.js';
 
 export function Exercises({ state }) {
-  const { data, error } = useAnswer(() => ask('/api/exercises'), [settings.language], 0);
+  const { data, error } = useAnswer(() => ask('/api/exercises'), [settings.language, settings.units], 0);
   if (error) return html`<main class="page" id="main"><h1>${t('Exercises')}</h1><p class="message out">${error.message}</p></main>`;
   if (!data) return html`<main class="page" id="main" aria-busy="true"><h1>${t('Exercises')}</h1><p class="dim">${t('Loading…')}</p></main>`;
   const exercise = data.exercises.find((e) => e.id === state.key) || data.exercises[0];

@@ -6,9 +6,9 @@ import { Finder, useCards } from './cards.js';
 export function Lab({ state }) {
   const cards = useCards((c) => c.sort === 'lab test');
   const key = state.key || (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
-  const { data: card } = useAnswer((signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language], 0);
+  const { data: card } = useAnswer((signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language, settings.units], 0);
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
-    ${card && card.card === key ? html`<${Test} key=${key + settings.language} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
+    ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
 }
 
 function Test({ card, given }) {

@@ -25,6 +25,7 @@ export const french = {
   'Input': 'Donnée', 'now': 'actuellement', 'Distribution': 'Loi de probabilité', 'normal': 'normale', 'uniform': 'uniforme', 'mean': 'moyenne', 'standard deviation': 'écart type', 'from': 'de', 'to': 'à', 'steps': 'pas', 'Download the cases': 'Télécharger les cas', '{run} cases, {failed} without a result': '{run} cas, dont {failed} sans résultat',
   'Feeds': 'Alimentations', 'Units': 'Unités', 'No parameters.': 'Aucun paramètre.', 'Flow diagram': 'Schéma de procédé', 'Nothing differs yet: change a parameter.': 'Rien ne diffère encore : changez un paramètre.',
   'Click a unit or a stream, or reach it with the tabulator key and press Enter.': 'Cliquez sur une unité ou un courant, ou atteignez-le par la touche de tabulation puis Entrée.',
+  'Units: SI or customary of the United States': 'Unités : SI ou usuelles des États-Unis', 'Click on the chart to add a state of a process.': "Cliquez sur le diagramme pour ajouter un état d'un procédé.", 'Clear the process': 'Effacer le procédé',
   'Check': 'Vérifier', 'right': 'juste', 'wrong': 'faux', '{score} of {count} right': '{score} justes sur {count}',
   'materials': 'Matériaux', 'particles': 'Particules', 'porous': 'Milieux poreux', 'humid_gas': 'Gaz humide', 'streams': 'Courants', 'comminution': 'Broyage et criblage', 'settling': 'Décantation', 'cyclones': 'Cyclones', 'fluidization': 'Fluidisation', 'filtration': 'Filtration', 'centrifuges': 'Centrifugation', 'crystallization': 'Cristallisation', 'drying': 'Séchage', 'studies': 'Études', 'costs': 'Coûts',
 };

@@ -17,7 +17,7 @@ export function Studies({ state }) {
   const [list, setList] = useState(null);
   useEffect(() => { Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files || [], shipped: shipped.files })); }, []);
   const place = state.key || 'card:particles.terminal_velocity';
-  const { data: found, error } = useAnswer((signal) => subjectOf(place, state.values, signal), [place, state.visit, settings.language], 0);
+  const { data: found, error } = useAnswer((signal) => subjectOf(place, state.values, signal), [place, state.visit, settings.language, settings.units], 0);
   const go = (value) => { location.hash = `#/studies/${encodeURIComponent(value)}`; };
   const head = html`<h1>${t('Studies')}</h1>
     <div class="row"><label>${t('Study of')} <select value=${place} onChange=${(e) => go(e.target.value)}>
@@ -25,7 +25,7 @@ export function Studies({ state }) {
       ${list?.shipped.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
       ${list?.own.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select></label></div>`;
   const ready = found && found.place === place;
-  return html`<main class="studies" id="main">${ready ? html`<${Form} key=${place + settings.language + state.visit} head=${head} subject=${found.subject} choices=${found.choices} />`
+  return html`<main class="studies" id="main">${ready ? html`<${Form} key=${place + settings.language + settings.units + state.visit} head=${head} subject=${found.subject} choices=${found.choices} />`
     : html`<section aria-label=${t('Enter')}>${head}${error ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Loading…')}</p>`}</section><section aria-label=${t('Believe')} />`}</main>`;
 }
 
