@@ -1,9 +1,7 @@
-"""Kinds that only crystallization needs."""
+"""Kinds of crystallization."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from granum.core.kinds import TemperatureRate
 
-from granum.core.kinds import Kind
-
-CoolingRate = Annotated[Any, Kind("cooling rate", "K/s", lower=0.0, open_lower=True, display=("K/hour", "K/min"))]
+CoolingRate = TemperatureRate

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.centrifuges.quantities import Stress
 from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
@@ -19,6 +18,7 @@ from granum.core.kinds import (
     Pressure,
     RotationSpeed,
     Speed,
+    Stress,
     Volume,
     VolumeFlow,
 )

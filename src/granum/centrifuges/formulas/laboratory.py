@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.centrifuges.quantities import SpecificVolume
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
@@ -16,6 +15,7 @@ from granum.core.kinds import (
     MolarMass,
     PositiveNumber,
     RotationSpeed,
+    SpecificVolume,
     Speed,
     Temperature,
     Time,

@@ -15,10 +15,10 @@ from granum.core.kinds import (
     Pressure,
     RelativeHumidity,
     SpecificEnergy,
+    SpecificVolume,
     Temperature,
 )  # fmt: skip
 from granum.humid_gas.formulas.state import RANGE, GasVaporPair
-from granum.humid_gas.kinds import SpecificVolume
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; wagner2002; lemmon2000; iapwsif97, eq. 30"

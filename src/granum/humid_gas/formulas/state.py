@@ -19,10 +19,10 @@ from granum.core.kinds import (
     Pressure,
     RelativeHumidity,
     SpecificEnergy,
+    SpecificVolume,
     Temperature,
 )  # fmt: skip
 from granum.humid_gas.inputs import Solver
-from granum.humid_gas.kinds import SpecificVolume
 from granum.humid_gas.pairs import AIR_WATER
 
 GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]

@@ -18,16 +18,15 @@ from granum.core.kinds import (
     OpenFraction,
     PositiveNumber,
     Ratio,
+    SpecificVolume,
     Velocity,
     VolumeFraction,
+    VolumePerMass,
     Within,
 )
-from granum.core.kinds import Kind as _Kind
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag, terminal_velocity
 
-Dilution = Annotated[Any, _Kind("volume per mass", "m^3/kg", lower=0.0, open_lower=True, display=("L/kg", "m^3/kg"))]
-DryVolumePerMass = Annotated[Any, _Kind("volume per mass", "m^3/kg", lower=0.0, display=("L/kg", "m^3/kg"))]
 Packed = Annotated[OpenFraction, Within(0.5, 1.0)]
 
 
@@ -232,8 +231,8 @@ def diluted_suspension(
     particle_density: Density,
     fluid_density: Density,
     kinematic_viscosity: KinematicViscosity,
-    liquid_volume_per_solid_mass: Dilution,
-    dilution_limit: DryVolumePerMass,
+    liquid_volume_per_solid_mass: SpecificVolume,
+    dilution_limit: VolumePerMass,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> DilutedSuspension:
     """Apparent density and kinematic viscosity of a suspension from its dilution, and the creeping velocity in them.
