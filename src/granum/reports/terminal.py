@@ -81,7 +81,7 @@ def print_result(result: Result) -> None:
 def _friendly(row: dict[str, Any]) -> tuple[list[str], str]:
     """Value, standard error and interval of an estimate in the unit people would choose."""
     numbers = [row["value"], row["standard_error"], *row["interval_95"]]
-    kinds = {k for k in KINDS.values() if k.unit == row["unit"] and k.display}
+    kinds = {k for k in KINDS.values() if k.unit == row["unit"]}
     kind = kinds.pop() if len(kinds) == 1 else None  # 1/m may be a surface per volume or a medium resistance: left alone
     unit = row["unit"]
     if kind is not None and row["value"] is not None:
