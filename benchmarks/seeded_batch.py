@@ -125,6 +125,9 @@ def main():
     print(f"grid of 200 classes by BDF: {peer * 1e3:.0f} ms, error in number {number.sum() / exact[0] - 1:+.1e}; ratio {peer / one:.0f}")
     assert worst < 1e-4
     assert peer > 100 * one
+    assert one < 3e-3
+    assert jac < 6 * one
+    assert ensemble < 15
 
 
 if __name__ == "__main__":

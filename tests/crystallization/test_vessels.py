@@ -14,16 +14,19 @@ from tests.crystallization.test_batch import Constant, ConstantBirths
 from tests.crystallization.test_recipes import GROWTH, NUCLEATION, SEEDED, SOLUBILITY, mixture
 
 from granum.core.errors import ApplicabilityError, CaseError, InputError
+from granum.core.flags import collect
 from granum.crystallization.equipment.batch import (
     BatchCrystallizer,
     JacketedBatchCrystallizer,
     PlugFlowCrystallizer,
     VacuumBatchCrystallizer,
 )
+from granum.crystallization.formulas.balances import crystallizer_balance
 from granum.crystallization.formulas.encrustation import temperature_difference_encrustation, wall_temperature_jacket
 from granum.crystallization.formulas.nucleation import NoNucleation
-from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling, TemperaturePoints
-from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
+from granum.crystallization.formulas.programs import ConstantFlow, NaturalCooling, PowerCooling, TemperaturePoints
+from granum.crystallization.formulas.solubility_laws import LibrarySolubility, PolynomialSolubility
+from granum.crystallization.lab_tests.next_batch import next_batch
 from granum.crystallization.population.lagrangian import Model, SolventVolume, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.population.packets import GrowthDispersion, Seeds
@@ -32,6 +35,7 @@ from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.driven import jacketed_batch, vacuum_batch
 from granum.crystallization.vessels.dynamic import Inflow, SteadyFeed, march_cascade, msmpr_over_time
 from granum.crystallization.vessels.msmpr import Feed, steady_msmpr
+from granum.crystallization.vessels.precipitation import precipitation_batch
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture
 from granum.streams.stream import empty
@@ -250,3 +254,89 @@ def test_agglomerating_batch_asks_for_enough_steps():
     same = agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=none, steps=100)
     assert same.mean_diameter == pytest.approx(plain.mean_diameter, rel=1e-9)
     assert sum(same.class_fractions) == pytest.approx(1.0)
+
+
+KINETICS = {
+    "growth": {"law": "power_law_growth", "growth_coefficient": 4e-11, "growth_order": 2},
+    "nucleation": {"law": "secondary_nucleation", "nucleation_coefficient": 1e7, "nucleation_order": 2, "magma_order": 0},
+}
+
+
+def davies(z, strength):
+    """Davies with Güntelberg's A = 0.509 at 25 °C, as printed in textbooks."""
+    return 10 ** (-0.509 * z * z * (np.sqrt(strength) / (1 + np.sqrt(strength)) - 0.3 * strength))
+
+
+def test_precipitation_starts_at_the_activity_product_and_ends_at_its_equilibrium():
+    """Barium sulfate, Ksp 1.08e-10: half a mole of excess barium; what is left follows from the product of activities by bisection."""
+    out = precipitation_batch(0.02, 0.1, ConstantFlow(0.1 / 1200, 0.0, 1200.0), duration=36000.0, crystal_density=4500.0, molar_mass=0.2334,
+                              **KINETICS, seed_mass_per_solvent=1e-2)  # fmt: skip
+    S = np.asarray(out.supersaturation_ratio)
+    assert S[-1] == pytest.approx(1.0, abs=0.02)
+    # 0.02 mol Ba in 1.1 kg, 0.01 mol sulfate; counter-ions 0.04 and 0.02 mol of single charge
+    barium = 0.01 / 1.1
+    strength = 0.5 * (4 * barium + (0.04 + 0.02) / 1.1)
+    sulfate = 1.08e-10 / (davies(2, strength) ** 2 * barium)
+    assert float(out.anion_molality[-1]) == pytest.approx(sulfate, rel=0.06)
+    assert float(out.cation_molality[-1]) == pytest.approx(barium, rel=1e-3)
+    assert out.yield_fraction == pytest.approx(1.0, abs=1e-3)
+    assert np.all(np.asarray(out.crystals_per_solvent) <= 0.01 * 0.2334 + 1e-2 + 1e-12)
+
+
+def test_precipitation_is_second_order_and_conserves_both_ions():
+    common = {"cation_molality": 0.01, "anion_molality": 0.1, "reagent_program": ConstantFlow(0.1 / 1200), "duration": 1200.0, "crystal_density": 4500.0,
+              "molar_mass": 0.2334, **KINETICS}  # fmt: skip
+    coarse, fine, finest = (precipitation_batch(**common, steps=n) for n in (200, 400, 1600))
+    errors = [abs(float(o.crystals_number[-1] / finest.crystals_number[-1]) - 1) for o in (coarse, fine)]
+    assert errors[0] / errors[1] > 3.0
+    assert fine.step_error < 5e-3
+    # One mole of each ion in one mole of salt: equal amounts added, equal amounts left.
+    assert float(fine.cation_molality[-1]) == pytest.approx(float(fine.anion_molality[-1]), rel=1e-9)
+    left = float(fine.cation_molality[-1]) * 1.1 + float(fine.crystals_per_solvent[-1]) / 0.2334
+    assert left == pytest.approx(0.01, rel=1e-9)
+
+
+def test_next_batch_prefers_what_tells_most():
+    """The same batch again divides every error by the square root of two; its information is additive."""
+    common = {"growth_coefficient": KG, "growth_order": G_ORDER, "nucleation_coefficient": KB, "nucleation_order": B_ORDER, "solubility": SOLUBILITY,
+              "temperature_start": 305.15, "temperature_end": 301.15, "crystal_density": DENSITY}  # fmt: skip
+    once = next_batch(**common, candidate_seed_masses=[5e-4], candidate_durations=[4800.0])
+    twice = next_batch(
+        **common, candidate_seed_masses=[5e-4], candidate_durations=[4800.0], done_seed_masses=[5e-4], done_durations=[4800.0]
+    )
+    for a, b in zip(once[2:], twice[2:], strict=True):
+        assert a[0] / b[0] == pytest.approx(np.sqrt(2.0), rel=1e-6)
+    ranked = next_batch(**common, candidate_seed_masses=[1e-2, 5e-4], candidate_durations=[4800.0, 4800.0])
+    assert ranked.seed_mass_per_solvent[0] == 5e-4  # little seed: nuclei matter
+    assert np.all(np.diff(ranked.joint_error) > 0)
+    with pytest.raises(InputError, match="duration"):
+        next_batch(**common, candidate_seed_masses=[1e-2, 5e-4], candidate_durations=[4800.0])
+
+
+def test_pure_growth_moves_a_distribution_as_it_is():
+    """Constant growth: every moment about the moving origin stays (square pulse of 100 to 200 um moved by 60 um)."""
+    start = Seeds(jnp.linspace(1e-4, 1.9e-4, 10), jnp.linspace(1.1e-4, 2e-4, 10), jnp.full(10, 1e6))
+    rates = Model(PolynomialSolubility([1e-6]), Constant(1e-8), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0))
+    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), start, 50.0, 1e5, jnp.linspace(0, 6000.0, 7)).final
+    np.testing.assert_allclose(found.low[:10], start.low + 6e-5, rtol=1e-9)
+    np.testing.assert_allclose(found.number[:10], start.number, rtol=1e-14)
+
+
+def test_bad_input_is_told():
+    program = PowerCooling(305.15, 301.15, DURATION)
+    with pytest.raises(InputError, match="fraction"):
+        crystallizer_balance(mass_flow=1.0, solute_mass_fraction=1.2, solubility_per_solvent=0.2)
+    with pytest.raises(InputError, match="per kg of solvent"):  # g per liter for kg per kg
+        batch(**{**SEEDED, "solute_per_solvent": 493.0}, temperature_program=program)
+    with pytest.raises(InputError, match=r"must be|not possible|between|above"):
+        batch(**{**SEEDED, "seed_mass_per_solvent": -1.0}, temperature_program=program)
+    told = LibrarySolubility("potassium nitrate")
+    with collect() as records:
+        told(500.0)
+    assert any(bool(r.mask) for r in records)  # outside the data: extrapolated
+    # Seeds larger than the size classes of the line: told by a check, not hidden.
+    small = Mixture(mixture().solids, mixture().liquids, mixture().gases, (0.0, *map(float, np.geomspace(2e-5, 5e-5, 40))))
+    feed = empty(small, 333.15).replace(liquid=jnp.array([1.0, 1.0]))
+    unit = BatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, seed_mass_per_solvent=0.01, **LAWS)
+    failed = [c.name for c in unit.checks({"feed": feed}, unit(feed=feed)) if not c.ok]
+    assert any("largest size class" in name for name in failed)

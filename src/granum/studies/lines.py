@@ -10,7 +10,7 @@ their proportions). Figures: ``unit.result``, ``unit.parameter``, ``stream.mass_
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax.numpy as jnp
@@ -86,7 +86,7 @@ class LineSubject(Subject):
             )
         if any(t.vary == plain for t in self.targets):
             raise InputError(_("'{name}' is found by a design specification of the case: it cannot be varied as well.").format(name=plain))
-        return Variable(path, parameter)
+        return Variable(path, parameter if index is None else replace(parameter, series=None))
 
     def _feed_input(self, feed: Stream, head: str, rest: list[str]) -> Parameter:
         where = _("of feed '{feed}'").format(feed=head)

@@ -32,7 +32,7 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.crystallization.equipment.heat import StreamHeat
-from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, roles, with_crystals
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
@@ -70,7 +70,7 @@ class BatchFigures(NamedTuple):
     yield_fraction: Ratio
     magma_density: Concentration
     relative_supersaturation_maximum: Number
-    mean_diameter: Distance
+    mean_diameter_mass: Distance
     nuclei_mass_fraction: Ratio
     seed_mass: Mass
     volume: Volume
@@ -84,7 +84,7 @@ class JacketedBatchFigures(NamedTuple):
     yield_fraction: Ratio
     magma_density: Concentration
     relative_supersaturation_maximum: Number
-    mean_diameter: Distance
+    mean_diameter_mass: Distance
     nuclei_mass_fraction: Ratio
     seed_mass: Mass
     vessel_count: Ratio
@@ -101,7 +101,7 @@ class VacuumBatchFigures(NamedTuple):
     yield_fraction: Ratio
     magma_density: Concentration
     relative_supersaturation_maximum: Number
-    mean_diameter: Distance
+    mean_diameter_mass: Distance
     nuclei_mass_fraction: Ratio
     seed_mass: Mass
     volume: Volume
@@ -116,7 +116,7 @@ class PlugFlowFigures(NamedTuple):
     yield_fraction: Ratio
     magma_density: Concentration
     relative_supersaturation_maximum: Number
-    mean_diameter: Distance
+    mean_diameter_mass: Distance
     nuclei_mass_fraction: Ratio
     residence_time: Time
     heat_duty: Power
@@ -191,6 +191,7 @@ class _Batch(Unit):
         return (
             Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
             Check(_HIGHEST, figures.relative_supersaturation_maximum, 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
+            Check(LARGEST, product.size_fractions[-1], 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
         )
 
 

@@ -26,7 +26,7 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
-from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
@@ -115,6 +115,7 @@ class _Continuous(Unit):
             Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
             Check(_LONG, state.residence_time, 600.0, 36000.0, "s", "mullin2001, ch. 9"),
             Check(_PRESENT, jnp.where(state.washed_out, 0.0, 1.0), 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+            Check(LARGEST, product.size_fractions[-1], 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
             Check(_DRYING, jnp.asarray(state.evaporation), 0.0, jnp.inf, "kg/s", "randolph1988, ch. 4"),
         )
 

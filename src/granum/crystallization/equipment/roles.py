@@ -13,6 +13,8 @@ from granum.crystallization.vessels.msmpr import Feed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
+LARGEST = "crystals in the largest size class, which takes what is larger"
+
 
 class Roles(NamedTuple):
     """Positions of the species in the arrays of a stream; ``vapor`` is None without a vapor of the solvent."""

@@ -9,7 +9,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import formula, law
-from granum.core.kinds import MassFlow, Number, PositiveNumber, Ratio, Series, Temperature, Time
+from granum.core.kinds import Fraction, MassFlow, Number, PositiveNumber, Ratio, Series, Temperature, Time
 from granum.numerics.smooth import safe_power
 
 
@@ -79,6 +79,27 @@ class TemperaturePoints(Program):
 
     def __call__(self, time: Time) -> Temperature:
         return jnp.interp(jnp.asarray(time, dtype=float), jnp.asarray(self.time), jnp.asarray(self.temperature))
+
+
+@law("program", name="cooling_shares", source="jones1974", title="Cooling by shares of the temperature fall",
+     equation=r"T(t_k) = T_0 - (T_0 - T_f)\frac{\sum_{i \le k} s_i}{\sum_i s_i}")  # fmt: skip
+class CoolingShares(Program):
+    """Cooling that never heats: the shares of the temperature fall in equal intervals of time, straight inside each.
+
+    The shares count relative to their sum, so that each may be varied on its own between zero and one, for instance by an optimization.
+    """
+
+    temperature_start: Temperature
+    temperature_end: Temperature
+    duration: Time
+    cooling_shares: Annotated[Fraction, Series("intervals")]
+
+    def __call__(self, time: Time) -> Temperature:
+        shares = jnp.asarray(self.cooling_shares)
+        fallen = jnp.concatenate([jnp.zeros(1), jnp.cumsum(shares)]) / jnp.sum(shares)
+        knots = jnp.linspace(0.0, 1.0, shares.shape[0] + 1)
+        share = jnp.interp(jnp.asarray(time, dtype=float) / self.duration, knots, fallen)
+        return self.temperature_start - (self.temperature_start - self.temperature_end) * share
 
 
 @law("program", name="constant_flow", source="mullin2001, ch. 8", title="Constant flow",

@@ -64,6 +64,26 @@ class BatchKinetics(LabTest):
         """Coefficients and orders with 95 % intervals."""
         return fit_together([self])
 
+    def chart(self) -> Any:
+        """Measured and fitted concentration over time, and the mean size where it was measured."""
+        from granum.core.charts import LIQUID, SOLID, add_line, add_points, axis_title, figure
+
+        minutes = np.asarray(self.time) / 60.0
+        fitted = self.predicted({name: estimate.value for name, estimate in self.fit().parameters.items()})
+        drawing = figure(axis_title("time", "min"), axis_title("solute_per_solvent", "kg/kg"), title=type(self).card.title)
+        saturated = np.asarray(self.solubility(np.asarray(self.temperature)))
+        add_line(drawing, minutes, saturated, _("solubility"), color=LIQUID, dash="dash")
+        add_line(drawing, minutes, np.asarray(fitted[0]), _("model"))
+        add_points(drawing, minutes, np.asarray(self.solute_per_solvent), _("data"))
+        if self.mean_diameter is not None:
+            add_line(drawing, minutes, 1e6 * np.asarray(fitted[1]), _("size, model"), color=SOLID, yaxis="y2")
+            add_points(drawing, minutes, 1e6 * np.asarray(self.mean_diameter), _("size, data"), color=SOLID, yaxis="y2")
+            drawing.update_layout(
+                yaxis2={"overlaying": "y", "side": "right", "title": axis_title("mean_diameter_mass", "um"), "showgrid": False},
+                margin={"r": 70},
+            )
+        return drawing
+
     def model(self, p: dict[str, Any]) -> Model:
         """The batch with trial kinetics."""
         crystal = Crystal(self.crystal_density, self.volume_shape_factor, self.solute_fraction_of_crystal)

@@ -7,6 +7,7 @@ which never undershoots saturation. Mass is conserved to rounding whatever the s
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -50,12 +51,25 @@ class SolventVolume(eqx.Module):
         return solvent / self.solvent_density
 
 
+class Equilibrium(eqx.Module):
+    """Saturation that depends on more of the contents than temperature, such as the ions of a precipitating salt."""
+
+    @abstractmethod
+    def ratio(self, contents: Any, crystals: Any) -> Any:
+        """Measure of the solute left in solution, on the scale of ``saturated``."""
+
+    @abstractmethod
+    def saturated(self, contents: Any) -> Any:
+        """The same at saturation."""
+
+
 class Model(eqx.Module):
     """What happens inside the vessel.
 
     Parameters
     ----------
-    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, where the law takes it).
+    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, where the law takes it), or an
+        ``Equilibrium``.
     growth: rate of size from (solute per solvent, solubility, temperature). nucleation: the same with the magma density.
     crystal: the crystal. volume: what nucleation rates and magma densities are counted on.
     dissolution: positive rate of shrinking below saturation; None where the solution stays supersaturated.
@@ -75,12 +89,16 @@ class Model(eqx.Module):
 
     def saturated(self, contents: Contents) -> Any:
         """Solubility at the temperature (and antisolvent fraction) of the contents."""
+        if isinstance(self.solubility, Equilibrium):
+            return self.solubility.saturated(contents)
         if getattr(self.solubility, "takes_antisolvent", False):
             return self.solubility(contents.temperature, contents.antisolvent / contents.solvent)
         return self.solubility(contents.temperature)
 
     def ratio(self, contents: Contents, crystals: Any) -> Any:
         """Solute per solvent left in solution."""
+        if isinstance(self.solubility, Equilibrium):
+            return self.solubility.ratio(contents, crystals)
         return ratio_left(contents.solute, contents.solvent, crystals, self.crystal.solute_fraction)
 
     def rate(self, ratio: Any, saturated: Any, temperature: Any) -> Any:
