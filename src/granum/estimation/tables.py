@@ -139,7 +139,10 @@ def _rows(source: Source, where: str) -> Iterable[Row]:
         return
     separator = max("\t;,", key=lambda mark: (lines[0][1].count(mark), mark == ","))
     for i, line in lines:
-        cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+        try:
+            cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+        except csv.Error as problem:  # a cell longer than a page, a lone quote
+            raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
         if any(cells):
             yield i, [cell.replace(",", ".") if separator != "," and i != lines[0][0] else cell for cell in cells]
 
@@ -162,14 +165,16 @@ def _bytes(source: Source, where: str) -> bytes:
 
 
 def _sheet(raw: bytes, where: str) -> Iterable[Row]:
+    import zlib
     from zipfile import BadZipFile
 
     import openpyxl
 
     try:
-        book = openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
-    except (BadZipFile, KeyError, ValueError) as problem:
+        rows = list(openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True).worksheets[0].iter_rows(values_only=True))
+    except (BadZipFile, zlib.error, EOFError, OSError, KeyError, IndexError, ValueError, TypeError, AttributeError, SyntaxError) as problem:
+        # what openpyxl raises on files that are no workbooks; broken XML is a SyntaxError
         raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
-    for i, cells in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
+    for i, cells in enumerate(rows, 1):
         if any(cell is not None for cell in cells) and not str(cells[0]).startswith("#"):
             yield i, list(cells)
