@@ -1,0 +1,1 @@
+"""Gas–solid contact in cells: the core that the distributed dryers share."""

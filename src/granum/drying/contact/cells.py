@@ -1,0 +1,232 @@
+"""The core: classes of moist solid and moist gas through a row of cells, steady and in time, water and energy conserved.
+
+Solid flows from the first cell to the last (or stands still); gas flows along a network between neighboring cells. Everything is counted
+per dry mass, with the enthalpies of the streams, so that what closes here closes in the flowsheet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+
+from granum.drying.contact.kinetics import AbstractKinetics, Meeting
+from granum.drying.contact.matter import Matter, slope
+from granum.numerics import advance_chain, solve_chain
+
+ENTHALPY = 1e5  # J/kg, the unit of enthalpy among the unknowns
+WARMEST_STEP = 3.0  # largest change of an enthalpy in one step of the solver, in that unit
+MIXED = 1e6  # flow between neighbors, over the flow through, that counts as well mixed
+
+
+class Network(NamedTuple):
+    """Flows of dry gas relative to the whole: into each cell from the cell before, from the cell after and from outside, and to the outside."""
+
+    from_before: Any
+    from_after: Any
+    inlet: Any
+    outlet: Any
+
+    @classmethod
+    def co_current(cls, n: int) -> Network:
+        """With the solid."""
+        first, last = jnp.zeros(n).at[0].set(1.0), jnp.zeros(n).at[-1].set(1.0)
+        return cls(1.0 - first, jnp.zeros(n), first, last)
+
+    @classmethod
+    def counter_current(cls, n: int) -> Network:
+        """Against the solid."""
+        first, last = jnp.zeros(n).at[0].set(1.0), jnp.zeros(n).at[-1].set(1.0)
+        return cls(jnp.zeros(n), 1.0 - last, last, first)
+
+    @classmethod
+    def cross_current(cls, n: int) -> Network:
+        """Fresh gas to every cell."""
+        return cls(jnp.zeros(n), jnp.zeros(n), jnp.full(n, 1.0 / n), jnp.full(n, 1.0 / n))
+
+    def dispersed(self, flow: Any) -> Network:
+        """The same with an exchange flow between all neighbors: axial dispersion."""
+        n = len(self.inlet)
+        inner = jnp.arange(n)
+        return self._replace(from_before=self.from_before + flow * (inner > 0), from_after=self.from_after + flow * (inner < n - 1))
+
+    @classmethod
+    def mixed(cls, n: int) -> Network:
+        """One gas in all cells."""
+        return cls.cross_current(n).dispersed(MIXED)
+
+
+class Inlet(NamedTuple):
+    """What enters: moisture and temperature of each class of solid, humidity and temperature of the gas (one, or one for each cell)."""
+
+    moisture: Any
+    temperature: Any
+    humidity: Any
+    gas_temperature: Any
+
+
+class Profile(NamedTuple):
+    """State of every place (places × classes or layers for the solid; gas as it leaves the place) and the flows out, W and kg/s."""
+
+    shares: Any  # of the classes in the product
+    place: Any  # 0 … 1 along the path of the solid
+    moisture: Any
+    temperature: Any
+    humidity: Any
+    gas_temperature: Any
+    water: Any  # with the solid, by class
+    solid_enthalpy: Any
+    vapor: Any  # with the gas
+    gas_enthalpy: Any
+    heat_duty: Any  # taken up from walls less lost
+    converged: Any
+
+
+class Contact(eqx.Module):
+    """A dryer as the core sees it.
+
+    Parameters
+    ----------
+    matter, kinetics: what meets, and how fast it dries.
+    solid: dry solid in each cell, kg (cells × classes).
+    renewal: share of that which flows on per second (cells × classes); zero for solid that stands.
+    gas_flow: dry gas, kg/s. network: how it flows. gas_time: residence time of the gas in the whole, s; at zero it holds nothing.
+    exchange: function of (X, T_s, T_g, Y) → W/(K kg of dry solid); arrays of cells × classes.
+    wall_exchange, wall_temperature: conduction from a hot wall to the solid, W/(K kg), K.
+    heat_loss: W lost by the gas in each cell.
+    solid_dispersion: exchange of solid between neighboring cells over its flow.
+    """
+
+    matter: Matter
+    kinetics: AbstractKinetics
+    solid: Any
+    renewal: Any
+    gas_flow: Any
+    network: Network
+    exchange: Callable[..., Any]
+    wall_exchange: Any = 0.0
+    wall_temperature: Any = 293.15
+    heat_loss: Any = 0.0
+    gas_time: Any = 0.0
+    solid_dispersion: Any = 0.0
+
+    @property
+    def solid_flow(self) -> Any:
+        """Dry solid by class, kg/s (zero when it stands)."""
+        return self.solid[-1] * self.renewal[-1]
+
+    def state(self, X: Any, T: Any, Y: Any, Tg: Any) -> Any:
+        """The unknowns from moistures and temperatures (cells × classes, cells)."""
+        H, Hg = self.matter.moist_solid(T, X) / ENTHALPY, self.matter.moist_gas(Tg, Y) / ENTHALPY
+        return jnp.concatenate([X, H, Y[:, None], Hg[:, None]], axis=1)
+
+    def parts(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        """Moisture, enthalpy, humidity and gas enthalpy (in units of 10⁵ J/kg) from the unknowns."""
+        m = self.solid.shape[1]
+        return u[..., :m], u[..., m : 2 * m], u[..., -2], u[..., -1]
+
+    def temperatures(self, u: Any) -> tuple[Any, Any]:
+        """Of solid and gas."""
+        X, H, Y, Hg = self.parts(u)
+        return self.matter.solid_temperature(ENTHALPY * H, X), self.matter.gas_temperature(ENTHALPY * Hg, Y)
+
+    def meeting(self, u: Any) -> Meeting:
+        """Where solid meets gas, in every cell."""
+        X, _H, Y, _Hg = self.parts(u)
+        Ts, Tg = self.temperatures(u)
+        Y, Tg = Y[:, None], Tg[:, None]
+        exchange = jnp.broadcast_to(self.exchange(X, Ts, Tg, Y), X.shape)
+        return Meeting(X, Ts, Tg, Y, exchange, self.matter)
+
+    def _transfer(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        """Per kg of dry solid: water evaporated, enthalpy it carries at the surface, heat from the gas, heat from walls."""
+        at = self.meeting(u)
+        rate = self.kinetics.rate(at)
+        carried, heat_capacity = slope(self.matter.vapor_enthalpy, at.temperature)
+        blow = rate * heat_capacity / at.exchange
+        small = abs(blow) < 1e-6
+        safe = jnp.where(small, 1.0, blow)
+        slowed = jnp.where(small, 1.0 - 0.5 * blow, safe / jnp.expm1(safe))  # Ackermann: vapor leaving the surface hinders the heat
+        heat = at.exchange * slowed * (at.gas_temperature - at.temperature)
+        return rate, rate * carried, heat, self.wall_exchange * (self.wall_temperature - at.temperature)
+
+    def rates(self, u: Any, inlet: Inlet) -> Any:
+        """Rates of change: per kg of dry solid for solid, per kg/s of dry gas flow times ``gas_time``/n for gas."""
+        n = self.solid.shape[0]
+        X, H, Y, Hg = self.parts(u)
+        rate, carried, heat, wall = self._transfer(u)
+        Xin, Tin = jnp.broadcast_to(inlet.moisture, X.shape[1:]), jnp.broadcast_to(inlet.temperature, X.shape[1:])
+        Hin = self.matter.moist_solid(Tin, Xin) / ENTHALPY
+        dX = self._moved(X, Xin) - rate
+        dH = self._moved(H, Hin) + (heat + wall - carried) / ENTHALPY
+        g = self.gas_flow
+        Yin, Tgin = jnp.broadcast_to(inlet.humidity, (n,)), jnp.broadcast_to(inlet.gas_temperature, (n,))
+        Hgin = self.matter.moist_gas(Tgin, Yin) / ENTHALPY
+        dY = self._blown(Y, Yin) + jnp.sum(self.solid * rate, axis=1) / g
+        dHg = self._blown(Hg, Hgin) + (jnp.sum(self.solid * (carried - heat), axis=1) - self.heat_loss) / (g * ENTHALPY)
+        return jnp.concatenate([dX, dH, dY[:, None], dHg[:, None]], axis=1)
+
+    def _moved(self, q: Any, q_in: Any) -> Any:
+        """What the flow of solid brings, per kg in the cell and second."""
+        before = jnp.concatenate([q_in[None], q[:-1]])
+        flow = self.renewal * (before - q)
+        swap = self.renewal * self.solid_dispersion
+        down = jnp.concatenate([jnp.zeros_like(q[:1]), q[:-1] - q[1:]])
+        up = jnp.concatenate([q[1:] - q[:-1], jnp.zeros_like(q[:1])])
+        return flow + swap * (down + up)
+
+    def _blown(self, q: Any, q_in: Any) -> Any:
+        """What the flow of gas brings, relative to the whole flow."""
+        w = self.network
+        before, after = jnp.concatenate([q[:1], q[:-1]]), jnp.concatenate([q[1:], q[-1:]])
+        return w.from_before * (before - q) + w.from_after * (after - q) + w.inlet * (q_in - q)
+
+    def outflow(self, u: Any) -> Any:
+        """Water and enthalpy (10⁵ W) that leave with each class of solid, then with the gas: linear in the unknowns."""
+        X, H, Y, Hg = self.parts(u)
+        out = self.gas_flow * self.network.outlet
+        return jnp.concatenate([self.solid_flow * X[-1], self.solid_flow * H[-1], jnp.sum(out * Y)[None], jnp.sum(out * Hg)[None]])
+
+    def _capacity(self) -> Any:
+        n, m = self.solid.shape
+        return jnp.concatenate([jnp.ones((n, 2 * m)), jnp.full((n, 2), 1.0) * self.gas_time / n], axis=1)
+
+    def start(self, inlet: Inlet) -> Any:
+        """A first guess: solid and gas as they enter."""
+        n, m = self.solid.shape
+        Y, Tg = (jnp.sum(jnp.broadcast_to(v, (n,)) * self.network.inlet) for v in (inlet.humidity, inlet.gas_temperature))
+        return self.state(*(jnp.broadcast_to(v, (n, m)) for v in (inlet.moisture, inlet.temperature)), jnp.full(n, Y), jnp.full(n, Tg))
+
+    def steady(self, inlet: Inlet) -> Profile:
+        """The steady state."""
+        m = self.solid.shape[1]
+        wettest = 0.2 * jnp.max(inlet.moisture) + 0.01
+        limit = jnp.concatenate([jnp.full(m, 1.0) * wettest, jnp.full(m, WARMEST_STEP), jnp.full(2, jnp.inf)])
+        step = 0.1 / jnp.max(self.renewal)
+        found = solve_chain(lambda u: self.rates(u, inlet), self.start(inlet), self._capacity(), first_step=step, largest_change=limit)
+        return self.profile(found.state, found.converged)
+
+    def profile(self, u: Any, converged: Any = True) -> Profile:
+        """A state in words."""
+        X, _H, Y, _Hg = self.parts(u)
+        Ts, Tg = self.temperatures(u)
+        m = X.shape[-1]
+        out = self.outflow(u)
+        n, F = X.shape[0], self.solid_flow
+        shares = F / jnp.where(jnp.sum(F) > 0, jnp.sum(F), 1.0)
+        place = (jnp.arange(n) + 0.5) / n
+        wall = self.wall_exchange * (self.wall_temperature - Ts)
+        duty = jnp.sum(self.solid * wall) - jnp.sum(self.heat_loss * jnp.ones(n))
+        return Profile(shares, place, X, Ts, Y, Tg, out[:m], ENTHALPY * out[m : 2 * m], out[-2], ENTHALPY * out[-1], duty, converged)
+
+    def dynamic(self, start: Any, inlets: Inlet, step: Any) -> tuple[Profile, Any]:
+        """States over time from a state, inlets having a leading axis of steps; and the water and heat (10⁵ J) that left up to each."""
+
+        def flows(u: Any, _inlet: Inlet) -> Any:
+            return self.outflow(u)
+
+        states, totals = advance_chain(self.rates, start, self._capacity(), step, inlets, flows)
+        return jax.vmap(self.profile)(states), totals

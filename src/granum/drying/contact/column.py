@@ -1,0 +1,71 @@
+"""Gas blown through a layer that is carried along or lies still: layers of standing solid in time, the core without flow of solid.
+
+A column that travels through a dryer sees in time what the dryer shows along its length, so one sweep in time gives the steady dryer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from granum.drying.contact.cells import ENTHALPY, Contact, Inlet, Network, Profile
+
+
+class Zone(NamedTuple):
+    """A stretch of the dryer: time in it, dry gas per dry solid and second, whether the gas enters at the last layer, and its state."""
+
+    duration: Any
+    gas_per_solid: Any
+    backwards: bool
+    humidity: Any
+    temperature: Any
+
+
+class Passage(NamedTuple):
+    """What leaves a zone per kg of dry solid that passed, and how it got there (steps × layers)."""
+
+    layers: Profile
+    time: Any
+    gas_per_solid: Any
+    vapor: Any
+    gas_enthalpy: Any  # J
+
+
+def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int) -> list[Passage]:
+    """Take a column of one kilogram of dry solid, of moisture X and temperature T at first, through zones one after the other.
+
+    ``like`` gives matter, kinetics, exchange and the shares of solid in its layers (layers × 1).
+    """
+    n = like.solid.shape[0]
+    X, T = jnp.broadcast_to(X, (n, 1)), jnp.broadcast_to(T, (n, 1))
+    found, clock = [], 0.0
+    for zone in zones:
+        network = Network.counter_current(n) if zone.backwards else Network.co_current(n)
+        column = Contact(
+            like.matter, like.kinetics, like.solid, jnp.zeros((n, 1)), zone.gas_per_solid, network, like.exchange,
+            like.wall_exchange, like.wall_temperature, like.heat_loss,
+        )  # fmt: skip
+        start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, jnp.full(n, 1.0) * zone.temperature)
+        inlets = Inlet(
+            *(jnp.broadcast_to(jnp.asarray(v, dtype=float), (steps, *jnp.shape(v))) for v in (X[0], T[0], zone.humidity, zone.temperature))
+        )
+        layers, totals = column.dynamic(start, inlets, zone.duration / steps)
+        X, T = layers.moisture[-1], layers.temperature[-1]
+        time = clock + zone.duration * (jnp.arange(steps) + 1.0) / steps
+        found.append(Passage(layers, time, zone.gas_per_solid, totals[-1, -2], ENTHALPY * totals[-1, -1]))
+        clock = clock + zone.duration
+    return found
+
+
+def mean_moisture(like: Contact, passage: Passage) -> Any:
+    """Of the layers, over the steps."""
+    return jnp.sum(passage.layers.moisture[..., 0] * like.solid[:, 0], axis=1)
+
+
+def product_enthalpy(like: Contact, passage: Passage) -> Any:
+    """Of the column at the end, J per kg of dry solid."""
+    last = jax.tree.map(lambda leaf: leaf[-1], (passage.layers.moisture, passage.layers.temperature))
+    return jnp.sum(like.solid * like.matter.moist_solid(last[1], last[0]))

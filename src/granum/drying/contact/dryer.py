@@ -1,0 +1,229 @@
+"""From streams to the core and back: what every dryer built on the contact core shares."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
+from granum.core.kinds import HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, Ratio, Temperature, Time
+from granum.drying.contact.cells import Contact, Inlet, Profile
+from granum.drying.contact.kinetics import AbstractKinetics, Meeting
+from granum.drying.contact.matter import Matter, temperature_at
+from granum.numerics import find_root, safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+WIDER = 3.0  # steps in which a size is sought
+NOTES = "houdon2017, notes D table {table}"
+
+
+class Dried(NamedTuple):
+    """Dried solid, exhaust gas and the heat taken up from outside (negative: the loss)."""
+
+    product: Stream
+    exhaust: Stream
+    heat_duty: Any
+
+
+class DryerFigures(NamedTuple):
+    """Figures that every continuous dryer has."""
+
+    evaporation_rate: MassFlow
+    moisture_dry_basis: MoistureDryBasis
+    moisture_dry_basis_highest: MoistureDryBasis
+    temperature_product: Temperature
+    temperature_product_highest: Temperature
+    temperature_exhaust: Temperature
+    humidity_ratio: HumidityRatio
+    relative_humidity: Ratio
+    solid_holdup: Mass
+    residence_time: Time
+    heat_duty: Power
+
+
+class Dryer(Unit):
+    """A dryer fed with wet solid and gas. A subclass says what happens inside (``profile``); streams, figures and checks are here."""
+
+    if TYPE_CHECKING:  # fields of every subclass, which are not declared here because a dataclass would put them first
+
+        @property
+        def kinetics(self) -> AbstractKinetics: ...
+
+        @property
+        def temperature_limit(self) -> Any: ...
+
+    @abstractmethod
+    def profile(self, feed: Stream, gas: Stream) -> Profile:
+        """Moisture and temperature through the dryer in steady state, and what leaves it."""
+
+    @abstractmethod
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        """Dry solid in the dryer, kg."""
+
+    @abstractmethod
+    def extent(self) -> Any:
+        """Volume (m³) or area (m²) to which capacities refer."""
+
+    def __call__(self, feed: Stream, gas: Stream) -> Dried:
+        return dried(feed, gas, self.profile(feed, gas))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> DryerFigures:
+        feed, gas, exhaust = inlets["feed"], inlets["gas"], outlets.exhaust
+        found, matter = self.profile(feed, gas), Matter.of(feed, gas)
+        humidity = safe_divide(exhaust.gas[matter.vapor], jnp.sum(exhaust.gas) - exhaust.gas[matter.vapor])
+        some = found.shares > 1e-9
+        evaporated = feed.liquid[0] - outlets.product.liquid[0]
+        holdup = self.holdup(feed, gas)
+        return DryerFigures(
+            evaporation_rate=evaporated,
+            moisture_dry_basis=outlets.product.moisture_dry_basis,
+            moisture_dry_basis_highest=jnp.max(jnp.where(some, found.moisture[-1], 0.0)),
+            temperature_product=outlets.product.temperature,
+            temperature_product_highest=jnp.max(jnp.where(some, found.temperature, 0.0)),
+            temperature_exhaust=exhaust.temperature,
+            humidity_ratio=humidity,
+            relative_humidity=matter.relative_humidity(exhaust.temperature, humidity),
+            solid_holdup=holdup,
+            residence_time=safe_divide(holdup, feed.solid_flow),
+            heat_duty=outlets.heat_duty,
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Dried) -> tuple[Check, ...]:
+        feed, gas = inlets["feed"], inlets["gas"]
+        figures, found = self.results(inlets, outlets), self.profile(feed, gas)
+        over = outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas)
+        rows = [
+            Check("relative humidity of the exhaust", figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+            Check("moisture of the product above equilibrium with the inlet gas", over, -1e-9, 1e9, "kg/kg", "keey1978"),
+            Check("solution of the dryer found", 1.0 * found.converged, 1.0, 1.0, "dimensionless", "keey1978"),
+        ]
+        if self.temperature_limit is not None:
+            limit = float(self.temperature_limit)
+            rows.append(Check("highest product temperature", figures.temperature_product_highest, 0.0, limit, "K", "keey1978"))
+        return (*rows, *self.ranges(inlets, outlets, figures))
+
+    def hourly(self, figures: DryerFigures) -> Any:
+        """Water evaporated per volume or area and hour, kg."""
+        return figures.evaporation_rate * 3600.0 / self.extent()
+
+    def ranges(self, inlets: Mapping[str, Stream], outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        """Ranges usual for the type; none by default."""
+        return ()
+
+
+class ContactDryer(Dryer):
+    """A dryer whose solid flows through cells: a subclass says how solid and gas flow and meet (``contact``)."""
+
+    @abstractmethod
+    def contact(self, feed: Stream, gas: Stream) -> Contact:
+        """The core's view of the dryer with these inlets."""
+
+    def inlet(self, feed: Stream, gas: Stream) -> Inlet:
+        """What enters the core: every class of the solid brings the same moisture."""
+        X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
+        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+
+    def profile(self, feed: Stream, gas: Stream) -> Profile:
+        return _steady(self, feed, gas)
+
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        return jnp.sum(self.contact(feed, gas).solid)
+
+    def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
+        """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets that change from step to step."""
+        core = self.contact(feed, gas)
+        if start is None:
+            found = core.steady(self.inlet(feed, gas))
+            start = core.state(found.moisture, found.temperature, found.humidity, found.gas_temperature)
+        return core.dynamic(start, inlets, step)
+
+
+def humidity_of(gas: Stream) -> Any:
+    """Vapor over dry gas."""
+    vapor = gas.gas[gas.mixture.index("gases", "water")]
+    return vapor / (jnp.sum(gas.gas) - vapor)
+
+
+@eqx.filter_jit
+def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Profile:
+    return dryer.contact(feed, gas).steady(dryer.inlet(feed, gas))
+
+
+def dried(feed: Stream, gas: Stream, found: Profile) -> Dried:
+    """Streams from what leaves the core. Gas that came with the feed, and dust with the gas, pass to the exhaust."""
+    vapor = feed.mixture.index("gases", "water")
+    dry = gas.gas.at[vapor].set(0.0)
+    stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
+    product = feed.replace(liquid=jnp.sum(found.water)[None], gas=0.0 * feed.gas, pressure=gas.pressure)
+    exhaust = gas.replace(
+        gas=dry.at[vapor].set(found.vapor) + stray_feed.gas,
+        solid=stray_gas.solid,
+        liquid=stray_gas.liquid,
+    )
+    gas_enthalpy = found.gas_enthalpy + stray_feed.enthalpy_flow + stray_gas.enthalpy_flow
+    return Dried(warmed(product, jnp.sum(found.solid_enthalpy)), warmed(exhaust, gas_enthalpy), found.heat_duty)
+
+
+def warmed(stream: Stream, enthalpy: Any) -> Stream:
+    """The stream at the temperature of its enthalpy; the polynomials of its species are trusted near their own range only."""
+    some = stream.mass_flow > 0
+    flow = jnp.where(some, stream.mass_flow, 1.0)
+    T = temperature_at(lambda T: stream.enthalpy_at(T) / flow, enthalpy / flow, jnp.asarray(stream.temperature, dtype=float))
+    return stream.replace(temperature=jnp.where(some, T, stream.temperature))
+
+
+def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
+    """Moisture of the product in equilibrium with the gas that enters."""
+    matter = Matter.of(feed, gas)
+    Y = humidity_of(gas)
+    X = jnp.full((1,), 1.0) * feed.moisture_dry_basis
+    at = Meeting(X, gas.temperature + 0.0 * X, gas.temperature + 0.0 * X, Y + 0.0 * X, 1.0 + 0.0 * X, matter)
+    return kinetics.equilibrium(at)[0]
+
+
+def sized(
+    dryer: Any, name: str, target: Any, low: float, high: float, feed: Stream, gas: Stream, supplied: Callable[[Any], Stream] | None = None
+) -> Any:
+    """The dryer with one parameter such that the product has a moisture; an error that says why where there is none.
+
+    ``supplied`` gives the gas of each trial dryer when its flow follows the size.
+    """
+    least = float(equilibrium(dryer.kinetics, feed, gas))
+    shown = f"{float(target):.4g}"
+    if float(target) <= least:
+        raise ApplicabilityError(
+            _(
+                "A moisture of {value} kg/kg cannot be reached: equilibrium with the inlet gas is {limit} kg/kg; take drier or hotter gas."
+            ).format(value=shown, limit=f"{least:.4g}")
+        )
+    if float(target) >= float(feed.moisture_dry_basis):
+        raise ApplicabilityError(_("The feed is already as dry as {value} kg/kg.").format(value=shown))
+
+    @eqx.filter_jit
+    def moisture(x: Any, dryer: Any) -> Any:
+        changed = eqx.tree_at(lambda d: getattr(d, name), dryer, jnp.exp(x))
+        return changed(feed, supplied(changed) if supplied else gas).product.moisture_dry_basis
+
+    size = float(getattr(dryer, name))
+    wet = float(moisture(jnp.log(size), dryer))
+    grow = WIDER if wet > float(target) else 1.0 / WIDER
+    ahead, other = wet, size
+    while (ahead > float(target)) == (wet > float(target)) and low < other < high:
+        size, other = other, other * grow
+        ahead = float(moisture(jnp.log(other), dryer))
+    root = find_root(lambda x: jnp.log(moisture(x, dryer) / target), jnp.log(size), jnp.log(other), tolerance=1e-11)
+    if not bool(root.converged):
+        best = min(wet, ahead)
+        raise ApplicabilityError(
+            _(
+                "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {high} leaves {best} kg/kg, because the exhaust "
+                "saturates or the gas cools to the solid; take more or hotter gas."
+            ).format(value=shown, name=name, high=f"{max(size, other):.3g}", best=f"{best:.4g}")
+        )
+    return eqx.tree_at(lambda d: getattr(d, name), dryer, float(jnp.exp(root.value)))

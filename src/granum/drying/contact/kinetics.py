@@ -1,0 +1,231 @@
+"""Drying kinetics as the contact core asks for them: water lost per second and kilogram of dry solid, where solid meets gas."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Annotated, Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+
+from granum.core import law
+from granum.core.constants import GAS_CONSTANT
+from granum.core.kinds import Diffusivity, Law, Length, MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Temperature
+from granum.drying.contact.matter import Matter
+from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
+from granum.drying.isotherms.base import AbstractIsotherm
+from granum.drying.thin_layers.base import AbstractThinLayer
+from granum.materials.formulas.water import water_vapor_pressure
+from granum.numerics import find_root, safe_divide
+
+Isotherm = Annotated[Any, Law("isotherm")]
+Curve = Annotated[Any, Law("characteristic_rate")]
+COLDEST = 230.0  # K, of a wet bulb
+LEAST = 1e-9
+REA_FOOT = 1e-3  # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
+DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
+FOOT = 1e-4  # characteristic moisture below which every curve is a straight line to equilibrium
+
+
+class Meeting(NamedTuple):
+    """Solid and gas where they meet; the last axis runs over the classes of the solid."""
+
+    moisture: Any
+    temperature: Any
+    gas_temperature: Any
+    humidity: Any
+    exchange: Any  # heat transfer coefficient times area per dry solid, W/(K kg)
+    matter: Matter
+
+    @property
+    def conductance(self) -> Any:
+        """Mass transfer on the logarithmic driving force, kg/(s kg): Chilton and Colburn with a Lewis factor of one, as for air and water."""
+        return self.exchange / self.matter.gas_heat_capacity(self.gas_temperature, self.humidity)
+
+    def film_rate(self, activity: Any = 1.0) -> Any:
+        """Rate of a surface of given water activity at the temperature of the solid."""
+        pressure = activity * water_vapor_pressure.function(self.temperature)
+        return self.conductance * self.matter.driving_force(pressure, self.humidity)
+
+    @property
+    def relative_humidity(self) -> Any:
+        """Of the gas, kept below saturation."""
+        return jnp.clip(self.matter.relative_humidity(self.gas_temperature, self.humidity), LEAST, 0.99)
+
+    def equilibrium(self, isotherm: AbstractIsotherm | None) -> Any:
+        """Moisture at which the gas dries no further; zero for a solid without isotherm."""
+        if isotherm is None:
+            return 0.0 * self.moisture
+        return isotherm.moisture(self.relative_humidity, self.gas_temperature) + 0.0 * self.moisture
+
+    @property
+    def wet_bulb(self) -> Any:
+        """Surface temperature at which heat through the film just feeds evaporation."""
+        m = self.matter
+        T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
+
+        def balance(Ts: Any, T: Any, Y: Any) -> Any:
+            pressure = water_vapor_pressure.function(Ts)
+            heat = jnp.log1p(m.vapor_heat_capacity(Ts) * (T - Ts) / m.heat_of_vaporization(Ts)) / m.vapor_heat_capacity(Ts)
+            return heat - m.driving_force(pressure, Y) / m.gas_heat_capacity(T, Y)
+
+        return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0).value
+
+
+class AbstractKinetics(eqx.Module):
+    """A rate of drying. Negative where the gas wets the solid."""
+
+    @abstractmethod
+    def rate(self, at: Meeting) -> Any:
+        """kg of water per second and kg of dry solid."""
+
+    @abstractmethod
+    def equilibrium(self, at: Meeting) -> Any:
+        """Moisture that the solid tends to in this gas."""
+
+
+def _hindered(rate: Any, phi: Any, curve: Any, conductance: Any) -> Any:
+    """Evaporation slowed by the characteristic curve; condensation meets no such resistance. Solid below equilibrium drinks, whatever the
+    film would do: that ends every search for a steady state on the right side."""
+    slowed = curve.rate(jnp.clip(phi, FOOT, 1.0)) * jnp.clip(phi / FOOT, 0.0, 1.0)
+    return jnp.where(rate > 0, slowed, 1.0) * rate + DRINKING * conductance * jnp.minimum(phi, 0.0)
+
+
+class _Curved(AbstractKinetics):
+    """Critical moisture, curve and isotherm, shared by the two laws of the characteristic curve."""
+
+    critical_moisture: MoistureDryBasis
+    characteristic_rate: Curve = CHARACTERISTIC_LINEAR
+    isotherm: Isotherm | None = None
+
+    def __call__(self) -> Number:
+        return self.critical_moisture
+
+    def equilibrium(self, at: Meeting) -> Any:
+        return at.equilibrium(self.isotherm)
+
+    def _phi(self, at: Meeting) -> Any:
+        low = self.equilibrium(at)
+        return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, 1e-6)
+
+
+@law("drying_kinetics", name="kinetics_surface", source="keey1978; langrish2009", title="Kinetics, surface with a characteristic curve",
+     equation=r"-\frac{dX}{dt} = f(\Phi)\,k\ln\frac{1+Y_s(T_s)}{1+Y},\quad \Phi = \frac{X-X_e}{X_c-X_e}")  # fmt: skip
+class SurfaceKinetics(_Curved):
+    """Film at the solid's own temperature, slowed by the characteristic curve below the critical moisture, with Stefan flow.
+
+    >>> float(SurfaceKinetics(critical_moisture=0.2)())
+    0.2
+    """
+
+    def rate(self, at: Meeting) -> Any:
+        return _hindered(at.film_rate(), self._phi(at), self.characteristic_rate, at.conductance)
+
+
+@law("drying_kinetics", name="kinetics_van_meel", source="vanmeel1958; keey1978", title="Kinetics of van Meel, rate of the wet bulb",
+     equation=r"-\frac{dX}{dt} = f(\Phi)\,\frac{h a}{c_v}\ln\left[1+\frac{c_v (T_g-T_w)}{L_v}\right]")  # fmt: skip
+class VanMeelKinetics(_Curved):
+    """Rate of a wet surface at the wet bulb of the local gas times the characteristic curve: van Meel's own statement.
+
+    >>> float(VanMeelKinetics(critical_moisture=0.2)())
+    0.2
+    """
+
+    def rate(self, at: Meeting) -> Any:
+        m, Tw = at.matter, at.wet_bulb
+        heat = m.vapor_heat_capacity(Tw)
+        wet = at.exchange / heat * jnp.log1p(heat * (at.gas_temperature - Tw) / m.heat_of_vaporization(Tw))
+        return _hindered(wet, self._phi(at), self.characteristic_rate, at.conductance)
+
+
+@law("drying_kinetics", name="kinetics_rea", source="chen2008rea; lin2006", title="Kinetics, reaction engineering approach",
+     equation=r"p_s = e^{-\Delta E_v/RT_s}\,p_{sat}(T_s),\quad \Delta E_v = -R T_g\ln\varphi\; a\,e^{-b (X-X_b)^c}")  # fmt: skip
+class ReactionKinetics(AbstractKinetics):
+    """Chen's approach: vapor pressure at the surface falls by an activation energy along the product's master curve; defaults of skim milk.
+
+    >>> float(ReactionKinetics()())
+    0.998
+    """
+
+    rea_factor: PositiveNumber = 0.998
+    rea_coefficient: PositiveNumber = 1.405
+    rea_exponent: PositiveNumber = 0.930
+    isotherm: Isotherm | None = None
+
+    def __call__(self) -> Number:
+        return self.rea_factor
+
+    def equilibrium(self, at: Meeting) -> Any:
+        return at.equilibrium(self.isotherm)
+
+    def rate(self, at: Meeting) -> Any:
+        over = at.moisture - self.equilibrium(at)
+        relative = self.rea_factor * jnp.exp(-self.rea_coefficient * jnp.maximum(over, 1e-6) ** self.rea_exponent)
+        activity = jnp.exp(relative * at.gas_temperature / at.temperature * jnp.log(at.relative_humidity))
+        # a factor below one leaves a rest of vapor pressure at equilibrium: it is taken away over the last stretch of moisture
+        rate = at.film_rate(activity) * jnp.clip(over / REA_FOOT, 0.0, 1.0)
+        return rate + DRINKING * at.conductance * jnp.minimum(over / REA_FOOT, 0.0)
+
+
+@law("drying_kinetics", name="kinetics_thin_layer", source="brooker1992", title="Kinetics, thin layer",
+     equation=r"-\frac{dX}{dt} = (X_0-X_e)\left|\frac{dMR}{dt}\right|_{MR(X)}\exp\left[\frac{E}{R}\left(\frac{1}{T_0}-\frac{1}{T_g}\right)\right]")  # fmt: skip
+class ThinLayerKinetics(AbstractKinetics):
+    """Slope of a thin-layer curve at the moisture ratio reached, towards the equilibrium of the local gas; Arrhenius factor on gas temperature.
+
+    >>> from granum.drying.thin_layers.exponential import Page
+    >>> float(ThinLayerKinetics(Page(1e-4, 1.0), 0.3)())
+    0.3
+    """
+
+    thin_layer: Annotated[Any, Law("thin_layer")]
+    initial_moisture: MoistureDryBasis
+    isotherm: Isotherm | None = None
+    diffusion_activation_energy: MolarEnergy = 0.0
+    reference_temperature: Temperature = 333.15
+
+    def __call__(self) -> Number:
+        return self.initial_moisture
+
+    def equilibrium(self, at: Meeting) -> Any:
+        return at.equilibrium(self.isotherm)
+
+    def rate(self, at: Meeting) -> Any:
+        layer: AbstractThinLayer = self.thin_layer
+        low = self.equilibrium(at)
+        ratio = jnp.clip((at.moisture - low) / jnp.maximum(self.initial_moisture - low, 1e-6), 1e-5, 1.0 - 1e-5)
+        # logarithm of time, because curves of Page's kind start with a slope of zero or infinity
+        s = find_root(lambda s, r: jnp.log(jnp.maximum(layer.ratio(jnp.exp(s)), 1e-30)) - jnp.log(r), -15.0, 25.0, ratio, start=8.0).value
+        t = jnp.exp(jnp.where(jnp.isfinite(s), s, 0.0))
+        fall = jax.jvp(layer.ratio, (t,), (jnp.ones_like(t),))[1]
+        faster = jnp.exp(self.diffusion_activation_energy / GAS_CONSTANT * (1.0 / self.reference_temperature - 1.0 / at.gas_temperature))
+        return (at.moisture - low) * jnp.where(jnp.isfinite(s), -fall / ratio, 0.0) * faster
+
+
+@law("drying_kinetics", name="kinetics_diffusion", source="crank1975; keey1978", title="Kinetics, diffusion in a sphere and film in series",
+     equation=r"\frac{1}{r} = \frac{1}{\pi^2 D/R^2\,(X-X_e)} + \frac{1}{r_{film}},\quad D = D_0 e^{-E/RT_s}")  # fmt: skip
+class DiffusionKinetics(AbstractKinetics):
+    """First term of Crank's series for a sphere as a driving force, in series with the film; a plate of half thickness L has R = 2 L.
+
+    >>> float(DiffusionKinetics(1e-10, 1e-3)())
+    0.001
+    """
+
+    diffusivity_reference: Diffusivity
+    radius: Length
+    diffusion_activation_energy: MolarEnergy = 0.0
+    isotherm: Isotherm | None = None
+
+    def __call__(self) -> Number:
+        return self.radius
+
+    def equilibrium(self, at: Meeting) -> Any:
+        return at.equilibrium(self.isotherm)
+
+    def rate(self, at: Meeting) -> Any:
+        D = self.diffusivity_reference * jnp.exp(-self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature))
+        inner = jnp.pi**2 * D / self.radius**2 * (at.moisture - self.equilibrium(at))
+        film = at.film_rate()
+        both = (inner > 0) & (film > 0)
+        series = safe_divide(inner * film, inner + film)
+        return jnp.where(both, series, jnp.minimum(inner, jnp.where(inner > 0, film, inner)))

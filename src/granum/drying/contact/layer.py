@@ -1,0 +1,77 @@
+"""A dryer whose gas blows through a layer that is carried along: what belts and grain columns share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.drying.contact.cells import Contact, Network, Profile
+from granum.drying.contact.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
+from granum.drying.contact.dryer import Dryer
+from granum.drying.contact.matter import Matter
+from granum.streams.stream import Stream
+
+
+class LayerDryer(Dryer):
+    """Layers of solid through which gas blows in zones, one after the other."""
+
+    @abstractmethod
+    def exchange(self, feed: Stream, gas: Stream) -> Any:
+        """Heat transfer coefficient times surface per dry solid, W/(K kg)."""
+
+    @abstractmethod
+    def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
+        """What the layer passes through."""
+
+    @abstractmethod
+    def resolution(self) -> tuple[int, int]:
+        """Layers, and steps of time in a zone."""
+
+    def column(self, feed: Stream, gas: Stream) -> Contact:
+        """One kilogram of dry solid, in layers."""
+        n, _steps = self.resolution()
+        exchange = self.exchange(feed, gas)
+        solid = jnp.full((n, 1), 1.0 / n)
+        return Contact(
+            Matter.of(feed, gas).blended(feed),
+            self.kinetics,
+            solid,
+            jnp.zeros((n, 1)),
+            1.0,
+            Network.co_current(n),
+            lambda X, Ts, Tg, Y: exchange,
+        )
+
+    def passages(self, feed: Stream, *gases: Stream) -> tuple[Contact, list[Passage]]:
+        """The column and its way through the zones."""
+        like = self.column(feed, gases[0])
+        return like, pass_zones(like, feed.moisture_dry_basis, feed.temperature, self.zones(feed, *gases), self.resolution()[1])
+
+    def profile(self, feed: Stream, gas: Stream) -> Profile:
+        return _passed(self, feed, gas)
+
+
+@eqx.filter_jit
+def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Profile:
+    like, found = dryer.passages(feed, *gases)
+    return joined(like, found, feed.solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+
+
+def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_enthalpy: Any) -> Profile:
+    """The zones as one profile along the way of the solid; gas as it leaves the layer."""
+    n = like.solid.shape[0]
+    last = found[-1]
+    X = jnp.concatenate([p.layers.moisture[..., 0] for p in found])
+    T = jnp.concatenate([p.layers.temperature[..., 0] for p in found])
+    time = jnp.concatenate([p.time for p in found])
+    Y = jnp.concatenate([p.layers.vapor / p.gas_per_solid for p in found])
+    Tg = like.matter.gas_temperature(jnp.concatenate([p.layers.gas_enthalpy / p.gas_per_solid for p in found]), Y)
+    water = jnp.array([flow * mean_moisture(like, last)[-1]])
+    heat = jnp.array([flow * product_enthalpy(like, last)])
+    return Profile(
+        jnp.full(n, 1.0 / n), time / time[-1], X, T, Y, Tg, water, heat, flow * vapor, flow * gas_enthalpy, jnp.zeros(()),
+        jnp.all(jnp.isfinite(X)),
+    )  # fmt: skip

@@ -1,0 +1,141 @@
+"""What is in contact: enthalpies of moist solid and moist gas as the streams count them, and the way back to temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+
+from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.materials.formulas.water import water_vapor_pressure
+from granum.numerics import safe_divide
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream
+
+NEWTON_STEPS = 4  # enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
+NEAR_BOILING = 0.98  # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
+
+
+class Matter(eqx.Module):
+    """Dry solid by class, water, dry gas and vapor. Moisture X and humidity Y are per dry mass; enthalpies too, J/kg."""
+
+    mixture: Mixture = eqx.field(static=True)
+    vapor: int = eqx.field(static=True)
+    solid_shares: Any  # species × classes, each class adding up to 1
+    gas_shares: Any  # of the dry gas; the vapor's share is zero
+    pressure: Any
+
+    @classmethod
+    def of(cls, feed: Stream, gas: Stream) -> Matter:
+        """The matter of two inlets; the mixture must have water as its only liquid and as one of its gases."""
+        m = feed.mixture
+        if len(m.liquids) != 1 or m.liquids[0].name != "water" or "water" not in [g.name for g in m.gases] or not m.solids:
+            raise InputError(_("A dryer needs a mixture with solids, water as its only liquid, and a gas with water vapor."))
+        vapor = m.index("gases", "water")
+        by_class = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
+        overall = safe_divide(jnp.sum(by_class, axis=1), jnp.sum(by_class), 1.0 / len(m.solids))
+        total = jnp.sum(by_class, axis=0)
+        shares = jnp.where(total > 0, by_class / jnp.where(total > 0, total, 1.0), overall[:, None])
+        dry = gas.gas.at[vapor].set(0.0)
+        return cls(m, vapor, shares, dry / jnp.sum(dry), gas.pressure)
+
+    def blended(self, feed: Stream) -> Matter:
+        """The same with one class of solid, the mean of them all."""
+        flow = feed.solid_by_species
+        share = safe_divide(flow, jnp.sum(flow), 1.0 / flow.shape[0])
+        return eqx.tree_at(lambda m: m.solid_shares, self, share[:, None])
+
+    def solid_enthalpy(self, T: Any) -> Any:
+        """Dry solid; the last axis of T runs over the classes."""
+        return jnp.einsum("s...m,sm->...m", self.mixture.enthalpies("solids", T), self.solid_shares)
+
+    def liquid_enthalpy(self, T: Any) -> Any:
+        """Water."""
+        return self.mixture.liquids[0].enthalpy(T)
+
+    def vapor_enthalpy(self, T: Any) -> Any:
+        """Vapor."""
+        return self.mixture.gases[self.vapor].enthalpy(T)
+
+    def gas_enthalpy(self, T: Any) -> Any:
+        """Dry gas."""
+        return jnp.tensordot(self.gas_shares, self.mixture.enthalpies("gases", T), axes=1)
+
+    def moist_solid(self, T: Any, X: Any) -> Any:
+        """Solid with its moisture, per kg dry."""
+        return self.solid_enthalpy(T) + X * self.liquid_enthalpy(T)
+
+    def moist_gas(self, T: Any, Y: Any) -> Any:
+        """Gas with its vapor, per kg dry."""
+        return self.gas_enthalpy(T) + Y * self.vapor_enthalpy(T)
+
+    def solid_temperature(self, H: Any, X: Any) -> Any:
+        """Temperature of moist solid."""
+        return _inverse(lambda T: self.moist_solid(T, X), H)
+
+    def gas_temperature(self, H: Any, Y: Any) -> Any:
+        """Temperature of moist gas."""
+        return _inverse(lambda T: self.moist_gas(T, Y), H)
+
+    def gas_heat_capacity(self, T: Any, Y: Any) -> Any:
+        """Per kg of moist gas."""
+        return slope(lambda T: self.moist_gas(T, Y), T)[1] / (1.0 + Y)
+
+    def vapor_heat_capacity(self, T: Any) -> Any:
+        """Vapor."""
+        return slope(self.vapor_enthalpy, T)[1]
+
+    def heat_of_vaporization(self, T: Any) -> Any:
+        """Vapor less water at one temperature."""
+        return self.vapor_enthalpy(T) - self.liquid_enthalpy(T)
+
+    @property
+    def molar_mass_ratio(self) -> Any:
+        """Vapor over dry gas."""
+        moles = sum(self.gas_shares[i] / g.molar_mass for i, g in enumerate(self.mixture.gases))
+        return self.mixture.gases[self.vapor].molar_mass * moles
+
+    def relative_humidity(self, T: Any, Y: Any) -> Any:
+        """Partial pressure of the vapor over its saturation pressure."""
+        return Y / (self.molar_mass_ratio + Y) * self.pressure / water_vapor_pressure.function(T)
+
+    def driving_force(self, partial_pressure: Any, Y: Any) -> Any:
+        """ln[(1 + Y_s)/(1 + Y)]: Stefan flow in a film whose surface has this partial pressure of vapor."""
+        ratio = self.molar_mass_ratio
+
+        def log_of(q: Any) -> Any:
+            return jnp.log1p(ratio * q / (1.0 - q))
+
+        q = partial_pressure / self.pressure
+        end = jnp.asarray(NEAR_BOILING) + 0.0 * q
+        value, rise = slope(log_of, end)
+        low = log_of(jnp.minimum(q, NEAR_BOILING))
+        return jnp.where(q < NEAR_BOILING, low, value + rise * (q - NEAR_BOILING)) - jnp.log1p(Y)
+
+    def gas_density(self, T: Any, Y: Any) -> Any:
+        """Dry gas per volume of moist gas, kg/m³."""
+        mean = self.mixture.gases[self.vapor].molar_mass / self.molar_mass_ratio
+        return self.pressure * mean / (8.314462618 * T * (1.0 + Y / self.molar_mass_ratio))
+
+
+def slope(function: Callable[[Any], Any], T: Any) -> tuple[Any, Any]:
+    """Value and derivative of an elementwise function."""
+    T = jnp.asarray(T, dtype=float)
+    return jax.jvp(function, (T,), (jnp.ones_like(T),))
+
+
+def _inverse(function: Callable[[Any], Any], H: Any) -> Any:
+    return temperature_at(function, H, jnp.full_like(H, ZERO_CELSIUS + 20.0))
+
+
+def temperature_at(function: Callable[[Any], Any], H: Any, T: Any) -> Any:
+    """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess."""
+    for _step in range(NEWTON_STEPS):
+        value, rise = slope(function, T)
+        T = T - (value - H) / rise
+    return T

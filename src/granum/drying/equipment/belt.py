@@ -1,0 +1,86 @@
+"""Belt dryer: a layer on a perforated belt, gas blown through it in zones, upwards and downwards."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature
+from granum.drying.contact.column import Zone
+from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, humidity_of, sized
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.layer import LayerDryer
+from granum.drying.contact.matter import Matter
+from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed
+from granum.streams.cakes import solid_diameter
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+
+@equipment("belt_dryer", source="geankoplis2003, ch. 9; keey1978", title="Belt dryer")
+class BeltDryer(LayerDryer):
+    """Through-circulation: the layer keeps its order, so that its gas side dries first; the gas is shared out evenly over the zones.
+
+    With ``alternating`` the gas enters every second zone from the other side. Without a coefficient that of Geankoplis is used, and
+    without a surface that of spheres of the solid's mean size in the layer.
+    """
+
+    area: Area
+    layer_depth: Length
+    bulk_density_dry: Density
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    zone_count: int = 1
+    alternating: bool = False
+    heat_transfer_coefficient: HeatTransferCoefficient | None = None
+    specific_surface: SpecificSurface | None = None
+    temperature_limit: Temperature | None = None
+    layers: int = 24
+    steps: int = 60
+
+    def extent(self) -> Any:
+        return self.area
+
+    def resolution(self) -> tuple[int, int]:
+        return self.layers, self.steps
+
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        return self.area * self.layer_depth * self.bulk_density_dry
+
+    def exchange(self, feed: Stream, gas: Stream) -> Any:
+        d, h, surface = solid_diameter(feed), self.heat_transfer_coefficient, self.specific_surface
+        if h is None:
+            h = heat_transfer_coefficient_through_bed.function(gas.gas_flow / self.area, d)
+        if surface is None:
+            surface = 6.0 / d * self.bulk_density_dry / feed.solid_density
+        return h * surface / self.bulk_density_dry
+
+    def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
+        gas = gases[0]
+        mass, n = self.holdup(feed, gas), self.zone_count
+        vapor = Matter.of(feed, gas).vapor
+        per_solid = (gas.gas_flow - gas.gas[vapor]) / mass
+        time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n
+        return [Zone(time, per_solid, self.alternating and i % 2 == 1, humidity_of(gas), gas.temperature) for i in range(n)]
+
+    @classmethod
+    def size(cls, moisture_outlet: Any, feed: Stream, gas_velocity: Any, gas: Stream, layer_depth: Any, bulk_density_dry: Any,
+             kinetics: AbstractKinetics, **more: Any) -> BeltDryer:  # fmt: skip
+        """The belt area that a product moisture needs, with gas (of any flow) taken at a velocity through the empty section."""
+        density = gas.gas_density
+        first = cls(1.0, layer_depth, bulk_density_dry, kinetics, **more)
+
+        def supplied(dryer: Any) -> Stream:
+            return gas.part(gas=gas_velocity * dryer.area * density / gas.gas_flow)
+
+        return sized(first, "area", moisture_outlet, 1e-3, 1e4, feed, gas, supplied)
+
+    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        gas = inlets["gas"]
+        table = NOTES.format(table="IV.10")
+        return (
+            Check("gas temperature at the inlet", gas.temperature, 323.15, 623.15, "K", table),
+            Check("water evaporated per area and hour", self.hourly(figures), 6.0, 50.0, "kg/(hour*m^2)", table),
+            Check("gas velocity through the layer", gas.gas_volume_flow / self.area, 0.25, 2.5, "m/s", "keey1978"),
+        )

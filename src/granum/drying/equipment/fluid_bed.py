@@ -1,0 +1,141 @@
+"""Fluidized-bed dryer: well mixed, or long and narrow with solid in plug flow; gas passes as bubbles and through the dense phase."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import equipment
+from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction
+from granum.drying.contact.cells import Contact, Inlet, Network, Profile
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, sized
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.matter import Matter
+from granum.fluidization.formulas.bubbles import (
+    bubble_diameter_darton,
+    bubble_exchange_rate_cloud,
+    bubble_rise_velocity_davidson_harrison,
+)
+from granum.fluidization.formulas.heat import nusselt_number_gunn
+from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
+from granum.streams.cakes import solid_diameter
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+DIFFUSIVITY = 2.6e-5  # m²/s of vapor in air at 25 °C, for the exchange between bubbles and their clouds
+
+
+@equipment("fluidized_bed_dryer", source="kunii1991, ch. 16; vanecek1966; groenewold1997", title="Fluidized-bed dryer")
+class FluidBedDryer(ContactDryer):
+    """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in bubbles.
+
+    With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed times, represented by ages at the
+    points of a Gauss–Laguerre rule. With more cells solid flows along the bed through that many tanks in series, each with fresh gas. The
+    bypass is the bubble gas that has not been exchanged on its way up, unless it is given.
+    """
+
+    area: Area
+    mass: Mass
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    cells: int = 1
+    bypass_fraction: Fraction | None = None
+    void_fraction: VoidFraction = 0.45
+    heat_loss: Power = 0.0
+    temperature_limit: Temperature | None = None
+    ages: int = 8
+    age_cells: int = 24
+
+    def extent(self) -> Any:
+        return self.area
+
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        return 1.0 * self.mass
+
+    def height(self, feed: Stream) -> Any:
+        """Of the settled bed."""
+        return self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
+
+    def minimum_velocity(self, feed: Stream, gas: Stream) -> Any:
+        """Of fluidization, with the gas of the inlet."""
+        return minimum_fluidization_velocity_wen_yu.function(solid_diameter(feed), feed.solid_density, gas.gas_density, gas.gas_viscosity)
+
+    def bypass(self, feed: Stream, gas: Stream) -> Any:
+        """Share of the gas that leaves as it entered: bubbles after exchange with their clouds, whose particles dry too, over the settled height."""
+        if self.bypass_fraction is not None:
+            return self.bypass_fraction
+        U, first = gas.gas_volume_flow / self.area, self.minimum_velocity(feed, gas)
+        H = self.height(feed)
+        diameter = bubble_diameter_darton.function(U, jnp.minimum(first, U), 0.5 * H, 1e-4)
+        rise = bubble_rise_velocity_davidson_harrison.function(U, jnp.minimum(first, U), diameter)
+        exchange = bubble_exchange_rate_cloud.function(jnp.minimum(first, U), diameter, DIFFUSIVITY)
+        return jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-exchange * H / rise)
+
+    def _specific(self, feed: Stream, gas: Stream) -> Any:
+        """Heat transfer coefficient times surface per dry solid of each size, W/(K kg), with Gunn's Nusselt number."""
+        sizes = jnp.asarray(feed.mixture.sizes)
+        conductivity = gas.gas_conductivity
+        Re = gas.gas_flow / self.area * sizes / gas.gas_viscosity
+        nusselt = nusselt_number_gunn.function(Re, gas.gas_heat_capacity * gas.gas_viscosity / conductivity, self.void_fraction)
+        return nusselt * conductivity / sizes * 6.0 / (sizes * feed.solid_density)
+
+    def _ages(self) -> tuple[np.ndarray, np.ndarray]:
+        if self.cells > 1:
+            return np.ones(1), np.ones(1)
+        nodes, weights = np.polynomial.laguerre.laggauss(self.ages)
+        return nodes / np.sum(nodes * weights), weights / weights.sum()
+
+    def contact(self, feed: Stream, gas: Stream) -> Contact:
+        nodes, weights = self._ages()
+        n = self.cells if self.cells > 1 else self.age_cells
+        F = jnp.repeat(feed.solid_by_size, len(nodes)) * jnp.tile(weights, len(feed.mixture.sizes))
+        time = self.mass / jnp.maximum(feed.solid_flow, 1e-12) * jnp.tile(nodes, len(feed.mixture.sizes))
+        exchange = jnp.repeat(self._specific(feed, gas), len(nodes))
+        matter = Matter.of(feed, gas)
+        matter = Matter(
+            matter.mixture, matter.vapor, jnp.repeat(matter.solid_shares, len(nodes), axis=1), matter.gas_shares, matter.pressure
+        )
+        solid = jnp.broadcast_to(F * time / n, (n, F.shape[0]))
+        dry = (gas.gas_flow - gas.gas[matter.vapor]) * (1.0 - self.bypass(feed, gas))
+        network = Network.cross_current(n) if self.cells > 1 else Network.mixed(n)
+        return Contact(
+            matter, self.kinetics, solid, jnp.broadcast_to(n / time, solid.shape), dry, network, lambda X, Ts, Tg, Y: exchange,
+            heat_loss=self.heat_loss / n,
+        )  # fmt: skip
+
+    def inlet(self, feed: Stream, gas: Stream) -> Inlet:
+        X = jnp.full(len(feed.mixture.sizes) * len(self._ages()[0]), 1.0) * feed.moisture_dry_basis
+        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+
+    def profile(self, feed: Stream, gas: Stream) -> Profile:
+        found, share = super().profile(feed, gas), self.bypass(feed, gas)
+        vapor = gas.gas[feed.mixture.index("gases", "water")]
+        past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
+        return found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
+
+    @classmethod
+    def size(
+        cls, moisture_outlet: Any, feed: Stream, gas: Stream, gas_velocity: Any, kinetics: AbstractKinetics, **more: Any
+    ) -> FluidBedDryer:
+        """The bed in which the inlet gas has a velocity, and the solid stays as long as a product moisture needs."""
+        area = float(gas.gas_volume_flow / gas_velocity)
+        return sized(cls(area, 1.0, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
+
+    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        feed, gas = inlets["feed"], inlets["gas"]
+        U, table = gas.gas_volume_flow / self.area, NOTES.format(table="IV.16")
+        return (
+            Check(
+                "gas velocity over minimum fluidization velocity",
+                U / self.minimum_velocity(feed, gas),
+                1.5,
+                100.0,
+                "dimensionless",
+                "kunii1991",
+            ),
+            Check("gas velocity at the inlet", U, 0.2, 3.0, "m/s", table),
+            Check("gas temperature at the inlet", gas.temperature, 323.15, 473.15, "K", table),
+            Check("residence time of the solid", figures.residence_time, 120.0, 3600.0, "s", table),
+            Check("water evaporated per area and hour", self.hourly(figures), 30.0, 200.0, "kg/(hour*m^2)", table),
+        )

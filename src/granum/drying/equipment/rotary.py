@@ -1,0 +1,101 @@
+"""Rotary drum dryer: cascading solid in a gas stream, or a drum heated through its wall."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Annotated, Any, Literal
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Fraction, HeatTransferCoefficient, Law, Length, PositiveNumber, Power, RotationSpeed, Temperature
+from granum.drying.contact.cells import Contact, Network
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.matter import Matter
+from granum.drying.formulas.rotary import residence_time_friedman_marshall, volumetric_heat_transfer_rotary
+from granum.streams.cakes import solid_diameter
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+
+@equipment("rotary_dryer", source="friedman1949; friedman1949part2; treybal1980, ch. 12", title="Rotary dryer")
+class RotaryDryer(ContactDryer):
+    """Drum with flights: time of passage after Friedman and Marshall, heat by the volume, tanks in series for the spread of residence times.
+
+    ``wall_coefficient`` adds heat from a steam-heated wall over the wetted share of the shell (the conductive drum).
+    """
+
+    length: Length
+    diameter: Length
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    drum_slope: Fraction = 0.04
+    rotation_speed: RotationSpeed = 0.4
+    gas_direction: Literal["counter-current", "co-current"] = "counter-current"
+    transfer_constant: PositiveNumber = 237.0
+    transfer_exponent: PositiveNumber = 0.67
+    wall_coefficient: HeatTransferCoefficient | None = None
+    wall_temperature: Temperature = 423.15
+    wetted_share: Fraction = 0.15
+    heat_loss: Power = 0.0
+    temperature_limit: Temperature | None = None
+    cells: int = 40
+
+    def extent(self) -> Any:
+        return self.length * self.section
+
+    @property
+    def section(self) -> Any:
+        """Cross-section of the drum."""
+        return 0.25 * pi * self.diameter**2
+
+    def passage(self, feed: Stream, gas: Stream) -> Any:
+        """Mean time of passage of the solid."""
+        against = 1.0 if self.gas_direction == "counter-current" else -1.0
+        return residence_time_friedman_marshall.function(
+            self.length, self.diameter, self.drum_slope, self.rotation_speed, solid_diameter(feed), gas.gas_flow / self.section,
+            jnp.maximum(feed.solid_flow, 1e-12) / self.section, against,
+        )  # fmt: skip
+
+    def contact(self, feed: Stream, gas: Stream) -> Contact:
+        n, F = self.cells, feed.solid_by_size
+        time = self.passage(feed, gas)
+        solid = jnp.broadcast_to(F * time / n, (n, F.shape[0]))
+        Ua = volumetric_heat_transfer_rotary.function(
+            gas.gas_flow / self.section, self.diameter, self.transfer_constant, self.transfer_exponent
+        )
+        exchange = Ua * self.extent() / (jnp.sum(F) * time)  # every class takes heat in proportion to its mass
+        wall = 0.0
+        if self.wall_coefficient is not None:
+            wall = self.wall_coefficient * self.wetted_share * pi * self.diameter * self.length / (jnp.sum(F) * time)
+        matter = Matter.of(feed, gas)
+        vapor = gas.gas[matter.vapor]
+        network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        return Contact(
+            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / time, gas.gas_flow - vapor, network,
+            lambda X, Ts, Tg, Y: exchange, wall, self.wall_temperature, self.heat_loss / n,
+        )  # fmt: skip
+
+    @classmethod
+    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, diameter: Any, kinetics: AbstractKinetics, **more: Any) -> RotaryDryer:
+        """The drum as long as a product moisture needs."""
+        return sized(cls(10.0, diameter, kinetics, **more), "length", moisture_outlet, 0.2, 200.0, feed, gas)
+
+    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        gas, feed = inlets["gas"], inlets["feed"]
+        filled = figures.solid_holdup / (feed.solid_density * 0.6) / self.extent()
+        flux = gas.gas_flow / self.section
+        return (
+            Check("share of the drum filled with solid", filled, 0.03, 0.15, "dimensionless", "friedman1949"),
+            Check("gas per cross-section of the drum", flux, 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
+            Check(
+                "length over diameter of the drum",
+                jnp.asarray(self.length / self.diameter),
+                4.0,
+                10.0,
+                "dimensionless",
+                "perry2008, ch. 12",
+            ),
+            Check("gas temperature at the inlet", gas.temperature, 373.15, 1173.15, "K", NOTES.format(table="IV.6")),
+            Check("water evaporated per volume and hour", self.hourly(figures), 3.0, 100.0, "kg/(hour*m^3)", NOTES.format(table="IV.6")),
+        )

@@ -1,0 +1,141 @@
+"""Silo (column) dryer for grain: hot air across a falling layer of grain, then cold air, which may go back to the heater."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Density,
+    Fraction,
+    HeatTransferCoefficient,
+    Law,
+    Length,
+    PressureGradient,
+    SpecificSurface,
+    Temperature,
+    Volume,
+)
+from granum.drying.contact.cells import Profile
+from granum.drying.contact.column import Zone
+from granum.drying.contact.dryer import NOTES, DryerFigures, dried, humidity_of, sized, warmed
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.layer import LayerDryer, joined
+from granum.drying.contact.matter import Matter
+from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
+from granum.streams.cakes import solid_diameter
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Check
+
+
+class DriedGrain(NamedTuple):
+    """Dried grain, exhaust of the drying zone, air of the cooling zone (to be led back to the heater), heat from outside."""
+
+    product: Stream
+    exhaust: Stream
+    warmed_air: Stream
+    heat_duty: Any
+
+
+@equipment("silo_dryer", source="brooker1992; thompson1968", title="Silo dryer for grain")
+class SiloDryer(LayerDryer):
+    """Cross-flow column: grain falls in a layer through a drying zone and a cooling zone of the same thickness; air crosses it.
+
+    Deep bed of thin layers. ``turned`` lets the air of the second half of the drying zone enter from the other side. Without air at the port
+    ``cooling`` there is no cooling zone; its air leaves as ``warmed_air`` and may feed the heater in the flowsheet.
+    """
+
+    volume: Volume
+    layer_depth: Length
+    bulk_density_dry: Density
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    cooling_share: Fraction = 0.25
+    turned: bool = False
+    heat_transfer_coefficient: HeatTransferCoefficient | None = None
+    specific_surface: SpecificSurface | None = None
+    temperature_limit: Temperature | None = None
+    layers: int = 20
+    steps: int = 50
+
+    def extent(self) -> Any:
+        return self.volume
+
+    def resolution(self) -> tuple[int, int]:
+        return self.layers, self.steps
+
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        return self.volume * self.bulk_density_dry
+
+    def area(self) -> Any:
+        """Across which the hot air enters."""
+        return self.volume * (1.0 - self.cooling_share) / self.layer_depth
+
+    def exchange(self, feed: Stream, gas: Stream) -> Any:
+        d, h, surface = solid_diameter(feed), self.heat_transfer_coefficient, self.specific_surface
+        if h is None:
+            h = heat_transfer_coefficient_through_bed.function(gas.gas_flow / self.area(), d)
+        if surface is None:
+            surface = 6.0 / d * self.bulk_density_dry / feed.solid_density
+        return h * surface / self.bulk_density_dry
+
+    def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
+        vapor = Matter.of(feed, gases[0]).vapor
+        mass = self.holdup(feed, gases[0])
+        time = mass / jnp.maximum(feed.solid_flow, 1e-12)
+        cooled = len(gases) > 1
+        share = 1.0 - self.cooling_share if cooled else 1.0
+
+        def zone(gas: Stream, part: Any, flow_part: Any, backwards: bool) -> Zone:
+            return Zone(
+                time * part, (gas.gas_flow - gas.gas[vapor]) * flow_part / (mass * part), backwards, humidity_of(gas), gas.temperature
+            )
+
+        halves = 2 if self.turned else 1
+        hot = [zone(gases[0], share / halves, 1.0 / halves, i == 1) for i in range(halves)]
+        return hot + ([zone(gases[1], self.cooling_share, 1.0, False)] if cooled else [])
+
+    def profile(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Profile:
+        return _grain(self, feed, gas, cooling)[0]
+
+    def __call__(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> DriedGrain:
+        found, vapor, heat = _grain(self, feed, gas, cooling)
+        if cooling is None:
+            product, exhaust, duty = dried(feed, gas, found)
+            return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
+        product, exhaust, duty = dried(feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat))
+        index = feed.mixture.index("gases", "water")
+        stray = cooling.part(solid=1.0, liquid=1.0)
+        air = cooling.replace(gas=cooling.gas.at[index].set(vapor))
+        return DriedGrain(product, exhaust, warmed(air, heat + stray.enthalpy_flow), duty)
+
+    @classmethod
+    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, layer_depth: Any, bulk_density_dry: Any, kinetics: AbstractKinetics,
+             **more: Any) -> SiloDryer:  # fmt: skip
+        """The volume of grain that a product moisture needs with the given hot air."""
+        return sized(cls(1.0, layer_depth, bulk_density_dry, kinetics, **more), "volume", moisture_outlet, 1e-3, 1e4, feed, gas)
+
+    def pressure_gradient(self, gas: Stream) -> PressureGradient:
+        """That the hot air loses in the grain."""
+        return pressure_gradient_shedd.function(gas.gas_volume_flow / self.area())
+
+    def ranges(self, inlets: Any, outlets: Any, figures: DryerFigures) -> tuple[Check, ...]:
+        gas = inlets["gas"]
+        table = NOTES.format(table="IV.12")
+        return (
+            Check("gas temperature at the inlet", gas.temperature, 303.15, 383.15, "K", "brooker1992"),
+            Check("residence time of the grain", figures.residence_time, 900.0, 4 * 86400.0, "s", table),
+            Check("air pressure lost in the grain", self.pressure_gradient(gas) * self.layer_depth, 0.0, 2500.0, "Pa", "brooker1992"),
+        )
+
+
+@eqx.filter_jit
+def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> tuple[Profile, Any, Any]:
+    """The profile, and vapor and enthalpy of the cooling air."""
+    gases = (gas,) if cooling is None else (gas, cooling)
+    like, found = dryer.passages(feed, *gases)
+    flow = feed.solid_flow
+    profile = joined(like, found, flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+    return profile, flow * found[-1].vapor, flow * found[-1].gas_enthalpy

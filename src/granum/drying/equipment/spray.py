@@ -1,0 +1,116 @@
+"""Spray dryer: a feed broken into drops that dry while they fall with hot gas through a chamber."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Annotated, Any
+
+import equinox as eqx
+import jax.numpy as jnp
+from jax.scipy.special import gammaln
+
+from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
+from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature
+from granum.drying.contact.cells import Inlet, Network, Profile
+from granum.drying.contact.conveyed import Path, convey, drop_ratio
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, dried, humidity_of, sized
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.matter import Matter
+from granum.drying.equipment.atomizers import Liquor
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+GROWTH = 1.08  # of the cells from the atomizer on
+
+
+@equipment("spray_dryer", source="masters1991; chen2008rea; langrish2009", title="Spray dryer")
+class SprayDryer(Dryer):
+    """Drops of a Rosin–Rammler spread around the atomizer's Sauter mean fall with the gas, shrink while they are full drops, and dry.
+
+    The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or suspended, is shared out over them.
+    ``gas_dispersion`` mixes the gas along the chamber: exchange flow over through-flow, zero for plug flow, a million for a mixed chamber.
+    """
+
+    length: Length
+    diameter: Length
+    atomizer: Annotated[Any, Law("atomizer")]
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    dry_density: Density = 1000.0
+    drop_exponent: PositiveNumber = 2.5
+    gas_dispersion: Ratio = 0.0
+    dynamic_viscosity: DynamicViscosity = 0.01
+    surface_tension: SurfaceTension = 0.06
+    heat_loss: Power = 0.0
+    temperature_limit: Temperature | None = None
+    cells: int = 50
+
+    def extent(self) -> Any:
+        return 0.25 * pi * self.diameter**2 * self.length
+
+    def liquor(self, feed: Stream, gas: Stream) -> Liquor:
+        """The feed as the atomizer meets it."""
+        flow = feed.solid_flow + feed.liquid_flow
+        return Liquor(flow, flow / feed.slurry_volume_flow, self.dynamic_viscosity, self.surface_tension, gas.gas_density)
+
+    def shares(self, feed: Stream, gas: Stream) -> Any:
+        """Solid in each class of dry particles, from the volume distribution of the drops."""
+        mean = self.atomizer.sauter(self.liquor(feed, gas))
+        modulus = mean * jnp.exp(gammaln(1.0 - 1.0 / self.drop_exponent))
+        edges = jnp.asarray(feed.mixture.size_edges) * drop_ratio(self.dry_density, feed.solid_density, feed.moisture_dry_basis)
+        below = -jnp.expm1(-((edges / modulus) ** self.drop_exponent))
+        return jnp.diff(below.at[0].set(0.0).at[-1].set(1.0))
+
+    def atomized(self, feed: Stream, gas: Stream) -> Stream:
+        """The feed with its solid in the classes of the dry particles."""
+        shares = self.shares(feed, gas)
+        return feed.regraded(jnp.broadcast_to(shares[:, None], (shares.shape[0], shares.shape[0])))
+
+    def path(self, feed: Stream, gas: Stream) -> Path:
+        """The chamber, with short cells where the drops are fast."""
+        growth = GROWTH ** jnp.arange(self.cells)
+        return Path(
+            self.length * growth / jnp.sum(growth), 0.25 * pi * self.diameter**2, STANDARD_GRAVITY, self.atomizer.launch(self.liquor(feed, gas)),
+            jnp.asarray(feed.mixture.sizes), self.dry_density, feed.solid_density, True,
+        )  # fmt: skip
+
+    def profile(self, feed: Stream, gas: Stream) -> Profile:
+        return _sprayed(self, feed, gas)[0]
+
+    def holdup(self, feed: Stream, gas: Stream) -> Any:
+        return _sprayed(self, feed, gas)[1]
+
+    def __call__(self, feed: Stream, gas: Stream) -> Dried:
+        return dried(self.atomized(feed, gas), gas, self.profile(feed, gas))
+
+    @classmethod
+    def size(
+        cls, moisture_outlet: Any, feed: Stream, gas: Stream, diameter: Any, atomizer: Any, kinetics: AbstractKinetics, **more: Any
+    ) -> SprayDryer:
+        """The chamber as high as a product moisture needs."""
+        return sized(cls(5.0, diameter, atomizer, kinetics, **more), "length", moisture_outlet, 0.05, 200.0, feed, gas)
+
+    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        gas, table = inlets["gas"], NOTES.format(table="IV.2")
+        flight = self.extent() / outlets.exhaust.gas_volume_flow
+        return (
+            Check("gas temperature at the inlet", gas.temperature, 373.15, 873.15, "K", table),
+            Check("gas temperature at the outlet", outlets.exhaust.temperature, 333.15, 473.15, "K", table),
+            Check("residence time of the gas", flight, 10.0, 30.0, "s", table),
+            Check("water evaporated per volume and hour", self.hourly(figures), 1.0, 30.0, "kg/(hour*m^3)", table),
+            Check(
+                "height over diameter of the chamber", jnp.asarray(self.length / self.diameter), 0.6, 5.0, "dimensionless", "masters1991"
+            ),
+        )
+
+
+@eqx.filter_jit
+def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
+    drops = dryer.atomized(feed, gas)
+    X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
+    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+    network = Network.co_current(dryer.cells).dispersed(dryer.gas_dispersion)
+    found, core, _times = convey(
+        dryer.path(feed, gas), Matter.of(drops, gas), dryer.kinetics, feed, gas, inlet, drops.solid_by_size, network, dryer.heat_loss
+    )
+    return found, jnp.sum(core.solid)

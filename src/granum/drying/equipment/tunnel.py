@@ -1,0 +1,69 @@
+"""Tunnel dryer: trucks of trays pushed through a gas that sweeps over them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import Area, HeatTransferCoefficient, Law, Power, SpecificSurfaceMass, Temperature, Time, Volume
+from granum.drying.contact.cells import Contact, Network
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
+from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.matter import Matter
+from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
+from granum.streams.stream import Stream
+from granum.streams.units import Check
+
+
+@equipment("tunnel_dryer", source="keey1978; geankoplis2003, ch. 9", title="Tunnel dryer")
+class TunnelDryer(ContactDryer):
+    """Trucks in a row with gas along their surface, with or against them, close enough to count as a steady flow.
+
+    Heat by the flux of gas through the free section unless a coefficient is given.
+    """
+
+    residence_time: Time
+    surface_per_mass: SpecificSurfaceMass
+    free_area: Area
+    volume: Volume
+    kinetics: Annotated[Any, Law("drying_kinetics")]
+    gas_direction: Literal["counter-current", "co-current"] = "counter-current"
+    heat_transfer_coefficient: HeatTransferCoefficient | None = None
+    heat_loss: Power = 0.0
+    temperature_limit: Temperature | None = None
+    cells: int = 40
+
+    def extent(self) -> Any:
+        return self.volume
+
+    def contact(self, feed: Stream, gas: Stream) -> Contact:
+        n, F = self.cells, feed.solid_by_size
+        solid = jnp.broadcast_to(F * self.residence_time / n, (n, F.shape[0]))
+        h = self.heat_transfer_coefficient
+        if h is None:
+            h = heat_transfer_coefficient_parallel.function(gas.gas_flow / self.free_area)
+        exchange = h * self.surface_per_mass
+        matter = Matter.of(feed, gas)
+        network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        return Contact(
+            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / self.residence_time, gas.gas_flow - gas.gas[matter.vapor], network,
+            lambda X, Ts, Tg, Y: exchange, heat_loss=self.heat_loss / n,
+        )  # fmt: skip
+
+    @classmethod
+    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, surface_per_mass: Any, free_area: Any, volume: Any,
+             kinetics: AbstractKinetics, **more: Any) -> TunnelDryer:  # fmt: skip
+        """The tunnel in which the trucks stay as long as a product moisture needs."""
+        first = cls(3600.0, surface_per_mass, free_area, volume, kinetics, **more)
+        return sized(first, "residence_time", moisture_outlet, 10.0, 1e6, feed, gas)
+
+    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
+        gas = inlets["gas"]
+        velocity = gas.gas_volume_flow / self.free_area
+        return (
+            Check("gas temperature at the inlet", gas.temperature, 303.15, 523.15, "K", NOTES.format(table="IV.8")),
+            Check("water evaporated per volume and hour", self.hourly(figures), 1.0, 50.0, "kg/(hour*m^3)", NOTES.format(table="IV.8")),
+            Check("gas velocity over the product", velocity, 0.6, 8.0, "m/s", "treybal1980, ch. 12"),
+        )

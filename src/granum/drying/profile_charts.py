@@ -1,0 +1,70 @@
+"""Charts of what happens inside a dryer: moisture and temperature along the way of the solid, or over time."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+
+from granum.core import chart
+from granum.core.i18n import _
+from granum.core.kinds import MoistureDryBasis, Ratio, Series, Temperature
+from granum.drying.contact.cells import Profile
+from granum.streams.stream import Stream
+
+ZERO = 273.15
+
+
+def _drawn(x: Any, title: str, x_label: str) -> Any:
+    """A figure with temperature on the left and moisture on the right."""
+    from granum.core.charts import axis_title, figure
+
+    drawing = figure(x_label, axis_title("temperature", "degC"), title=title)
+    drawing.update_layout(
+        yaxis2={"overlaying": "y", "side": "right", "showgrid": False, "rangemode": "tozero", "title": axis_title("moisture_dry_basis", "kg/kg")},
+        legend={"orientation": "h", "y": -0.22, "x": 0.0}, margin={"r": 75, "b": 110},
+    )  # fmt: skip
+    drawing.update_xaxes(range=[float(np.min(x)), float(np.max(x))])
+    return drawing
+
+
+@chart(source="keey1978", title="Profiles in a dryer")
+def drying_profile_chart(
+    place: Annotated[Ratio, Series("points")],
+    moisture_dry_basis: Annotated[MoistureDryBasis, Series("points")],
+    temperature: Annotated[Temperature, Series("points")],
+    temperature_gas: Annotated[Temperature, Series("points")],
+) -> Any:
+    """Moisture of the solid, and temperatures of solid and gas, along the way of the solid through a dryer from 0 to 1."""
+    from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
+
+    x = np.asarray(place)
+    drawing = _drawn(x, _("Profiles in a dryer"), axis_title("place"))
+    add_line(drawing, x, np.asarray(temperature_gas) - ZERO, _("gas temperature"), color=GAS)
+    add_line(drawing, x, np.asarray(temperature) - ZERO, _("solid temperature"), color=SOLID)
+    add_line(drawing, x, moisture_dry_basis, _("moisture"), color=LIQUID, dash="dash", yaxis="y2")
+    return drawing
+
+
+def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> Any:
+    """The profile of a dryer in steady state: means over the classes of solid, with the driest and the wettest class where they differ.
+
+    ``time``: residence time, to draw over it instead of the place.
+    """
+    from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
+    from granum.core.units import pretty_unit
+
+    found: Profile = dryer.profile(feed, gas)
+    shares, X, T = (np.asarray(v) for v in (found.shares, found.moisture, found.temperature))
+    x = np.asarray(found.place) * (1.0 if time is None else float(time) / 60.0)
+    label = axis_title("place") if time is None else f"{_('time in the dryer')} / {pretty_unit('min')}"
+    drawing = _drawn(x, _("Profiles in a dryer"), label)
+    add_line(drawing, x, np.asarray(found.gas_temperature) - ZERO, _("gas temperature"), color=GAS)
+    add_line(drawing, x, T @ shares - ZERO, _("solid temperature"), color=SOLID)
+    add_line(drawing, x, X @ shares, _("moisture"), color=LIQUID, dash="dash", yaxis="y2")
+    some = np.flatnonzero(shares > 1e-6)
+    last = X[:, some]
+    if np.ptp(last, axis=1).max() > 1e-3 * last.max():
+        add_line(drawing, x, last.max(axis=1), _("wettest class"), color=LIQUID, dash="dot", width=1, yaxis="y2")
+        add_line(drawing, x, last.min(axis=1), _("driest class"), color=LIQUID, dash="dashdot", width=1, yaxis="y2")
+    return drawing
