@@ -1,0 +1,143 @@
+"""Drum (heated-cylinder) dryer: a film on a steam-heated cylinder, scraped off dry."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.kinds import (
+    Area,
+    Fraction,
+    HeatTransferCoefficient,
+    Length,
+    MassFlow,
+    MassFlux,
+    MoistureDryBasis,
+    Pressure,
+    Ratio,
+    RotationSpeed,
+    SpecificEnergy,
+    Temperature,
+    Time,
+)  # fmt: skip
+from granum.drying.formulas.contact_drying import moisture_dry_basis_after
+from granum.drying.quantities import MassPerArea
+from granum.drying.wet_surface import boiled
+from granum.materials.formulas.steam import water_heat_of_vaporization
+from granum.materials.formulas.water import water_boiling_temperature
+from granum.numerics import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+_CAPACITY, _TIME, _STEAM = "water evaporated per area", "contact time on the drum", "temperature of the heating surface"
+_RATIO, _LIMIT = "steam per water evaporated", "product temperature over its limit"
+_NOTES = "houdon2017"
+
+
+class ContactDried(NamedTuple):
+    """Dried product, vapor, and the heat of wall or steam net of losses."""
+
+    product: Stream
+    vapor: Stream
+    heat_duty: Any
+
+
+class DrumFigures(NamedTuple):
+    """Figures of a drum dryer."""
+
+    moisture_dry_basis: MoistureDryBasis
+    evaporation_rate: MassFlow
+    area: Area
+    contact_time: Time
+    dry_mass_per_area: MassPerArea
+    drying_flux: MassFlux
+    evaporation_per_area: MassFlux
+    wall_temperature: Temperature
+    boiling_temperature: Temperature
+    mass_flow_steam: MassFlow
+    steam_per_water: Ratio
+    energy_per_water: SpecificEnergy
+
+
+@equipment("drum_dryer", source="mujumdar2014, ch. 9; treybal1980, ch. 12", title="Drum (cylinder) dryer")
+class DrumDryer(Unit):
+    """A film or web wrapped on a steam-heated cylinder: it warms up, boils at a constant rate, then dries at a falling one, and is scraped off.
+
+    The coefficient is the overall one from steam to film. Below the critical moisture the flux falls in a straight line to zero at
+    equilibrium. The film covers ``wrapped_fraction`` of the turn; turning faster makes
+    it thinner for a shorter time, so that the moisture reached hangs on area and steam alone. The product leaves between boiling and wall temperature, the closer to the
+    wall the drier it is. ``heat_loss_share`` is of the steam's heat.
+    """
+
+    diameter: Length
+    width: Length
+    rotation_speed: RotationSpeed
+    pressure_steam: Pressure
+    heat_transfer_coefficient: HeatTransferCoefficient = 1200.0
+    wrapped_fraction: Fraction = 0.75
+    critical_moisture: MoistureDryBasis = 0.3
+    equilibrium_moisture: MoistureDryBasis = 0.0
+    heat_loss_share: Fraction = 0.1
+    temperature_limit: Temperature | None = None
+
+    def _film(self, feed: Stream) -> dict[str, Any]:
+        """What happens to the film on its way."""
+        boiling = water_boiling_temperature(jnp.asarray(STANDARD_ATMOSPHERE) + 0.0 * feed.pressure)
+        wall = water_boiling_temperature(self.pressure_steam)
+        latent = water_heat_of_vaporization(boiling)
+        area = jnp.pi * self.diameter * self.width
+        turn = 2.0 * jnp.pi / self.rotation_speed
+        load = feed.solid_flow * turn / area
+        contact = self.wrapped_fraction * turn
+        U = jnp.asarray(self.heat_transfer_coefficient)
+        warm = feed.enthalpy_at(boiling) - feed.enthalpy_flow  # W, spread over the wrapped area
+        start = jnp.minimum(feed.temperature, boiling)
+        mean = (boiling - start) / jnp.log(jnp.maximum((wall - start) / (wall - boiling), 1.0 + 1e-9))
+        heating = warm * turn / area / (U * jnp.maximum(mean, 1e-6))
+        N = U * (wall - boiling) / latent
+        X1 = safe_divide(feed.liquid[0], feed.solid_flow)
+        X2 = moisture_dry_basis_after(X1, jnp.maximum(contact - heating, 0.0), N, load, self.critical_moisture, self.equilibrium_moisture)
+        dryness = jnp.clip((self.critical_moisture - X2) / self.critical_moisture, 0.0, 1.0)
+        T2 = boiling + dryness * (wall - boiling)
+        return {"boiling": boiling, "wall": wall, "area": area, "load": load, "contact": contact, "N": N, "X2": X2, "T2": T2}
+
+    def __call__(self, feed: Stream) -> ContactDried:
+        film = self._film(feed)
+        product, vapor = boiled(feed, film["X2"], film["T2"], film["boiling"], STANDARD_ATMOSPHERE)
+        return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> DrumFigures:
+        feed, film = inlets["feed"], self._film(inlets["feed"])
+        water = feed.liquid[0] - outlets.product.liquid[0]
+        duty = outlets.heat_duty / (1.0 - self.heat_loss_share)
+        steam = duty / water_heat_of_vaporization(film["wall"])
+        return DrumFigures(
+            moisture_dry_basis=film["X2"],
+            evaporation_rate=water,
+            area=film["area"],
+            contact_time=film["contact"],
+            dry_mass_per_area=film["load"],
+            drying_flux=film["N"],
+            evaporation_per_area=water / film["area"],
+            wall_temperature=film["wall"],
+            boiling_temperature=film["boiling"],
+            mass_flow_steam=steam,
+            steam_per_water=safe_divide(steam, water),
+            energy_per_water=safe_divide(duty, water),
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        found = [
+            Check(_CAPACITY, figures.evaporation_per_area * 3600.0, 15.0, 80.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 9"),
+            Check(_TIME, figures.contact_time, 3.0, 30.0, "s", _NOTES),
+            Check(_STEAM, figures.wall_temperature - 273.15, 100.0, 180.0, "degC", _NOTES),
+            Check(_RATIO, figures.steam_per_water, 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
+        ]
+        if self.temperature_limit is not None:
+            found.append(Check(_LIMIT, outlets.product.temperature - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+        return tuple(found)

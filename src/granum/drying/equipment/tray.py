@@ -1,0 +1,165 @@
+"""Tray oven: batches on trays in circulating air."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Area,
+    Fraction,
+    HeatFlux,
+    HeatTransferCoefficient,
+    HumidityRatio,
+    Law,
+    Length,
+    Mass,
+    MassFlow,
+    MassFlux,
+    MoistureDryBasis,
+    PositiveNumber,
+    Ratio,
+    SpecificEnergy,
+    Speed,
+    Temperature,
+    Time,
+)  # fmt: skip
+from granum.drying.formulas.assisted import drying_rate_assisted
+from granum.drying.formulas.contact_drying import temperature_outlet_tray
+from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
+from granum.drying.formulas.times import drying_time
+from granum.drying.quantities import MassPerArea
+from granum.drying.wet_surface import PAIR, boiled, humidity
+from granum.humid_gas.relations import saturated_fraction
+from granum.materials.formulas.steam import water_heat_of_vaporization
+from granum.numerics import safe_divide
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+_SPEED, _AIR = "air speed over the trays", "relative humidity of the exhaust"
+_REACHED, _LIMIT = "moisture of the product above equilibrium with the hot air", "product temperature over its limit"
+_RECYCLE = "recirculated share of the air"
+
+
+class TrayDried(NamedTuple):
+    """Dried product, exhaust air, heat of the heater net of losses."""
+
+    product: Stream
+    exhaust: Stream
+    heat_duty: Any
+
+
+class TrayFigures(NamedTuple):
+    """Figures of a tray oven, means over the cycle where flows are meant."""
+
+    drying_time: Time
+    cycle_time: Time
+    area: Area
+    dry_solid_mass: Mass
+    evaporation_rate: MassFlow
+    drying_rate_constant: MassFlux
+    heat_transfer_coefficient: HeatTransferCoefficient
+    surface_temperature: Temperature
+    humidity_ratio: HumidityRatio
+    temperature_outlet: Temperature
+    relative_humidity: Ratio
+    recirculated_fraction: Ratio
+    energy_per_water: SpecificEnergy
+
+
+@equipment("tray_dryer", source="treybal1980, ch. 12; geankoplis2003, ch. 9", title="Tray oven")
+class TrayDryer(Unit):
+    """Batches on trays over which air of constant temperature circulates along the surface; the fresh air fixes its humidity.
+
+    The air over the trays is as humid as the exhaust, on average over the cycle; it cools along each tray while the surface is wet at its wet bulb.
+    Below the critical moisture the flux falls in a straight line to equilibrium. The heat transfer coefficient follows from the air
+    speed unless it is given; ``radiated_heat`` is infrared or microwave heat per area that evaporates besides it. Trays dry from above,
+    and from below too when ``sides`` is 2. Feed and gas flows are means over the cycle; the product leaves at the temperature of the air.
+    """
+
+    temperature_inlet: Temperature
+    gas_velocity: Speed
+    dry_mass_per_area: MassPerArea
+    moisture_outlet: MoistureDryBasis
+    critical_moisture: MoistureDryBasis
+    equilibrium_moisture: MoistureDryBasis = 0.0
+    isotherm: Annotated[Any, Law("isotherm")] = None
+    heat_transfer_coefficient: HeatTransferCoefficient | None = None
+    tray_length: Length = 0.6
+    tray_gap: Length = 0.05
+    sides: PositiveNumber = 1.0
+    radiated_heat: HeatFlux = 0.0
+    dead_time: Time = 1800.0
+    heat_loss_share: Fraction = 0.0
+    temperature_limit: Temperature | None = None
+
+    def __call__(self, feed: Stream, gas: Stream) -> TrayDried:
+        state = self._state(feed, gas)
+        product, vapor = boiled(feed, self.moisture_outlet, self.temperature_inlet, state["T2"], gas.pressure)
+        exhaust = vapor.replace(gas=vapor.gas + gas.gas)
+        duty = product.enthalpy_flow + exhaust.enthalpy_flow - feed.enthalpy_flow - gas.enthalpy_flow
+        return TrayDried(product, exhaust, duty)
+
+    def _state(self, feed: Stream, gas: Stream) -> dict[str, Any]:
+        """Air, flux and time."""
+        T, P = jnp.asarray(self.temperature_inlet), gas.pressure
+        water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
+        w = humidity(gas) + safe_divide(water, gas.gas[0])
+        y = PAIR.fraction(w)
+        density = P / (8.314462618 * T) * ((1.0 - y) * PAIR.gas_molar_mass + y * PAIR.vapor_molar_mass)
+        flux = self.gas_velocity * density
+        h = (
+            heat_transfer_coefficient_parallel(flux)
+            if self.heat_transfer_coefficient is None
+            else jnp.asarray(self.heat_transfer_coefficient)
+        )
+        Tw = drying_rate_assisted(T, w, h, self.radiated_heat, pressure=P).surface_temperature
+        c = (1006.0 + 1860.0 * w) / (1.0 + w)
+        end = temperature_outlet_tray(T, Tw, h * self.sides, flux, self.tray_length, self.tray_gap, c)
+        mean = flux * c * self.tray_gap * (T - end) / self.tray_length  # W per tray area, both sides
+        N = (mean + self.radiated_heat) / water_heat_of_vaporization(Tw)
+        X1 = safe_divide(feed.liquid[0], feed.solid_flow)
+        phi = y / saturated_fraction(PAIR, T, P)
+        Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm.moisture(jnp.clip(phi, 1e-3, 0.99), T)
+        time = drying_time(self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe).drying_time
+        return {"w": w, "h": h, "Tw": Tw, "end": end, "N": N, "Xe": Xe, "time": time, "T2": end, "flux": flux, "water": water}
+
+    def results(self, inlets: Mapping[str, Stream], outlets: TrayDried) -> TrayFigures:
+        feed, gas = inlets["feed"], inlets["gas"]
+        s = self._state(feed, gas)
+        cycle = s["time"] + self.dead_time
+        dry = feed.solid_flow * cycle
+        area = dry / self.dry_mass_per_area
+        # air that passes over the trays while they dry, against the fresh air
+        circulating = s["flux"] * self.tray_gap / self.tray_length * area / (1.0 + s["w"])
+        duty = outlets.heat_duty / (1.0 - self.heat_loss_share)
+        return TrayFigures(
+            drying_time=s["time"],
+            cycle_time=cycle,
+            area=area,
+            dry_solid_mass=dry,
+            evaporation_rate=s["water"],
+            drying_rate_constant=s["N"],
+            heat_transfer_coefficient=s["h"],
+            surface_temperature=s["Tw"],
+            humidity_ratio=s["w"],
+            temperature_outlet=s["end"],
+            relative_humidity=PAIR.fraction(s["w"]) / saturated_fraction(PAIR, s["T2"], gas.pressure),
+            recirculated_fraction=1.0 - safe_divide(gas.gas[0], circulating),
+            energy_per_water=safe_divide(duty, s["water"]),
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: TrayDried) -> tuple[Check, ...]:
+        figures, s = self.results(inlets, outlets), self._state(inlets["feed"], inlets["gas"])
+        found = [
+            Check(_SPEED, self.gas_velocity, 0.5, 8.0, "m/s", "treybal1980, ch. 12"),
+            Check(_AIR, figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+            Check(_REACHED, self.moisture_outlet - s["Xe"], 0.0, 1e3, "kg/kg", "keey1978"),
+            Check(_RECYCLE, figures.recirculated_fraction, 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
+        ]
+        if self.temperature_limit is not None:
+            found.append(Check(_LIMIT, self.temperature_inlet - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+        return tuple(found)
