@@ -15,6 +15,7 @@ from granum.filtration.formulas.washing import wash_effluent_concentration
 from granum.filtration.lab_tests.cake_tests import CompressionCell, DeliquoringCurve, WashingCurve
 from granum.filtration.lab_tests.compressibility import Compressibility
 from granum.filtration.lab_tests.rate_tests import ConstantRateTest, VariablePressureTest
+from granum.filtration.lab_tests.slurry import PumpCurve, SlurryJar
 from granum.filtration.lab_tests.stepped import SteppedPressureTest
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "leaf-filter"
@@ -164,3 +165,29 @@ def test_constant_rate_leaves_out_a_bad_start():
     found = ConstantRateTest(time=t, pressure_drop=dp, **case).fit()
     assert found.values == pytest.approx({"cake_resistance": 4e11, "medium_resistance": 3e11}, rel=1e-8)
     assert found.flags[0]["flag"] == "points excluded"
+
+
+def test_jars_and_pump():
+    # the notes' slurry: 15 g/kg, ε = 0.38, ρ_l = 1020, ρ_s = 2630: m = 1 + ε ρ_l/((1-ε) ρ_s) = 1.2377, W = 15.59 kg/m³
+    slurry = np.array([1.0, 2.0, 3.0, 5.0])
+    dry = 0.015 * slurry * (1 + np.array([1, -1, 1, -1]) * 2e-3)
+    volume = dry / 2630 / 0.62
+    jar = SlurryJar(slurry, dry + 0.38 * volume * 1020, dry, volume, liquid_density=1020.0)
+    found = jar.fit()
+    low, high = found["solids_mass_fraction"].interval_95
+    assert low < 0.015 < high
+    assert found["void_fraction"].value == pytest.approx(0.38, rel=1e-9)
+    m = 1 + 0.38 * 1020 / (0.62 * 2630)
+    assert found["wet_to_dry_mass_ratio"].value == pytest.approx(m, rel=1e-9)
+    assert found["dry_cake_per_filtrate"].value == pytest.approx(1020 * 0.015 / (1 - m * 0.015), rel=3e-3)
+    assert not found.flags
+    drained = SlurryJar(slurry, dry + 0.5 * 0.38 * volume * 1020, dry, volume, liquid_density=1020.0).fit()
+    assert [f["flag"] for f in drained.flags] == ["saturation"]
+    q = np.linspace(0, 8e-3, 9)
+    pump = PumpCurve(q, 4e5 * (1 - (q / 1e-2) ** 2) + 200.0 * np.cos(np.arange(9.0))).fit()
+    for name, true in (("pressure_shutoff", 4e5), ("volume_flow_largest", 1e-2)):
+        low, high = pump[name].interval_95
+        assert low < true < high
+        assert high - low < 0.01 * true
+    with pytest.raises(InputError, match="does not fall"):
+        PumpCurve(q, 1e5 + 1e7 * q).fit()

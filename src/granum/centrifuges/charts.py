@@ -19,6 +19,7 @@ def bowl_chart(
 ) -> Any:
     """Half section of a bowl that parts two liquids: axis at the bottom, light and heavy layer, interface, overflows and wall."""
     from granum.core.charts import CAUTION, INK, LIQUID, SOLID, add_label, figure
+    from granum.core.units import format_number
 
     ri = radius_interface(radius_heavy, radius_light, density_heavy, density_light)
     L, R = 100.0 * bowl_length, 100.0 * bowl_radius
@@ -35,7 +36,9 @@ def bowl_chart(
         drawing.add_shape(
             type="line", x0=0, x1=L, y0=radius, y1=radius, line={"color": color, "width": 2 if radius in (R, interface) else 1}
         )
-        add_label(drawing, 0.02 * L, radius, f"{text} {radius:.2f} cm", color=color, xanchor="left", yanchor="bottom")
+        below = radius == 100.0 * min(radius_light, radius_heavy)
+        add_label(drawing, 0.02 * L, radius, f"{text} {format_number(radius)} cm", color=color, xanchor="left",
+                  yanchor="top" if below else "bottom")  # fmt: skip
     drawing.update_xaxes(range=[0, L])
     drawing.update_yaxes(range=[0, 1.1 * R])
     return drawing

@@ -91,18 +91,21 @@ def cake_profile_chart(
     add_line(drawing, z, np.asarray(found.liquid_pressure) / 1e5, _("liquid <i>p</i>"), color=LIQUID)
     add_line(drawing, z, np.asarray(found.solids_pressure) / 1e5, _("solid <i>p<sub>g</sub></i>"), color=SOLID)
     add_line(drawing, z, np.asarray(found.void_fraction_local), axis_title("void_fraction"), color=INK, dash="dot", yaxis="y2")
-    drawing.update_layout(yaxis2={"overlaying": "y", "side": "right", "title": axis_title("void_fraction"), "showgrid": False})
+    drawing.update_layout(
+        yaxis2={"overlaying": "y", "side": "right", "title": axis_title("void_fraction"), "showgrid": False, "tickformat": ".3f", "nticks": 7},
+        legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0.0}, margin={"r": 80, "t": 80},
+    )  # fmt: skip
     return drawing
 
 
 @chart(source="sherman1964", title="Washing of a cake")
 def washing_chart(dispersion_number: PositiveNumber) -> Any:
     """Concentration of the effluent and solute left in the cake against the wash ratio, with plug displacement for comparison."""
-    from granum.core.charts import GRID, LIQUID, SOLID, add_line, axis_title, figure
+    from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title, figure
 
     w = np.linspace(0.0, 4.0, 201)
     drawing = figure(axis_title("wash_ratio"), _("share of the mother liquor"), title=_("Washing of a cake"))
-    add_line(drawing, w, np.maximum(1.0 - w, 0.0), _("plug displacement"), color=GRID, dash="dash")
+    add_line(drawing, w, np.maximum(1.0 - w, 0.0), _("plug displacement"), color=GAS, dash="dash")
     add_line(drawing, w, np.asarray(wash_effluent_concentration(w, dispersion_number)), _("effluent"), color=LIQUID)
     add_line(drawing, w, np.asarray(solute_remaining_dispersion(w, dispersion_number)), _("left in the cake"), color=SOLID)
     return drawing
