@@ -34,10 +34,12 @@ FOLDERS = {"en": "cards", "fr": "cards-fr"}
 DOMAIN_TITLES = {
     "en": {"materials": "Materials", "particles": "Particles", "porous": "Porous media", "humid_gas": "Humid gas", "streams": "Streams",
            "comminution": "Comminution and screening", "settling": "Settling", "cyclones": "Cyclones", "fluidization": "Fluidization",
-           "filtration": "Filtration", "centrifuges": "Centrifuges", "crystallization": "Crystallization", "drying": "Drying", "studies": "Studies"},
+           "filtration": "Filtration", "centrifuges": "Centrifuges", "crystallization": "Crystallization", "drying": "Drying", "studies": "Studies",
+           "costs": "Costs"},
     "fr": {"materials": "Matériaux", "particles": "Particules", "porous": "Milieux poreux", "humid_gas": "Gaz humide", "streams": "Courants",
            "comminution": "Broyage et criblage", "settling": "Décantation", "cyclones": "Cyclones", "fluidization": "Fluidisation",
-           "filtration": "Filtration", "centrifuges": "Centrifugation", "crystallization": "Cristallisation", "drying": "Séchage", "studies": "Études"},
+           "filtration": "Filtration", "centrifuges": "Centrifugation", "crystallization": "Cristallisation", "drying": "Séchage", "studies": "Études",
+           "costs": "Coûts"},
 }  # fmt: skip
 
 

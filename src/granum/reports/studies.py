@@ -19,6 +19,7 @@ from granum.studies.outcome import Outcome
 from granum.studies.subjects import Variable
 
 ROWS = 40
+LEADING = 4
 
 
 class Rows(NamedTuple):
@@ -90,9 +91,14 @@ def _monte_carlo(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     if found["limits"]:
         tables.append(_chances(outcome, found["limits"], found["limits"]))
     if len(outcome.cases.inputs) > 1 and found["rank_correlation"]:
-        heads = [(_("figure"), "left"), *((p, "right") for p in outcome.cases.inputs)]
-        cells = [[f, *(("—" if r is None else format_number(r, 2)) for r in row.values())] for f, row in found["rank_correlation"].items()]
-        tables.append(Rows(_("Rank correlation"), heads, cells))
+        cells = []
+        for figure, row in found["rank_correlation"].items():
+            known = sorted(((n, r) for n, r in row.items() if r is not None), key=lambda pair: -abs(pair[1]))
+            for name, r in known[:LEADING]:
+                cells.append([figure, name, format_number(r, 2)])
+                figure = ""
+        heads = [(_("figure"), "left"), (_("input"), "left"), (_("rank correlation"), "right")]
+        tables.append(Rows(_("What moves the figures most"), heads, cells))
     return tables
 
 
@@ -141,6 +147,19 @@ def _map(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     return tables
 
 
+def _price(price: float, goal: Variable, found: dict[str, Any], v: Variable, limit: float) -> str:
+    """What one unit more of a limit does to the objective, both in the units people use."""
+    shown = []
+    for variable, value in ((goal, found["objective"]["value"]), (v, limit)):
+        unit = usual_unit(variable.parameter, value)
+        kind = variable.parameter.kind
+        size = 1.0 if kind is None else float(from_si(1.0, unit, kind) - from_si(0.0, unit, kind))
+        label = "K" if unit in ("degC", "degF") else pretty_unit(unit)
+        shown.append((size, label))
+    (up, above), (down, below) = shown
+    return f"{format_number(price * up / down)} {above or '1'}" + (f" / {below}" if below else "")
+
+
 def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     known = _known(outcome)
     inputs = [
@@ -152,11 +171,7 @@ def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     for row in found["active"]:
         v = known[row["name"]]
         sign = "≥" if row["side"] == "lower" else "≤"
-        price = "—"
-        if row["price"] is not None:
-            goal = known[found["objective"]["name"]]
-            units = " / ".join(pretty_unit(u.unit) or "1" for u in (goal, v))
-            price = f"{format_number(row['price'])} {units if units != '1 / 1' else ''}".strip()
+        price = "—" if row["price"] is None else _price(row["price"], known[found["objective"]["name"]], found, v, row["limit"])
         active.append([f"{row['name']} {sign} {_with_unit(v, row['limit'])}", price])
     tables = [
         Rows(_("Best inputs"), [(_("input"), "left"), (_("value"), "right"), (_("allowed"), "left")], inputs),

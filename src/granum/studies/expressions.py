@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import operator
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "max": lambda *x: jnp.max(jnp.stack(x)),
 }  # fmt: skip
 LONGEST = 2000
+_NUMBER = re.compile(r"^\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -112,10 +114,11 @@ def _path(node: ast.expr, text: str) -> str:
 
 
 def _quantity(text: str) -> float:
-    try:
-        return float(units.registry().Quantity(text.replace("%", "percent")).to_base_units().magnitude)
-    except Exception:  # Pint raises many kinds: tokenizer, undefined, offset units
-        raise InputError(_("'{text}' is not a number with a unit.").format(text=text)) from None
+    found = _NUMBER.match(text)
+    if found is None:
+        raise InputError(_("'{text}' is not a number with a unit.").format(text=text))
+    given = units.registry().Quantity(float(found.group(1)), units.parse_unit(found.group(2)))
+    return float(given.to_base_units().magnitude)
 
 
 def plain_quantity(value: Any, where: str) -> float:

@@ -1,0 +1,92 @@
+"""The potassium nitrate line: derivatives of every result with respect to inputs of every unit and feed equal differences, through the recycle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import granum as gr
+from granum.cases import read_studies
+from granum.studies.lines import LineSubject
+
+FOLDER = Path(__file__).parents[2] / "examples" / "potassium-nitrate"
+INPUTS = (
+    "crystallizer.temperature", "crystallizer.volume", "crystallizer.growth.growth_coefficient", "crystallizer.nucleation.nucleation_order",
+    "thickener.area", "thickener.underflow_concentration", "filter.area", "filter.cake_resistance", "filter.void_fraction", "filter.belt_speed",
+    "air_heater.temperature", "dryer.residence_time", "dryer.gas_velocity", "screen.separation.cut_size", "purge.side_fraction",
+    "hot_liquor.temperature", "hot_liquor.liquid_flow", "hot_liquor.liquid.water", "ambient_air.gas_flow", "ambient_air.temperature",
+)  # fmt: skip
+STREAMS = ("crystals.solid_flow", "crystals.median_size", "recycle.mass_flow", "recycle.temperature", "exhaust_air.gas.water")
+
+
+@pytest.fixture(scope="module")
+def line():
+    # away from the class boundary at 200 µm, where shares read from a size distribution have a corner
+    return gr.read(FOLDER / "line.toml").with_values(**{"screen.separation.cut_size": 212e-6})
+
+
+@pytest.fixture(scope="module")
+def subject(line):
+    return LineSubject.of(line)
+
+
+@pytest.fixture(scope="module")
+def outputs(subject):
+    return (*subject.outputs(), *STREAMS)
+
+
+@pytest.fixture(scope="module")
+def scaled(subject, outputs):
+    """Figures for inputs relative to those of the case."""
+    run, numbers = subject.traced(INPUTS, outputs), subject.numbers()
+    start = jnp.array([subject.nominal(p) for p in INPUTS])
+    return lambda z: run(numbers, start * z)[0]
+
+
+@pytest.fixture(scope="module")
+def value(scaled):
+    return jax.jit(scaled)
+
+
+def test_every_derivative_equals_differences(outputs, scaled, value) -> None:
+    slope = jax.jit(lambda d: jax.jvp(scaled, (jnp.ones(len(INPUTS)),), (d,))[1])
+    figures = np.asarray(value(jnp.ones(len(INPUTS))))
+    nothing = np.abs(figures) < 1e-9  # the share of crystals that a saturated wash dissolves is zero here
+    far = []
+    for i, direction in enumerate(np.eye(len(INPUTS))):
+        exact = np.asarray(slope(jnp.asarray(direction)))
+        miss = np.full(len(outputs), np.inf)
+        for h in (1e-3, 3e-4):  # fourth order: the better of two steps for each figure
+            two, one, fore, aft = (np.asarray(value(jnp.asarray(1.0 + k * h * direction))) for k in (-2, -1, 1, 2))
+            difference = (two - 8.0 * one + 8.0 * fore - aft) / (12.0 * h)
+            # an elasticity below 0.01 is compared to 1e-8 of the figure: the rounding of the differences is not smaller
+            miss = np.minimum(miss, np.abs(exact - difference) / np.maximum(np.abs(difference), 1e-2 * np.abs(figures) + 1e-30))
+        far += [(INPUTS[i], outputs[j], miss[j]) for j in np.flatnonzero(~(miss < 1e-6) & ~nothing)]
+    assert not far
+    assert nothing.sum() <= 2
+    assert np.asarray(slope(jnp.eye(len(INPUTS))[0]))[outputs.index("crystals.solid_flow")] < 0.0  # warmer mother liquor keeps more salt
+
+
+def test_figures_of_the_subject_are_those_of_the_run(line, outputs, value) -> None:
+    """A study sees the same line as ``granum run``."""
+    run, figures = line.solve(), dict(zip(outputs, np.asarray(value(jnp.ones(len(INPUTS)))), strict=True))
+    for path in ("crystallizer.mass_median_size", "filter.moisture_dry_basis", "dryer.evaporation_rate"):
+        assert figures[path] == pytest.approx(run.figure(path), rel=1e-9)
+    assert figures["crystals.solid_flow"] == pytest.approx(float(run.streams["crystals"].solid_flow), rel=1e-9)
+
+
+def test_spread_of_the_example() -> None:
+    """A cake resistance that spreads by 1.6 moves the moisture; the product is fixed by the balance to within a few per cent."""
+    found = read_studies(FOLDER / "studies.toml")["spread"].with_options(samples=128).run()
+    rows = found.findings()["statistics"]
+    assert found.counts()["failed"] == 0
+    assert rows["product"]["p90"] / rows["product"]["p10"] < 1.05
+    ranks = found.rank_correlations()
+    assert ranks["product"]["hot_liquor.temperature"] is not None
+    assert (
+        max(ranks["crystals.median_size"], key=lambda n: abs(ranks["crystals.median_size"][n])) == "crystallizer.growth.growth_coefficient"
+    )
