@@ -14,6 +14,7 @@ from granum.app.case_forms import read_line
 from granum.app.spread import spread
 from granum.app.texts import described, label_of, plain_data
 from granum.core import registry
+from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
 from granum.core.units import pretty_unit
@@ -55,20 +56,42 @@ def _law(name: str, text: str) -> Any:
         raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
 
 
+def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
+    """The values for a card; what a page or a file cannot mean (a list for a law, nothing for a list) is refused here."""
+    values = given_values(inputs)
+    for p in card.parameters:
+        value = values.get(p.name)
+        listed = isinstance(value, (list, tuple))
+        single = p.kind is not None and not p.series and card.sort != "formula"
+        if value is None:
+            continue
+        if (
+            (p.law and not isinstance(value, (str, dict)))
+            or (listed and (single or not value or not p.kind))
+            or (isinstance(value, dict) and not p.law)
+            or (isinstance(value, bool) and p.sort is not bool)
+        ):
+            raise InputError(_("'{name}' cannot take this value: {value}.").format(name=p.name, value=str(value)[:60]), name=p.name)
+    return values
+
+
 def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
     """Evaluate a formula or a procedure."""
-    given = given_values(payload["inputs"])
-    return packed(described(evaluable(payload["key"], ("formula", "procedure")).evaluate(**given), given))
+    thing = evaluable(payload["key"], ("formula", "procedure"))
+    given = inputs_for(thing.card, payload["inputs"])
+    return packed(described(thing.evaluate(**given), given))
 
 
 def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
-    return packed({"rows": spread(evaluable(payload["key"], ("formula",)), given_values(payload["inputs"]))})
+    thing = evaluable(payload["key"], ("formula",))
+    return packed({"rows": spread(thing, inputs_for(thing.card, payload["inputs"]))})
 
 
 def chart(payload: dict[str, Any], _tell: Tell) -> bytes:
     """Draw a chart: Plotly JSON."""
-    return evaluable(payload["key"], ("chart",))(**given_values(payload["inputs"])).to_json().encode()
+    thing = evaluable(payload["key"], ("chart",))
+    return thing(**inputs_for(thing.card, payload["inputs"])).to_json().encode()
 
 
 def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -82,7 +105,7 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
         raise InputError(_("'{name}' is not valid JSON.").format(name="conditions"))
     source = io.BytesIO(payload["content"])
     source.name = payload["name"]
-    test = test_type.read(source, **given_values(conditions))
+    test = test_type.read(source, **inputs_for(test_type.card, conditions))
     data = test.fit().as_json()
     for name, row in (*data["parameters"].items(), *data["derived"].items()):
         row["label"], row["unit_shown"] = label_of(name), pretty_unit(row["unit"])

@@ -60,10 +60,12 @@ def main() -> None:
             raise Cancelled
         send("progress", float(share))
 
+    from numpy.linalg import LinAlgError
+
     from granum.app.tasks import TASKS
     from granum.core import registry
-    from granum.core.errors import GranumError
-    from granum.core.i18n import set_language
+    from granum.core.errors import ApplicabilityError, GranumError
+    from granum.core.i18n import _, set_language
     from granum.core.units import set_unit_system
 
     registry.everything()
@@ -80,6 +82,11 @@ def main() -> None:
             send("refused", fault.as_json(), fault.exit_code)
         except MemoryError:
             send("memory")
+        except (ArithmeticError, LinAlgError) as fault:
+            told = ApplicabilityError(
+                _("The numbers got out of hand with these inputs ({reason}). Are they of the right size?").format(reason=fault)
+            )
+            send("refused", told.as_json(), told.exit_code)
         except Exception as fault:
             if "RESOURCE_EXHAUSTED" in str(fault) or "bad_alloc" in str(fault):
                 send("memory")
