@@ -100,14 +100,14 @@ def cyclone_for_efficiency(
 
         return float(jnp.exp(find_root(off, jnp.log(SMALLEST), jnp.log(LARGEST)).value))
 
+    number = 1.0 if parallel_number is None else float(parallel_number)
     if pressure_drop is not None:
         v = float((2.0 * pressure_drop / series_number / (heads * fluid_density)) ** 0.5)
         D = diameter_at(lambda D: v * area * D**2)
         if D > 0.0 and volume_flow / (v * area * D**2) < MOST:
-            number = ceil(volume_flow / (v * area * D**2) - 1e-9)
+            number = float(ceil(volume_flow / (v * area * D**2) - 1e-9))
             D = float((volume_flow / (number * v * area)) ** 0.5)
     else:
-        number = parallel_number
         D = diameter_at(lambda D: volume_flow / number)
         v = float(volume_flow / (number * area * D**2)) if D > 0.0 else float("nan")
     if not (D > 0.0 and volume_flow / (v * area * D**2) < MOST):
@@ -119,4 +119,4 @@ def cyclone_for_efficiency(
     left = np.asarray(stages(D, volume_flow / number))
     salt = saltation_velocity_kalen_zenz(v, D, cyclone_geometry(D).inlet_width, particle_density, fluid_density, dynamic_viscosity)
     drop = series_number * heads * 0.5 * fluid_density * v**2
-    return CyclonePlant(D, float(number), v, drop, float(1.0 - left[-1]), 1.0 - left[1:] / left[:-1], float(salt))
+    return CyclonePlant(D, number, v, drop, float(1.0 - left[-1]), 1.0 - left[1:] / left[:-1], float(salt))

@@ -10,7 +10,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import jax.extend
 
-_P, _R = ParamSpec("_P"), TypeVar("_R")
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 _memory: ContextVar[dict[Any, Any] | None] = ContextVar("granum_shared", default=None)
 
 
