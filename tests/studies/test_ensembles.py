@@ -181,7 +181,11 @@ def test_every_outcome_draws_and_serializes(kind: str) -> None:
         if kind == "json":
             assert json.dumps(outcome.as_json(cases=5), allow_nan=False)
         else:
-            assert all(len(f.data) for f in outcome.charts().values())
+            for drawn in outcome.charts().values():
+                assert len(drawn.data)
+                assert drawn.layout.yaxis.type == "category" or not any(
+                    isinstance(y, str) for t in drawn.data for y in (t.y if t.y is not None else ())
+                )
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from granum.core.symbols import html_symbol
 from granum.core.units import best_unit, format_number, from_si, pretty_unit
 from granum.studies.ensembles import Ensemble, Map, Sensitivity, Sweep
 from granum.studies.optimizing import Front, Optimum
+from granum.studies.outcome import meets
 from granum.studies.subjects import Variable
 
 SHOWN = 12
@@ -40,7 +41,7 @@ def shown(p: Parameter, values: Any, unit: str) -> np.ndarray:
 
 
 def _axis(v: Variable, unit: str) -> str:
-    term = v.parameter.term
+    term = None if v.named else v.parameter.term
     symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol else ""
     label = pretty_unit(unit)
     return f"{v.label}{symbol}" + (f" / {label}" if label else "")
@@ -77,16 +78,13 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
         yaxis="y2",
         line={"color": charts.INK, "width": 2},
     )
-    figure.update_layout(yaxis2={"overlaying": "y", "side": "right", "range": [0, 100], "title": _("cumulative / %"), "showgrid": False}, bargap=0,
+    figure.update_layout(yaxis2={"overlaying": "y", "side": "right", "range": [0, 100], "title": _("cumulative / %"), "showgrid": False, "tickmode": "linear", "dtick": 25}, bargap=0,
                          showlegend=False, margin={"r": 70})  # fmt: skip
-    for name, share in (("P10", 10), ("P50", 50), ("P90", 90)):
+    for name, share, side in (("P10", 10, "top left"), ("P50", 50, "top"), ("P90", 90, "top right")):
         place = float(np.percentile(x, share))
-        figure.add_vline(
-            x=place,
-            line={"color": charts.GAS, "width": 1, "dash": "dot"},
-            annotation_text=f"{name} {format_number(place, 3)}",
-            annotation_font_size=11,
-        )
+        line = {"color": charts.GAS, "width": 1, "dash": "dot"}
+        text = f"{name} {format_number(place, 3)}"
+        figure.add_vline(x=place, line=line, annotation_text=text, annotation_font_size=11, annotation_position=side)
     for limit in outcome.limits.get(v.path, (None, None)):
         if limit is not None:
             figure.add_vline(x=float(shown(v.parameter, limit, unit)), line={"color": charts.OUT, "width": 2})
@@ -104,7 +102,8 @@ def of_ensemble(outcome: Ensemble) -> dict[str, go.Figure]:
     ranks = outcome.rank_correlations()
     labels = {v.path: v.label for v in outcome.inputs}
     for v in outcome.outputs[:SHOWN]:
-        if np.isfinite(outcome.column(v.path)).sum() < 2:
+        good = outcome.column(v.path)[np.isfinite(outcome.column(v.path))]
+        if len(good) < 2 or np.ptp(good) <= 1e-9 * np.max(np.abs(good)):
             continue
         made[v.path] = distribution_chart(outcome, v)
         rows = [(labels[n], r) for n, r in ranks.get(v.path, {}).items() if r is not None]
@@ -112,7 +111,7 @@ def of_ensemble(outcome: Ensemble) -> dict[str, go.Figure]:
             rows = sorted(rows, key=lambda row: abs(row[1]))[-SHOWN:]
             figure = charts.figure(_("rank correlation"), "", title=_("What moves {figure}").format(figure=v.label))
             _bars(figure, [n for n, _r in rows], [r for _n, r in rows], None, _("rank correlation"), charts.ACCENT)
-            figure.update_layout(xaxis_range=[-1, 1], showlegend=False, margin={"l": 200})
+            figure.update_layout(xaxis_range=[-1, 1], yaxis_type="category", showlegend=False, margin={"l": 220})
             made[f"{v.path} tornado"] = figure
     return made
 
@@ -130,7 +129,9 @@ def of_sensitivity(outcome: Sensitivity) -> dict[str, go.Figure]:
         for key, name, color in (("first", _("alone"), charts.ACCENT), ("total", _("with interactions"), charts.GAS)):
             spread = [float(s[f"{key}_interval"] or 0.0) for _n, s in rows]
             _bars(figure, [n for n, _s in rows], [float(s[key] or 0.0) for _n, s in rows], spread, name, color)
-        figure.update_layout(barmode="group", margin={"l": 200}, legend={"orientation": "h", "y": 1.02, "yanchor": "bottom"})
+        figure.update_layout(
+            barmode="group", yaxis_type="category", margin={"l": 220}, legend={"orientation": "h", "y": 1.02, "yanchor": "bottom"}
+        )
         made[v.path] = figure
     return made
 
@@ -167,12 +168,28 @@ def of_map(outcome: Map) -> dict[str, go.Figure]:
             colorbar={"title": {"text": named, "side": "right"}},
             name=v.label,
         )
-        if outcome.limits and not outcome.allowed().all():
-            figure.add_contour(x=x, y=y, z=(~outcome.allowed()).astype(float), showscale=False, hoverinfo="skip", name=_("limits not kept"),
-                               contours={"type": "constraint", "operation": ">", "value": 0.5}, line={"color": charts.OUT, "width": 2},
-                               fillcolor="rgba(185,28,28,0.25)", showlegend=True)  # fmt: skip
+        for path, limit in outcome.limits.items():
+            _forbid(figure, outcome, path, limit, x, y)
+        figure.update_layout(legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1.0, "xanchor": "right"})
         made[v.path] = figure
     return made
+
+
+def _forbid(figure: go.Figure, outcome: Map, path: str, limit: tuple[float | None, float | None], x: Any, y: Any) -> None:
+    """Shade where a limit is not kept (a constraint contour fills the side that breaks it)."""
+    values = outcome.grid(path)
+    v = outcome.cases.subject.output(path)
+    for bound, operation, sign in zip(limit, (">=", "<="), ("≥", "≤"), strict=True):
+        if bound is None or not np.any(~meets(values, limit) & np.isfinite(values)):
+            continue
+        unit = usual_unit(v.parameter, bound)
+        edge = float(shown(v.parameter, bound, unit))
+        figure.add_contour(
+            x=x, y=y, z=shown(v.parameter, values, unit), showscale=False, hoverinfo="skip", showlegend=True,
+            name=_("outside {limit}").format(limit=f"{v.label} {sign} {format_number(edge)} {pretty_unit(unit)}"),
+            contours={"type": "constraint", "operation": operation, "value": edge}, line={"color": charts.OUT, "width": 2},
+            fillcolor="rgba(185,28,28,0.25)",
+        )  # fmt: skip
 
 
 def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
@@ -187,7 +204,7 @@ def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
         texts.append(f"{format_number(float(shown(v.parameter, outcome.values[v.path], unit)))} {pretty_unit(unit)}")
     figure.add_scatter(y=names, x=places, mode="markers+text", text=texts, textposition="top center", name=_("optimum"),
                        marker={"color": charts.ACCENT, "size": 12}, showlegend=False)  # fmt: skip
-    figure.update_layout(barmode="overlay", xaxis_range=[-5, 105], margin={"l": 200})
+    figure.update_layout(barmode="overlay", xaxis_range=[-18, 118], yaxis_type="category", margin={"l": 220})
     return {"optimum": figure}
 
 

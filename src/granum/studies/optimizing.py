@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -64,6 +65,36 @@ class Stopped(Exception):
     """The study was cancelled."""
 
 
+_functions: OrderedDict[tuple[Any, ...], Any] = OrderedDict()
+
+
+def _compiled(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], logs: tuple[bool, ...], sampled: bool) -> Any:
+    """Figures, exact derivatives and code at a place, compiled; the last few are kept, so that other limits or ranges start at once."""
+    key = (id(subject), inputs, outputs, logs, sampled)
+    if key not in _functions:
+        run = subject.traced(inputs, outputs)
+
+        def one(z: Any, numbers: Any, low: Any, high: Any, extra: Any) -> Any:
+            def figures(z: Any) -> Any:
+                values = [Span(low[i], high[i], log).at(z[i]) for i, log in enumerate(logs)]
+                found, code = run(numbers, jnp.concatenate([jnp.stack(values), extra]))
+                return found, (found, code)
+
+            slopes, (found, code) = jax.jacfwd(figures, has_aux=True)(z)
+            return found, slopes, code
+
+        def many(z: Any, numbers: Any, low: Any, high: Any, samples: Any) -> Any:
+            if subject.batched or jax.default_backend() != "cpu":
+                return jax.vmap(lambda extra: one(z, numbers, low, high, extra))(samples)
+            return jax.lax.map(lambda extra: one(z, numbers, low, high, extra), samples)
+
+        _functions[key] = (jax.jit(many if sampled else one), subject)  # the subject is kept, so that its identity stays its own
+        while len(_functions) > 8:
+            _functions.popitem(last=False)
+    _functions.move_to_end(key)
+    return _functions[key][0]
+
+
 @dataclass
 class Search:
     """A subject with its decisions: figures and exact derivatives at any place, computed together and remembered."""
@@ -82,26 +113,12 @@ class Search:
     evaluations: int = 0
 
     def __post_init__(self) -> None:
-        inputs = (*self.spans, *self.uncertain)
-        run = self.subject.traced(inputs, self.outputs)
-        spans = list(self.spans.values())
-
-        def one(arrays: Any, z: Any, extra: Any) -> Any:
-            def figures(z: Any) -> Any:
-                values = [span.at(z[i]) for i, span in enumerate(spans)]
-                found, code = run(arrays, jnp.concatenate([jnp.stack(values), extra]))
-                return found, (found, code)
-
-            slopes, (found, code) = jax.jacfwd(figures, has_aux=True)(z)
-            return found, slopes, code
-
-        if self.samples is None:
-            self._compiled = jax.jit(lambda a, z: one(a, z, jnp.zeros(0)))
-        elif self.subject.batched or jax.default_backend() != "cpu":
-            self._compiled = jax.jit(lambda a, z: jax.vmap(lambda e: one(a, z, e))(jnp.asarray(self.samples)))
-        else:
-            self._compiled = jax.jit(lambda a, z: jax.lax.map(lambda e: one(a, z, e), jnp.asarray(self.samples)))
-        self._arrays = self.subject.numbers()
+        logs = tuple(span.logarithmic for span in self.spans.values())
+        self._compiled = _compiled(self.subject, (*self.spans, *self.uncertain), self.outputs, logs, self.samples is not None)
+        self._arguments = (
+            self.subject.numbers(), jnp.array([s.lower for s in self.spans.values()]), jnp.array([s.upper for s in self.spans.values()]),
+            jnp.zeros(0) if self.samples is None else jnp.asarray(self.samples),
+        )  # fmt: skip
         self._known: dict[bytes, Point] = {}
 
     def values(self, z: np.ndarray) -> dict[str, float]:
@@ -114,7 +131,7 @@ class Search:
         key = z.tobytes()
         if key not in self._known:
             self.watch()
-            found, slopes, codes = (np.asarray(part) for part in self._compiled(self._arrays, jnp.asarray(z)))
+            found, slopes, codes = (np.asarray(part) for part in self._compiled(jnp.asarray(z), *self._arguments))
             self.evaluations += 1
             self._known[key] = Point(found, slopes, int(codes)) if self.samples is None else self._condensed(found, slopes, codes)
         return self._known[key]

@@ -29,14 +29,17 @@ Traced = Callable[[Any, Any], tuple[Any, Any]]
 
 @dataclass(frozen=True)
 class Variable:
-    """An input or a figure of a study: its path and its declaration."""
+    """An input or a figure of a study: its path and its declaration; ``named`` when the author of the study named it."""
 
     path: str
     parameter: Parameter
+    named: bool = False
 
     @property
     def label(self) -> str:
         """``unit: quantity`` in the current language."""
+        if self.named:
+            return self.path.replace("_", " ")
         owner, dot, _last = self.path.partition(".")
         own = self.parameter.label
         return f"{owner}: {own}" if dot else own
@@ -117,7 +120,7 @@ class Subject(abc.ABC):
             raise InputError(_("Quantity '{name}' is defined by itself.").format(name=path), name=path)
         for name in self.quantities[path].names():
             self.output(name, (*trail, path))
-        return Variable(path, self.quantities[path].parameter)
+        return Variable(path, self.quantities[path].parameter, named=True)
 
     def figure(self, text: str) -> tuple[Subject, str]:
         """A figure given by path, by quantity or as an expression; the subject gains the expression as a quantity."""
