@@ -38,7 +38,7 @@ def shared(method: Callable[_P, _R]) -> Callable[_P, _R]:
         for known, result, _args in found:
             if known == state:
                 return result
-        result = method(*args)
+        result = method(*args, **options)
         found.append((state, result, args))  # the arguments stay alive, so that their ids stay theirs
         return result
 
