@@ -14,6 +14,7 @@ from granum.humid_gas.formulas.properties import humidity_ratio_saturated, wet_b
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.inputs import MOISTURE, NAMES, WET, Solver
 from granum.humid_gas.pairs import AIR_WATER
+from granum.humid_gas.solvents import AirToluene
 
 C = 273.15
 
@@ -133,3 +134,18 @@ def test_gradients_are_finite_everywhere(T: float) -> None:
             jnp.array([T, w, 101325.0])
         )
         assert jnp.all(jnp.isfinite(slopes)), (T, w, slopes)
+
+
+def test_two_states_of_one_wet_bulb_and_volume_are_flagged() -> None:
+    # vapor of toluene is heavy: along a line of constant wet bulb the volume per dry gas falls and then rises
+    pair = AirToluene()
+    warm = state(temperature=398.23, humidity_ratio=float(pair.humidity_ratio(0.30625)), pressure=65985.0, pair=pair)
+    found = state.evaluate(
+        wet_bulb_temperature=float(warm.wet_bulb_temperature), specific_volume=float(warm.specific_volume), pressure=65985.0, pair=pair
+    )
+    assert found.value.temperature < 398.0
+    assert [n["flag"] for n in found.notices] == ["limit active"]
+    assert "Two states" in found.notices[0]["message"]
+    again = state(temperature=found.value.temperature, humidity_ratio=found.value.humidity_ratio, pressure=65985.0, pair=pair)
+    assert again.specific_volume == pytest.approx(warm.specific_volume, rel=1e-8)
+    assert again.wet_bulb_temperature == pytest.approx(warm.wet_bulb_temperature, rel=1e-8)

@@ -42,6 +42,7 @@ class Record:
     low: float = field(metadata={"static": True})
     high: float = field(metadata={"static": True})
     source: str = field(metadata={"static": True})
+    reason: str = field(default="", metadata={"static": True})
 
 
 class _Collector:
@@ -78,11 +79,12 @@ def inside(formula: Any) -> Iterator[None]:
         _current.reset(token)
 
 
-def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "") -> None:
+def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "",
+           reason: str = "") -> None:  # fmt: skip
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
     if collector is not None and collector.accepts():
-        collector.records.append(Record(jnp.asarray(mask), jnp.asarray(value), bit, name, card, low, high, source))
+        collector.records.append(Record(jnp.asarray(mask), jnp.asarray(value), bit, name, card, low, high, source, reason))
 
 
 def watch(**values: Any) -> None:
@@ -105,11 +107,14 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
         record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
 
 
-def limit_active(mask: Any, value: Any, name: str) -> None:
-    """Inside a formula body: record where a physical limit cut the result."""
+def limit_active(mask: Any, value: Any, name: str, reason: str = "") -> None:
+    """Inside a formula body: record where a physical limit cut the result.
+
+    ``reason`` is an English sentence with a French translation that then says what happened.
+    """
     formula = _current.get()
     if formula is not None:
-        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source)
+        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source, reason=reason)
 
 
 def bits(records: list[Record], shape: tuple[int, ...]) -> np.ndarray:
@@ -133,7 +138,7 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
             continue
         values = np.broadcast_to(np.asarray(found.value, dtype=float), mask.shape)[mask]
         finite = values[np.isfinite(values)]
-        key = (found.bit, found.name, found.card, found.low, found.high)
+        key = (found.bit, found.name, found.card, found.low, found.high, found.reason)
         beyond = np.maximum(found.low - finite, finite - found.high) if finite.size else finite
         worst = float(finite[int(np.argmax(beyond))]) if finite.size else float("nan")
         row = rows.setdefault(
@@ -151,7 +156,7 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         )
         row["count"] += int(mask.sum())
         row["worst"] = worst if np.isfinite(worst) else None
-        row["message"] = sentence(row)
+        row["message"] = _(found.reason) if found.reason else sentence(row)
     return list(rows.values())
 
 

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 
 import granum.humid_gas.relations as rel
+from granum.core import flags
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
 from granum.numerics.roots import find_root
 
+SAMPLES = 49
+TWO_STATES = "Two states have these values; the colder and moister one is given."
 MOISTURE = ("humidity_ratio", "vapor_pressure", "dew_point_temperature")
 WET = ("wet_bulb_temperature", "adiabatic_saturation_temperature")
 NAMES = ("temperature", *MOISTURE, "relative_humidity", *WET, "enthalpy", "specific_volume")
@@ -155,9 +159,9 @@ class Solver:
                 Ts * (1 - SLACK), driest * (1 + SLACK),
             )  # fmt: skip
         else:
-            T = self._root(
+            T = self._coldest_root(
                 lambda T: pair.molar_volume(T, P, fraction(T)) - value * pair.gas_molar_mass * (1.0 - fraction(T)),
-                Ts * (1 - SLACK), driest * (1 + SLACK),
+                Ts * (1 - SLACK), driest * (1 + SLACK), value,
             )  # fmt: skip
         return self._bounded(T, fraction(T))
 
@@ -169,8 +173,8 @@ class Solver:
         low, high = pair.lowest_temperature, pair.highest_temperature
         if phi is None:
             assert h is not None
-            T = self._root(
-                lambda T: pair.molar_enthalpy(T, P, self._at_volume(T)) - h * Mg * (1.0 - self._at_volume(T)), *self._volume_bracket()
+            T = self._coldest_root(
+                lambda T: pair.molar_enthalpy(T, P, self._at_volume(T)) - h * Mg * (1.0 - self._at_volume(T)), *self._volume_bracket(), v
             )
             return self._bounded(T, self._at_volume(T))
 
@@ -198,3 +202,16 @@ class Solver:
 
     def _root(self, balance: Callable[[Any], Any], lower: Any, upper: Any) -> Any:
         return find_root(balance, lower, upper, tolerance=1e-13).value
+
+    def _coldest_root(self, balance: Callable[[Any], Any], lower: Any, upper: Any, volume: Any) -> Any:
+        """The coldest of the roots of a balance that may turn round: heavy solvents have two states of one wet bulb and volume."""
+        lower, upper = jnp.broadcast_arrays(lower, upper)
+        share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2  # states lie close near saturation
+        T = lower + share * (upper - lower)
+        sign = jnp.sign(jax.lax.map(balance, T))
+        change = sign[:-1] * sign[1:] < 0
+        first = jnp.argmax(change, axis=0)[None]
+        low, high = (jnp.take_along_axis(ends, first, axis=0)[0] for ends in (T[:-1], T[1:]))
+        flags.limit_active(jnp.sum(change, axis=0) > 1, volume, "specific_volume", TWO_STATES)
+        any_change = jnp.any(change, axis=0)
+        return self._root(balance, jnp.where(any_change, low, lower), jnp.where(any_change, high, upper))

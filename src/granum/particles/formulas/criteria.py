@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, limit_active, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Speed, Velocity
-from granum.particles.falling import LEAST, reynolds_from_size, reynolds_from_velocity
+from granum.particles.falling import EQUAL_DENSITIES, LEAST, reynolds_from_size, reynolds_from_velocity
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
 
@@ -135,7 +135,7 @@ def terminal_velocity_by_regime(
     """
     rho, eta = fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
-    limit_active(excess == 0.0, particle_density, "particle_density")
+    limit_active(excess == 0.0, particle_density, "particle_density", EQUAL_DENSITIES)
     X = velocity_criterion(particle_diameter, particle_density, rho, eta, gravity)
     safe = jnp.maximum(X, LEAST)
     Re = jnp.select([X <= X_STOKES, X < X_NEWTON], [X / 24.0, (safe / 18.5) ** (1.0 / 1.4)], jnp.sqrt(safe / 0.44))

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, limit_active, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Length, Sphericity, Velocity
-from granum.particles.falling import LEAST, drag_of_shape, reynolds_from_size, reynolds_from_velocity
+from granum.particles.falling import EQUAL_DENSITIES, LEAST, drag_of_shape, reynolds_from_size, reynolds_from_velocity
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 
 Drag = Annotated[Any, Law("drag_coefficient")]
@@ -40,7 +40,7 @@ def terminal_velocity(
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
-    limit_active(excess == 0.0, particle_density, "particle_density")
+    limit_active(excess == 0.0, particle_density, "particle_density", EQUAL_DENSITIES)
     creeping = gravity * excess * d**2 / (18.0 * eta)
     X = jnp.maximum(4.0 / 3.0 * rho * jnp.where(excess < 0.0, -excess, excess) * gravity * d**3 / eta**2, LEAST)
     law = drag_of_shape(drag, sphericity)
@@ -74,7 +74,7 @@ def terminal_diameter(
     """
     rho, eta = fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
-    limit_active(excess == 0.0, particle_density, "particle_density")
+    limit_active(excess == 0.0, particle_density, "particle_density", EQUAL_DENSITIES)
     possible = (excess != 0.0) & (velocity != 0.0) & ((velocity > 0.0) | (excess < 0.0))
     speed = jnp.where(possible, abs(velocity), 1.0)
     weight = jnp.where(possible, abs(excess), 1.0)

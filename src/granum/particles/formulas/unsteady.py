@@ -26,7 +26,7 @@ from granum.core.kinds import (
     Velocity,
 )
 from granum.numerics import gauss_legendre
-from granum.particles.falling import LEAST, reynolds_from_size
+from granum.particles.falling import EQUAL_DENSITIES, LEAST, reynolds_from_size
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
 
@@ -157,7 +157,7 @@ def approach_to_terminal(
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
     heavy = excess != 0.0
-    limit_active(~heavy, particle_density, "particle_density")
+    limit_active(~heavy, particle_density, "particle_density", EQUAL_DENSITIES)
     weight = jnp.where(heavy, abs(excess), 1.0)
     X = jnp.maximum(4.0 / 3.0 * rho * weight * gravity * d**3 / eta**2, LEAST)
     Re, found = reynolds_from_size(drag, X)
