@@ -72,6 +72,19 @@ def test_balances_close():
     assert fresh * (v.enthalpy_outlet - v.enthalpy_fresh) == pytest.approx(entered, rel=1e-9)
 
 
+def test_recirculation_of_treybal():
+    """Treybal, example 12.2: trays with 3 m/s at 95 °C and 0.05, 7.5 g/s evaporated, fresh air of 0.01: 90.65 % returned; 233 and 215.9 kJ/kg."""
+    through = 3.0 * 11 * (0.1 - 0.038) / ((0.00283 + 0.00456 * 0.05) * 368.0)
+    found = dryer_balance(evaporation_rate=7.5e-3, dry_solid_flow=1.0, moisture_dry_basis_outlet=0.1, dry_gas_flow=through,
+                          temperature_fresh=298.15, humidity_ratio_fresh=0.01, temperature_inlet=368.15, humidity_ratio_inlet=0.05,
+                          quantity_sought="recirculated_fraction")  # fmt: skip
+    assert found.recirculated_fraction == pytest.approx(0.9065, abs=5e-4)
+    assert found.humidity_ratio_outlet == pytest.approx(0.0541, abs=5e-5)
+    # the print reads 233 kJ/kg from a chart where 1.006·95 + 0.05·(2501 + 1.86·95) is 229.5: its heater is 2 % too large
+    assert found.heat_duty == pytest.approx(through * (233.0 - 215.89) * 1e3, rel=0.03)
+    assert found.heat_duty == pytest.approx(through * (1 - 0.9065) * (229.5 - 50.6) * 1e3, rel=2e-3)
+
+
 def test_recirculation_and_heat_save_energy():
     plain, part, most = (dryer_balance(**MAIZE, temperature_inlet=353.15, relative_humidity_outlet=0.4, recirculated_fraction=r).energy_per_water
                          for r in (0.0, 0.5, 0.9))  # fmt: skip

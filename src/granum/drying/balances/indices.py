@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 
 from granum.core import formula
@@ -57,7 +59,7 @@ def energy_per_water(
     return (enthalpy_inlet - enthalpy_fresh) / (humidity_ratio_outlet - humidity_ratio_fresh)
 
 
-def latent_heat(temperature: float) -> float:
+def latent_heat(temperature: Any) -> Any:
     """Heat of vaporization by the notes' line, J/kg, 0 to 180 °C."""
     return 2501e3 - 2650.0 * (temperature - ZERO_CELSIUS)
 
