@@ -14,7 +14,7 @@ from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.cyclones.formulas import efficiency, hydrocyclones, pressure
 from granum.cyclones.geometry import FreeCyclone, StandardCyclone
-from granum.cyclones.sizing import cyclone_sizing
+from granum.cyclones.sizing import cyclone_sizing, hydrocyclone_sizing
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
@@ -197,3 +197,30 @@ def test_sizing_meets_what_it_was_asked() -> None:
     assert pressure.inlet_heads_stairmand(*shape) * 0.6 * found.inlet_velocity**2 == pytest.approx(900.0)
     with pytest.raises(ApplicabilityError, match="No cyclone"):
         cyclone_sizing(4.0, 1e-7, 100.0, 2000.0)
+
+
+def test_hydrocyclone_sizing_meets_its_own_rating() -> None:
+    plant = hydrocyclone_sizing(50 / 3600, 1e-5, 2e5, 0.1, 2650.0)
+    assert plant.parallel_number == int(plant.parallel_number)
+    rated = hydrocyclones.hydrocyclone_castilho_medronho(50 / 3600 / plant.parallel_number, plant.diameter, plant.underflow_diameter, 0.01,
+                                                         2650.0, 998.0, 1e-3)  # fmt: skip
+    assert rated.underflow_share == pytest.approx(0.1, rel=1e-9)
+    assert rated.cut_size == pytest.approx(plant.cut_size)
+    assert plant.pressure_drop <= 2e5
+    # one fewer would cost more than allowed, at the same size
+    fewer = hydrocyclones.hydrocyclone_castilho_medronho(50 / 3600 / (plant.parallel_number - 1), plant.diameter, plant.underflow_diameter,
+                                                         0.01, 2650.0, 998.0, 1e-3)  # fmt: skip
+    assert fewer.pressure_drop > 2e5
+    assert fewer.cut_size <= 1e-5 <= plant.cut_size * (1 + 1e-9)
+    with pytest.raises(ApplicabilityError, match="No hydrocyclone"):
+        hydrocyclone_sizing(50 / 3600, 1e-7, 1e4, 0.1, 2650.0)
+
+
+@pytest.mark.parametrize(("dust", "air"), [(0.0, 1.8), (0.01, 0.0), (0.0, 0.0), (0.01, 1e-4)])
+def test_empty_streams_give_numbers_and_failed_checks(dust: float, air: float) -> None:
+    feed = dusty(dust).replace(gas=jnp.array([air]))
+    unit = GasCyclone(1.0)
+    out = unit(feed)
+    assert all(np.all(np.isfinite(np.asarray(s.solid))) for s in out)
+    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed}, out))
+    assert air > 1.0 or not all(check.ok for check in unit.checks({"feed": feed}, out))

@@ -45,3 +45,13 @@ def test_balance_and_entrainment() -> None:
 def test_sizing() -> None:
     bed = FluidizedBed.size(gas_volume_flow=1.0, superficial_velocity=0.5, residence_time=600.0, solid_mass_flow=0.5)
     assert (bed.area, bed.mass) == (2.0, 300.0)
+
+
+def test_empty_streams_give_numbers() -> None:
+    bed = FluidizedBed(area=1.5, mass=800.0)
+    for solid, gas in ((0.0, 1.2), (0.05, 0.0), (0.0, 0.0)):
+        feed = empty(MIXTURE).replace(solid=jnp.full((1, 10), solid), gas=jnp.array([gas]))
+        out = bed(feed)
+        assert all(np.isfinite(float(x)) for x in bed.results({"feed": feed}, out))
+        assert np.all(np.isfinite(np.asarray(out.product.solid)))
+        assert gas > 0 or not all(check.ok for check in bed.checks({"feed": feed}, out))

@@ -70,6 +70,10 @@ class GasCyclone(Unit):
     def _flow(self, feed: Stream) -> Any:
         return jnp.maximum(feed.gas_volume_flow, LEAST) / self.parallel_number
 
+    def _density(self, feed: Stream) -> Any:
+        rho = feed.gas_density
+        return jnp.where(rho > 0.0, rho, LEAST)  # without gas nothing is carried
+
     def _loading(self, feed: Stream) -> Any:
         return safe_divide(feed.solid_flow, feed.gas_flow)
 
@@ -81,12 +85,14 @@ class GasCyclone(Unit):
         m = feed.mixture
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * density
-        return self.cyclone_efficiency(size, self._flow(feed), density, feed.gas_density, feed.gas_viscosity, *self.dimensions)
+        return self.cyclone_efficiency(size, self._flow(feed), density, self._density(feed), feed.gas_viscosity, *self.dimensions)
 
     def limit(self, feed: Stream) -> tuple[Any, Any]:
         """Cut size of the swirl with this dust, and the dust per gas that the swirl carries."""
         loading = self._loading(feed)
-        cut = cut_size_muschelknautz(self._flow(feed), feed.solid_density, feed.gas_density, feed.gas_viscosity, *self.dimensions, loading)
+        cut = cut_size_muschelknautz(
+            self._flow(feed), feed.solid_density, self._density(feed), feed.gas_viscosity, *self.dimensions, loading
+        )
         below = jnp.cumsum(feed.size_fractions)
         edges = jnp.asarray(feed.mixture.edges)
         median = jnp.exp(jnp.interp(0.5, below, jnp.log(jnp.maximum(edges[1:], LEAST))))
@@ -100,7 +106,7 @@ class GasCyclone(Unit):
         return 1.0 - share * (1.0 - self.grade(feed))
 
     def _pressure_drop(self, feed: Stream) -> Any:
-        return self.inlet_heads(*self.dimensions) * 0.5 * feed.gas_density * self._velocity(feed) ** 2
+        return self.inlet_heads(*self.dimensions) * 0.5 * self._density(feed) * self._velocity(feed) ** 2
 
     def __call__(self, feed: Stream) -> CycloneOutlets:
         share = self.collected(feed)
@@ -120,7 +126,7 @@ class GasCyclone(Unit):
 
     def _saltation(self, feed: Stream) -> Any:
         return saltation_velocity_kalen_zenz(
-            self._velocity(feed), self.diameter, self.dimensions.inlet_width, feed.solid_density, feed.gas_density, feed.gas_viscosity
+            self._velocity(feed), self.diameter, self.dimensions.inlet_width, feed.solid_density, self._density(feed), feed.gas_viscosity
         )
 
     def _wear(self, feed: Stream) -> Any:

@@ -19,7 +19,7 @@ from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
-LEAST = 1e-12
+LEAST, THIN = 1e-12, 1e-3  # of a stream without gas, so that the sheet says what fails
 GAS_DIFFUSIVITY = 2.5e-5  # m²/s, of water vapor in air near 20 °C: the bypass is that of a dryer
 
 
@@ -64,17 +64,21 @@ class FluidizedBed(Unit):
         """The bed that gives a gas velocity and a residence time of the solid."""
         return cls(gas_volume_flow / superficial_velocity, solid_mass_flow * residence_time, **more)
 
+    def _density(self, feed: Stream) -> Any:
+        rho = feed.gas_density
+        return jnp.where(rho > 0.0, rho, THIN)
+
     def _velocity(self, feed: Stream) -> Any:
-        return feed.gas_volume_flow / self.area
+        return jnp.maximum(feed.gas_volume_flow / self.area, LEAST)
 
     def rates(self, feed: Stream) -> Any:
         """Elutriation of each species and size class per mass fraction in the bed, kg/s."""
         m = feed.mixture
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * density
-        fall = terminal_velocity(size, density, feed.gas_density, feed.gas_viscosity)
-        U = jnp.maximum(self._velocity(feed), LEAST)
-        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), feed.gas_density), 0.0) * self.area
+        fall = terminal_velocity(size, density, self._density(feed), feed.gas_viscosity)
+        U = self._velocity(feed)
+        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), self._density(feed)), 0.0) * self.area
 
     def entrained(self, feed: Stream) -> Any:
         """Share of each species and size class that leaves with the gas."""
@@ -86,7 +90,7 @@ class FluidizedBed(Unit):
         return rates / (overflow + rates + LEAST * total)
 
     def _drop(self, feed: Stream) -> Any:
-        weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - feed.gas_density / feed.solid_density)
+        weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - self._density(feed) / feed.solid_density)
         return weight * (1.0 + self.distributor_ratio)
 
     def __call__(self, feed: Stream) -> BedOutlets:
@@ -103,7 +107,7 @@ class FluidizedBed(Unit):
         return 1.0 / jnp.maximum(jnp.sum(feed.size_fractions / jnp.asarray(feed.mixture.sizes)), 1e-9)
 
     def _minimum(self, feed: Stream) -> Any:
-        return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, feed.gas_density, feed.gas_viscosity)
+        return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
 
     def results(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> BedFigures:
         feed = inlets["feed"]
@@ -118,7 +122,7 @@ class FluidizedBed(Unit):
     def checks(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> tuple[Check, ...]:
         feed = inlets["feed"]
         U = self._velocity(feed)
-        fall = terminal_velocity(self._mean_size(feed), feed.solid_density, feed.gas_density, feed.gas_viscosity)
+        fall = terminal_velocity(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
         return (
             Check("gas velocity over minimum fluidization velocity", U / self._minimum(feed), 1.5, 100.0, "dimensionless", "kunii1991"),
             Check("gas velocity over terminal velocity of the mean size", U / fall, 0.0, 1.0, "dimensionless", "kunii1991"),
