@@ -259,3 +259,16 @@ def test_closed_form_of_dry_air():
                           humidity_ratio_fresh=0.0, temperature_inlet=373.15, temperature_outlet=323.15)  # fmt: skip
     assert found.humidity_ratio_outlet == pytest.approx(1.006 * 50 / (2501 + 1.86 * 50), rel=2e-3)
     assert float(jnp.asarray(found.energy_per_water)) == pytest.approx(1.006e3 * 100 / found.humidity_ratio_outlet, rel=2e-3)
+
+
+def test_study_of_recirculation_stops_at_the_driest_air_it_may_leave():
+    from granum.cases.studying import read_studies
+
+    best = read_studies(EXAMPLES / "recirculation.toml")["best"].run()
+    share = float(best.values["recirculated_fraction"])
+    again = dryer_balance(evaporation_rate=1000 / 3600, dry_solid_flow=3000 / 3600, moisture_dry_basis_outlet=0.14, dry_gas_flow=120e3 / 3600,
+                          temperature_fresh=288.15, relative_humidity_fresh=0.7, temperature_inlet=343.15, relative_humidity_outlet=0.6,
+                          quantity_sought="recirculated_fraction")  # fmt: skip
+    # the outlet humidity is tied to the flow through the dryer: two statements about it leave the fresh air's share to be found
+    assert share == pytest.approx(again.recirculated_fraction, abs=1e-3)
+    assert gr.drying.water_activity(0.14, isotherm="maize", temperature=325.0) == pytest.approx(0.70, abs=0.005)
