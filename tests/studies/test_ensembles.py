@@ -47,7 +47,7 @@ def test_sobol_indices_of_ishigami() -> None:
     rows = found.indices()["ratio"]
     assert [rows[n]["first"] for n in CIRCLE] == pytest.approx([0.3139, 0.4424, 0.0], abs=0.02)
     assert [rows[n]["total"] for n in CIRCLE] == pytest.approx([0.5576, 0.4424, 0.2437], abs=0.02)
-    assert found.counts() == {"cases": 4096 * 5, "run": 4096 * 5, "failed": 0, "reasons": {}}
+    assert found.counts() == {"cases": 4096 * 5, "run": 4096 * 5, "failed": 0, "extrapolated": 0, "reasons": {}}
 
 
 def test_monte_carlo_against_closed_forms() -> None:
@@ -82,6 +82,16 @@ def test_failures_are_counted_and_kept() -> None:
     )
     assert outside.counts()["failed"] == pytest.approx(159, abs=2)  # one standard deviation below the mean: 15.9 %
     assert list(outside.counts()["reasons"]) == ["input 'particle_diameter' outside what is possible"]
+
+
+def test_cases_outside_a_range_are_counted() -> None:
+    """Stokes' law is given for Re ≤ 0.5 or less: sand of 20 µm lies inside, of 200 µm (Re ≈ 7) outside; both have a value."""
+    for size, share in (("20 um", 0.0), ("200 um", 1.0)):
+        spread = {"particle_diameter": {"distribution": "lognormal", "median": size, "geometric_standard_deviation": 1.05}}
+        found = studies.monte_carlo(STOKES, spread, fixed=SLURRY, samples=50)
+        assert found.counts()["extrapolated"] == 50 * share
+        assert found.counts()["failed"] == 0
+        assert np.all(found.dataset["code"] == -share)
 
 
 def test_one_failed_case_discards_its_sobol_block_only() -> None:

@@ -21,7 +21,7 @@ import numpy as np
 from granum.core.errors import GranumError, InputError
 from granum.core.files import write_atomic
 from granum.core.i18n import _
-from granum.studies.subjects import FINE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
+from granum.studies.subjects import EXTRAPOLATED, FINE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
 
 MEMORY = 512 * 2**20
 """Bytes of working memory that one chunk may take."""
@@ -56,7 +56,12 @@ class Cases:
     @property
     def fine(self) -> np.ndarray:
         """Which cases gave a result."""
-        return self.codes == FINE
+        return self.codes <= FINE
+
+    @property
+    def extrapolated(self) -> np.ndarray:
+        """Which cases gave a result for which some correlation was used outside its range."""
+        return self.codes == EXTRAPOLATED
 
     @property
     def complete(self) -> bool:
@@ -66,7 +71,7 @@ class Cases:
     def reason(self, case: int) -> str:
         """Why a case failed; empty when it did not."""
         code = int(self.codes[case])
-        return self.texts.get(case) or ("" if code == FINE else self.subject.reason(code, self.inputs, self.outputs))
+        return self.texts.get(case) or ("" if code <= FINE else self.subject.reason(code, self.inputs, self.outputs))
 
     def reasons(self) -> dict[str, int]:
         """How many cases failed for which reason."""
@@ -125,7 +130,7 @@ class Evaluator:
         padded[fine] = x[fine]
         figures, found = (np.asarray(part)[: len(x)] for part in self.compiled(self.arrays, jnp.asarray(padded)))
         codes[fine] = found[fine]
-        y[codes == FINE] = figures[codes == FINE]
+        y[codes <= FINE] = figures[codes <= FINE]
         return y, codes, {}
 
     def _one_by_one(
@@ -137,7 +142,7 @@ class Evaluator:
             try:
                 figures, code = run(self.subject.numbers(), [float(v) for v in x[case]])
                 codes[case] = int(code)
-                y[case] = np.asarray(figures) if int(code) == FINE else np.nan
+                y[case] = np.asarray(figures) if int(code) <= FINE else np.nan
             except GranumError as problem:
                 codes[case], texts[int(case)] = RAISED, problem.message
         return y, codes, texts

@@ -16,6 +16,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core import flags
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -156,6 +157,8 @@ class LineSubject(Subject):
         met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
         code = jnp.where(found.converged, FINE, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
         line, streams = found.line, found.solution.streams
+        for found_here in (r for records in found.solution.records.values() for r in records):
+            flags.record(found_here.bit, found_here.mask, found_here.value, found_here.name, found_here.card)
         results: dict[str, Any] = {}
 
         def lookup(path: str) -> Any:

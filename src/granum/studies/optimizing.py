@@ -21,7 +21,7 @@ from granum.studies.engine import Cancel, Cases, Progress, Report, evaluate
 from granum.studies.ensembles import limits_of, prepare, si, sources_of, whole
 from granum.studies.outcome import Limits, Outcome, meets, number, statistics, wilson
 from granum.studies.sampling import inputs_at, unit_points
-from granum.studies.subjects import FINE, FormulaSubject, Subject, subject_of
+from granum.studies.subjects import EXTRAPOLATED, FINE, FormulaSubject, Subject, subject_of
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -54,11 +54,12 @@ class Span(NamedTuple):
 
 
 class Point(NamedTuple):
-    """Figures at one place, their derivatives with respect to the places, and the code of the outcome."""
+    """Figures at one place, their derivatives with respect to the places, the code of the outcome, whether a correlation left its range."""
 
     figures: np.ndarray
     slopes: np.ndarray
     code: int
+    extrapolated: bool = False
 
 
 class Stopped(Exception):
@@ -133,11 +134,15 @@ class Search:
             self.watch()
             found, slopes, codes = (np.asarray(part) for part in self._compiled(jnp.asarray(z), *self._arguments))
             self.evaluations += 1
-            self._known[key] = Point(found, slopes, int(codes)) if self.samples is None else self._condensed(found, slopes, codes)
+            self._known[key] = (
+                Point(found, slopes, max(int(codes), FINE), int(codes) < FINE)
+                if self.samples is None
+                else self._condensed(found, slopes, codes)
+            )
         return self._known[key]
 
     def _condensed(self, found: np.ndarray, slopes: np.ndarray, codes: np.ndarray) -> Point:
-        good = codes == FINE
+        good = codes <= FINE
         if good.mean() < 0.5:
             return Point(np.full(found.shape[1], np.nan), np.zeros(slopes.shape[1:]), int(codes[~good][0]))
         found, slopes = found[good], slopes[good]
@@ -152,7 +157,7 @@ class Search:
                 high = min(low + 1, len(order) - 1)
                 figures[j] = (1 - part) * found[order[low], j] + part * found[order[high], j]
                 derivatives[j] = (1 - part) * slopes[order[low], j] + part * slopes[order[high], j]
-        return Point(figures, derivatives, FINE)
+        return Point(figures, derivatives, FINE, bool(np.any(codes < FINE)))
 
 
 class Constraint(NamedTuple):
@@ -222,7 +227,9 @@ def descend(search: Search, weight: Callable[[Point], tuple[float, np.ndarray]],
                                         options={"maxiter": steps, "ftol": tolerance})  # fmt: skip
     else:
         limits = (
-            [scipy_optimize.NonlinearConstraint(slack, 0.0, np.inf, jac=slack_slope, hess=scipy_optimize.BFGS())] if constraints else []
+            [scipy_optimize.NonlinearConstraint(slack, 0.0, np.inf, jac=slack_slope, hess=scipy_optimize.BFGS())]  # type: ignore[arg-type]
+            if constraints
+            else []
         )
         ended = scipy_optimize.minimize(objective, start, jac=True, hess=scipy_optimize.BFGS(), bounds=bounds, constraints=limits,
                                         method="trust-constr", options={"maxiter": 5 * steps, "gtol": tolerance, "xtol": 1e-12})  # fmt: skip
@@ -497,8 +504,10 @@ def _search(thing: Any, over: Mapping[str, Any], minimize: str | None, maximize:
 
 def _as_cases(search: Search, ends: Sequence[Found]) -> Cases:
     x = np.array([list(search.values(e.z).values()) for e in ends])
-    return Cases(search.subject, tuple(search.spans), search.outputs, x, np.array([e.point.figures for e in ends]),
-                 np.array([e.point.code for e in ends], np.int32))  # fmt: skip
+    codes = [EXTRAPOLATED if e.point.extrapolated else e.point.code for e in ends]
+    return Cases(
+        search.subject, tuple(search.spans), search.outputs, x, np.array([e.point.figures for e in ends]), np.array(codes, np.int32)
+    )
 
 
 def _checked(search: Search, best: Found, kept: Limits, seed: int, samples: int, how: Mapping[str, Any]) -> dict[str, Any]:

@@ -82,13 +82,19 @@ class Outcome(abc.ABC):
         """Charts by name."""
 
     def counts(self) -> dict[str, Any]:
-        """How many cases ran, how many failed, and why."""
+        """How many cases ran, how many failed and why, and in how many some correlation was used outside its range."""
         run = int(np.sum(self.cases.codes != 4))
-        return {"cases": len(self.cases.codes), "run": run, "failed": run - int(self.cases.fine.sum()), "reasons": self.cases.reasons()}
+        return {
+            "cases": len(self.cases.codes),
+            "run": run,
+            "failed": run - int(self.cases.fine.sum()),
+            "extrapolated": int(self.cases.extrapolated.sum()),
+            "reasons": self.cases.reasons(),
+        }
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Inputs, figures, ``failed`` (code) and ``reason`` along ``case``; attributes hold unit and label. SI units."""
+        """Inputs, figures, ``code`` and ``reason`` along ``case``; attributes hold unit and label. SI units."""
         import xarray as xr
 
         columns: dict[str, Any] = {}
@@ -103,7 +109,11 @@ class Outcome(abc.ABC):
                 {"units": v.unit, "long_name": v.label, "role": role},
             )
         codes = self.cases.codes
-        columns["failed"] = ("case", codes.astype("int32"), {"long_name": "0: fine, otherwise the code of the reason"})
+        columns["code"] = (
+            "case",
+            codes.astype("int32"),
+            {"long_name": "0: fine, -1: some correlation outside its range, above: the code of the reason"},
+        )
         columns["reason"] = ("case", np.array([self.cases.reason(i) for i in range(len(codes))], dtype=str))
         return xr.Dataset(
             columns, {"case": np.arange(len(codes))}, {"title": self.title, "study": self.kind, "model": self.cases.subject.title}

@@ -13,15 +13,16 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import registry
+from granum.core import flags, registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, convert
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
-FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN = 0, 1, 2, 3, 4
+EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN = -1, 0, 1, 2, 3, 4
 NOT_FINITE, OUTSIDE = 1000, 2000
-"""Codes of a case: fine, or why it failed; from 1000 the result, from 2000 the input at fault."""
+"""Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result,
+from 2000 the input at fault."""
 
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
 Traced = Callable[[Any, Any], tuple[Any, Any]]
@@ -158,14 +159,17 @@ class Subject(abc.ABC):
             given = iter(numbers)
             model = tree.unflatten([next(given) if moves else leaf for leaf, moves in zip(leaves, moving, strict=True)])
             values = {path: vector[i] for i, path in enumerate(inputs)}
-            own, code = self.compute(model, values, self._needed(outputs))
+            with flags.collect() as records:
+                own, code = self.compute(model, values, self._needed(outputs))
 
-            def lookup(path: str) -> Any:
-                return self.quantities[path].value(lookup) if path in self.quantities else own(path)
+                def lookup(path: str) -> Any:
+                    return self.quantities[path].value(lookup) if path in self.quantities else own(path)
 
-            figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
+                figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
+            beyond = [jnp.any(found.mask) for found in records if found.bit == flags.EXTRAPOLATED]
+            good = jnp.where(jnp.any(jnp.stack(beyond)), EXTRAPOLATED, FINE) if beyond else FINE
             lost = ~jnp.isfinite(figures)
-            bad = jnp.where(jnp.any(lost), NOT_FINITE + jnp.argmax(lost), FINE)
+            bad = jnp.where(jnp.any(lost), NOT_FINITE + jnp.argmax(lost), good)
             return figures, jnp.where(code == FINE, bad, code).astype(jnp.int32)
 
         return run
