@@ -155,3 +155,13 @@ def test_foodstuff_of_geankoplis() -> None:
     ).fit()
     assert 3600 * found["drying_rate_constant"].value == pytest.approx(0.996, rel=0.03)
     assert found["critical_moisture"].value - 0.190 / 3.765 == pytest.approx(0.12, abs=0.02)
+
+
+def test_impinging_jets_of_an_array_lie_near_those_of_a_single_nozzle() -> None:
+    # Martin 1977, single round nozzle: D/r (1 − 1.1 D/r)/(1 + 0.1 (H/D − 6) D/r) · 2 Re^½ (1 + 0.005 Re^0.55)^½, with D/r = 2 √f
+    for Re, f, H in ((1e4, 0.02, 6.0), (5e4, 0.01, 4.0), (2e4, 0.03, 2.0)):
+        d = 2.0 * f**0.5
+        single = d * (1 - 1.1 * d) / (1 + 0.1 * (H - 6) * d) * 2 * Re**0.5 * (1 + 0.005 * Re**0.55) ** 0.5 * 0.7**0.42
+        assert heat.nusselt_number_impinging(Re, 0.7, f, H) == pytest.approx(single, rel=0.3)
+    # by hand, textbook form: G = 2 √f (1 − 2.2 √f)/(…), F = 0.5 Re^⅔
+    assert heat.nusselt_number_impinging(1e4, 0.7, 0.02, 6.0) == pytest.approx(0.896 * 0.1948 * 0.5 * 464.2 * 0.861, rel=2e-3)

@@ -12,6 +12,16 @@ def family(name):
     return {key: thing for key, thing in everything(("particles",)).items() if thing.card.family == name}
 
 
+def test_khan_richardson_wall_by_hand():
+    # Re = 50: C_D 1.55 by Clift, Grace and Weber, so Ar = 0.75 · 1.55 · 2500 = 2906; d/D = 0.05: 1 − 1.24 · 0.05^0.27 = 0.4478
+    alone, walled = 0.043 * 2906**0.57, 0.043 * 2906**0.57 * 0.4478
+    n = hindered.settling_exponent_khan_richardson
+    assert n(50.0) == pytest.approx((4.8 + 2.4 * alone) / (1 + alone), abs=0.02)
+    assert n(50.0, 0.05) == pytest.approx((4.8 + 2.4 * walled) / (1 + walled), abs=0.02)
+    # the wall raises the exponent as Richardson and Zaki measured: there from 3.01 to 3.62
+    assert 0.3 < n(50.0, 0.05) - n(50.0) < 0.7
+
+
 PHI = np.linspace(0.01, 0.5, 8)
 
 

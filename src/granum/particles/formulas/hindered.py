@@ -72,24 +72,24 @@ def settling_exponent_rowe(reynolds: PositiveNumber) -> PositiveNumber:
 
 
 @formula(
-    source="khan1989",
-    equation=r"\frac{4.8 - n}{n - 2.4} = 0.043\,\mathrm{Ar}^{0.57}\left[1 - 2.4\left(\frac{d_p}{D}\right)^{0.27}\right],"
+    source="khan1989; coulson2002, section 5.2.2",
+    equation=r"\frac{4.8 - n}{n - 2.4} = 0.043\,\mathrm{Ar}^{0.57}\left[1 - 1.24\left(\frac{d_p}{D}\right)^{0.27}\right],"
     r"\quad \mathrm{Ar} = \tfrac34 C_D\mathrm{Re}^2",
-    fitted={"wall_ratio": (0.0, 0.039)},
-    typical={"wall_ratio": (1e-4, 0.01)},
+    fitted={"wall_ratio": (0.0, 0.2)},
+    typical={"wall_ratio": (1e-4, 0.1)},
 )
 def settling_exponent_khan_richardson(reynolds: PositiveNumber, wall_ratio: WallRatio = 0.0) -> PositiveNumber:
     """Exponent n of the settling velocity (1 − φ)ⁿ by Khan and Richardson, from the Archimedes number and the wall.
 
     The Archimedes number follows from the Reynolds number by Brown and Lawler's drag. Above a particle over vessel diameter of
-    0.039 the bracket turns negative; it is held at zero there.
+    0.45 the bracket turns negative; it is held at zero there.
 
     >>> round(settling_exponent_khan_richardson(reynolds=1e-9), 2)
     4.8
     """
     Ar = 0.75 * drag_coefficient_brown_lawler(reynolds) * reynolds**2
     near = wall_ratio > 0.0
-    wall = jnp.where(near, 1.0 - 2.4 * jnp.where(near, wall_ratio, 1.0) ** 0.27, 1.0)
+    wall = jnp.where(near, 1.0 - 1.24 * jnp.where(near, wall_ratio, 1.0) ** 0.27, 1.0)
     w = 0.043 * Ar**0.57 * jnp.maximum(wall, 0.0)
     return (4.8 + 2.4 * w) / (1.0 + w)
 

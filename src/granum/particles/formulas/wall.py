@@ -47,7 +47,7 @@ def wall_factor_francis(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01) 
 
 @formula(
     source="coulson2002, section 3.3.2",
-    equation=r"k = (1-\lambda)^{2.25}\ (\mathrm{Re}<0.2),\quad \left(1-\lambda^{1.5}\right)\ (10^3<\mathrm{Re}<10^5)",
+    equation=r"k = (1-\lambda)^{2.25}\quad (\mathrm{Re}<0.2)",
     fitted={"wall_ratio": (0.0, 0.97), "reynolds": (0.0, 0.2)},
 )
 def wall_factor_francis_power(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01) -> Ratio:
