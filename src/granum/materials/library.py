@@ -53,6 +53,7 @@ _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_
 _SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
 _SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
 _LOADED: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
+_TEXTS: dict[str, list[str]] = {}  # names of the materials of each file loaded, by its text
 
 
 @cache
@@ -139,7 +140,10 @@ def load(path: str | Path) -> list[str]:
     """Add the materials of a TOML file to the library for this session; returns their names."""
     path = Path(path)
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        if text in _TEXTS:  # a second case of the session that uses the same file
+            return _TEXTS[text]
+        content = tomllib.loads(text)
     except OSError as problem:
         raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
@@ -159,7 +163,8 @@ def load(path: str | Path) -> list[str]:
             for word in new[sort]:
                 _LOADED[sort].pop(word)
         raise
-    return sorted({key for found in new.values() for key, _entry in found.values()})
+    _TEXTS[text] = sorted({key for found in new.values() for key, _entry in found.values()})
+    return _TEXTS[text]
 
 
 def _key(sort: str, name: str) -> tuple[str, bool]:

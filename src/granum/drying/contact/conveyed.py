@@ -10,11 +10,11 @@ import jax.numpy as jnp
 from granum.drying.contact.cells import Contact, Inlet, Network, Profile
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
-from granum.numerics import fixed_point
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 
 WATER_DENSITY = 997.0
+PASSES, AGREED = 8, 0.05  # solutions in turn, and the change (K, kg/kg) below which speeds and drying agree
 SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, which a check reports
 
 
@@ -82,8 +82,10 @@ def convey(
     solid_flow: Any,
     network: Network,
     heat_loss: Any,
-) -> tuple[Profile, Contact, Any]:
-    """Steady state of particles carried by gas: speeds follow from the gas, the gas from what the particles evaporate, until both agree."""
+) -> tuple[Profile, Any]:
+    """Steady state of particles carried by gas: speeds follow from the gas, the gas from what the particles
+    evaporate, in turn until both agree. Also the dry solid under way, kg.
+    """
     n = path.steps.shape[0]
     dry = gas.gas_flow - gas.gas[matter.vapor]
 
@@ -116,20 +118,18 @@ def convey(
         starts = jnp.concatenate([jnp.broadcast_to(path.start, ends[:1].shape), ends[:-1]])
         return times, jnp.abs(gas_speed[:, None] - 0.5 * (starts + ends))
 
-    def again(state: tuple[Any, Any, Any], _args: Any) -> tuple[Any, Any, Any]:
-        found = contact(*motion(state)).steady(inlet)
-        return found.moisture, found.humidity, found.gas_temperature / 300.0
+    def again(state: tuple[Any, Any, Any], _pass: Any) -> tuple[tuple[Any, Any, Any], tuple[Profile, Any, Any]]:
+        core = contact(*motion(state))
+        found = core.steady(inlet)
+        change = jnp.max(jnp.abs(found.gas_temperature - state[2])) + jnp.max(jnp.abs(found.moisture - state[0]))
+        return (found.moisture, found.humidity, found.gas_temperature), (found, jnp.sum(core.solid), change)
 
-    Y0, T0 = inlet.humidity, inlet.gas_temperature
-    first = (jnp.broadcast_to(inlet.moisture, (n, *jnp.shape(inlet.moisture))), jnp.full(n, 1.0) * Y0, jnp.full(n, 1.0) * T0 / 300.0)
-
-    def scaled(state: tuple[Any, Any, Any], args: Any) -> tuple[Any, Any, Any]:
-        return again((state[0], state[1], 300.0 * state[2]), args)
-
-    agreed = fixed_point(scaled, first, tolerance=1e-6, max_steps=40, scale=(jnp.max(inlet.moisture) + 0.01, 0.1, 1.0))
-    X, Y, Tg = agreed.state
-    core = contact(*motion((X, Y, 300.0 * Tg)))
-    found = core.steady(inlet)
-    times = core.solid / jnp.where(solid_flow > 0, solid_flow, 1.0)
+    first = (
+        jnp.broadcast_to(inlet.moisture, (n, *jnp.shape(inlet.moisture))),
+        jnp.full(n, 1.0) * inlet.humidity,
+        jnp.full(n, 1.0) * inlet.gas_temperature,
+    )
+    _state, passes = jax.lax.scan(again, first, None, length=PASSES)
+    found, holdup, change = jax.tree.map(lambda leaf: leaf[-1], passes)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)
-    return found._replace(place=place, converged=found.converged & agreed.converged), core, times
+    return found._replace(place=place, converged=found.converged & (change < AGREED)), holdup

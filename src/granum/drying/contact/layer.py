@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.drying.contact.cells import Contact, Network, Profile
 from granum.drying.contact.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.contact.dryer import Dryer
+from granum.drying.contact.dryer import Dryer, recalled
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
 
@@ -54,6 +54,7 @@ class LayerDryer(Dryer):
         return _passed(self, feed, gas)
 
 
+@recalled
 @eqx.filter_jit
 def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Profile:
     like, found = dryer.passages(feed, *gases)

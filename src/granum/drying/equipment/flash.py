@@ -13,7 +13,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature
 from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
@@ -74,12 +74,12 @@ class FlashDryer(Dryer):
         )
 
 
+@recalled
 @eqx.filter_jit
 def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
     X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
     flow = feed.solid_by_size
-    found, core, _times = convey(
+    return convey(
         dryer.path(feed), Matter.of(feed, gas), dryer.kinetics, feed, gas, inlet, flow, Network.co_current(dryer.cells), dryer.heat_loss
     )
-    return found, jnp.sum(core.solid)

@@ -21,7 +21,7 @@ from granum.core.kinds import (
 )
 from granum.drying.contact.cells import Profile
 from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, DryerFigures, dried, humidity_of, sized, warmed
+from granum.drying.contact.dryer import NOTES, DryerFigures, dried, humidity_of, recalled, sized, warmed
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer, joined
 from granum.drying.contact.matter import Matter
@@ -131,6 +131,7 @@ class SiloDryer(LayerDryer):
         )
 
 
+@recalled
 @eqx.filter_jit
 def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> tuple[Profile, Any, Any]:
     """The profile, and vapor and enthalpy of the cooling air."""

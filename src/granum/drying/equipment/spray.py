@@ -14,7 +14,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature
 from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey, drop_ratio
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, dried, humidity_of, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, dried, humidity_of, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import Liquor
@@ -104,13 +104,13 @@ class SprayDryer(Dryer):
         )
 
 
+@recalled
 @eqx.filter_jit
 def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
     drops = dryer.atomized(feed, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
     network = Network.co_current(dryer.cells).dispersed(dryer.gas_dispersion)
-    found, core, _times = convey(
+    return convey(
         dryer.path(feed, gas), Matter.of(drops, gas), dryer.kinetics, feed, gas, inlet, drops.solid_by_size, network, dryer.heat_loss
     )
-    return found, jnp.sum(core.solid)
