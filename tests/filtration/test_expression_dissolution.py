@@ -123,3 +123,13 @@ def test_membrane_press_squeezes_towards_its_end() -> None:
     assert wet[2] == pytest.approx(float(MembranePress(**fields)(feed).cake.moisture_dry_basis), rel=1e-6)
     short = MembranePress(**fields, squeezing_time=60.0, consolidation_coefficient=5e-8)
     assert not next(c for c in short.checks({"feed": feed}, short(feed)) if "reached" in c.name).ok
+
+
+@pytest.mark.parametrize(("solid", "water"), [(0.0, 1.0), (0.1, 0.0), (0.0, 0.0)])
+def test_empty_feeds_give_numbers(solid: float, water: float) -> None:
+    feed, wash = empty(SALT).replace(solid=jnp.full((1, 5), solid), liquid=jnp.array([water, 0.3 * water])), feed_and_wash()[1]
+    unit = belt(wash_dissolution=SaturatingWash("salt", "water", 0.3))
+    out = unit(feed, wash)
+    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed, "wash": wash}, out))
+    assert float(closure([feed, wash], list(out)).mass) < 1e-12
+    assert all(float(s.liquid.min()) >= 0.0 for s in out)

@@ -43,6 +43,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 RPM = 0.10471975511965977  # radian/s
+TRICKLE, THIN = 1e-15, 1e-12  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
 _USE = "share of the capacity in use"
 _FLOOD = "filtrate over the critical flow (flooding)"
 _COARSE = "particle diameter"
@@ -235,8 +236,8 @@ class Peeler(SetCake):
         case = self.case(feed)
         void = void_flow(feed, self.solids_recovery, self.void_fraction)
         cake_flow = void / self.void_fraction
-        filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + 1e-300)
-        loading = loading_time_basket(radius_inner=self.radius_inner, cake_volume_per_filtrate=cake_flow / filtrate, **case)
+        filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + TRICKLE)
+        loading = loading_time_basket(radius_inner=self.radius_inner, cake_volume_per_filtrate=jnp.maximum(cake_flow / filtrate, THIN), **case)
         washing_flow = filtrate_flow_basket(basket_height=self.basket_height, radius_inner=self.radius_inner, **case)
         washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
         falling = spin_off_time(radius_inner=self.radius_inner, **case)

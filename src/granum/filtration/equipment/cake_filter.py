@@ -36,6 +36,8 @@ from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
+# so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it, resistance 1/m of nothing
+TRICKLE, THIN, OPEN = 1e-15, 1e-9, 1e3
 _CAPACITY = "share of the filtration capacity in use"
 _WASH = "share of the washing capacity in use"
 _TOO_THICK = "solids in the feed over those of a packed cake"
@@ -124,13 +126,14 @@ class CakeFilter(Unit):
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
         void = void_flow(feed, self.solids_recovery, self.void_fraction)
-        filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + 1e-300)
-        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, solid / filtrate, void)
+        filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + TRICKLE)
+        cake = jnp.maximum(solid / filtrate, THIN)
+        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, cake, void)
 
     def wash_flux(self, loading: Any, feed: Stream, wash: Stream | None) -> Any:
         """Superficial velocity of wash liquor through a cake of that dry mass per area."""
         viscosity = feed.liquid_viscosity if wash is None else wash.liquid_viscosity
-        return self.pressure_drop / (viscosity * (self.resistance * loading + self.media_resistance()))
+        return self.pressure_drop / (viscosity * jnp.maximum(self.resistance * loading + self.media_resistance(), OPEN))
 
     def thickness(self, loading: Any, solid_density: Any) -> Any:
         """Cake thickness of a dry mass per area."""
