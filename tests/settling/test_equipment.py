@@ -12,6 +12,7 @@ from granum.core.errors import InputError
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.settling import charts
 from granum.settling.equipment.api_separator import ApiSeparator
+from granum.settling.equipment.clarifier_thickener import ClarifierThickener
 from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier, GritChamber, Lamella, RectangularClarifier
 from granum.settling.equipment.thickener import Thickener
 from granum.settling.simulations import batch_simulation, continuous_simulation
@@ -43,6 +44,7 @@ UNITS = [
     GritChamber(15.0, 0.5, 0.7),
     Thickener(100.0, 30.0, Vesilind("5 m/hour", 0.2)),
     ApiSeparator(18.0, 3.6, 1.1),
+    ClarifierThickener(500.0, 4.0, 0.03, Vesilind("5 m/hour", 0.4), settling_time=86400.0, cells=20),
 ]
 
 
@@ -119,3 +121,26 @@ def test_charts_draw():
     assert len(diagram.data) == 5
     moving = charts.settling_course_chart(3.0, 0.4, times[:6], sludge, cells=40)
     assert len(moving.frames) == 6
+
+
+def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation():
+    """Underflow of all solids at the given flow; overloaded, what the thickening zone passes (Lambert W, by hand in test_thickening)."""
+    law = Vesilind("5 m/hour", 0.5)
+    slurry = empty(MIXTURE).replace(
+        solid=jnp.zeros((2, 12)).at[0].set(2.5 * 800 / 3600 / 12), liquid=jnp.array([(1 - 2.5 / 2650) * 800 / 3.6])
+    )
+    unit = ClarifierThickener(1000.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
+    out = unit(feed=slurry)
+    figures = unit.results({"feed": slurry}, out)
+    assert float(figures.underflow_concentration) == pytest.approx(2.5 * 800 / 300, rel=1e-9)
+    assert float(out.underflow.slurry_volume_flow) * 3600 == pytest.approx(300.0, rel=1e-9)
+    course = unit.course(slurry)
+    assert float(course.underflow_concentration[-1]) == pytest.approx(float(figures.underflow_concentration), rel=1e-3)
+    assert float(figures.retention_time) == pytest.approx(float(figures.solids_held) / float(slurry.solid_flow))
+    assert all(check.ok for check in unit.checks({"feed": slurry}, out))
+    small = ClarifierThickener(300.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
+    spilled = small(feed=slurry)
+    figures = small.results({"feed": slurry}, spilled)
+    assert float(figures.loading_ratio) > 1.0
+    assert float(spilled.overflow.solid_flow) == pytest.approx(float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9)
+    assert not all(check.ok for check in small.checks({"feed": slurry}, spilled))

@@ -24,6 +24,7 @@ from granum.settling.flux import least
 
 COURANT = 0.98  # of a cell crossed in one step
 BED_COURANT = 0.4  # the same where compression acts too: what flows out and what is squeezed out together stay below what is there
+FRONT = 3  # cells above and below a front within which it is smeared
 FADE = 0.05  # of the packed concentration: a law that has no limit of its own is brought to zero over this last stretch
 
 
@@ -116,6 +117,7 @@ class Simulation(eqx.Module):
     concentration: kg/m³, (times × cells), from the top.
     overflow_concentration, underflow_concentration: mean over each interval, kg/m³.
     overflowed, underflowed, fed: solids per area, kg/m², from the start to each time.
+    area_shares: cross section of the cells over that at the top.
     """
 
     times: Any
@@ -126,12 +128,13 @@ class Simulation(eqx.Module):
     overflowed: Any
     underflowed: Any
     fed: Any
+    area_shares: Any
 
     @property
     def held(self) -> Any:
-        """Solids in the column, kg/m² of its area."""
+        """Solids in the column, kg/m² of its area at the top."""
         cell = self.depths[1] - self.depths[0]
-        return jnp.sum(self.concentration, axis=-1) * cell
+        return jnp.sum(self.concentration * self.area_shares, axis=-1) * cell
 
     @property
     def mass_error(self) -> Any:
@@ -142,24 +145,58 @@ class Simulation(eqx.Module):
     def interface_height(self, threshold: Any) -> Any:
         """Height above the bottom of the first crossing of a concentration from the top, one per time.
 
-        A smeared front is placed by linear interpolation between the cell centers around it.
+        The front is where two even layers, of the concentrations just above and just below, would hold the solids of the
+        cells around the crossing: a front smeared over them, or one that fills part of a cell, is placed without bias.
         """
         cell = self.depths[1] - self.depths[0]
         bottom = self.depths[-1] + 0.5 * cell
-        padded = jnp.concatenate([jnp.zeros_like(self.concentration[..., :1]), self.concentration], axis=-1)
-        depth = jnp.concatenate([jnp.asarray([-0.5 * cell]), self.depths])
-        reached = padded >= threshold
+        wide = [(0, 0)] * (self.concentration.ndim - 1)
+        padded = jnp.pad(jnp.pad(self.concentration, [*wide, (FRONT, 0)]), [*wide, (0, FRONT)], mode="edge")
+        reached = self.concentration >= threshold
         first = jnp.argmax(reached, axis=-1)
-        above = jnp.take_along_axis(padded, jnp.maximum(first - 1, 0)[..., None], axis=-1)[..., 0]
-        below = jnp.take_along_axis(padded, first[..., None], axis=-1)[..., 0]
-        rise = jnp.where(below > above, below - above, 1.0)
-        place = depth[jnp.maximum(first - 1, 0)] + cell * (threshold - above) / rise
+
+        def near(shift: int) -> Any:
+            return jnp.take_along_axis(padded, (first + FRONT + shift)[..., None], axis=-1)[..., 0]
+
+        above, below = near(-FRONT), near(FRONT - 1)
+        inside = sum(near(k) for k in range(1 - FRONT, FRONT - 1))
+        count = 2 * FRONT - 2
+        jump = jnp.where(below > above, below - above, 1.0)
+        share = jnp.where(below > above, (count * below - inside) / jump, FRONT - 0.5)
+        place = (first + 1 - FRONT + jnp.clip(share, 0.0, count)) * cell
         return bottom - jnp.where(jnp.any(reached, axis=-1), jnp.clip(place, 0.0, bottom), bottom)
 
 
+class Cone(NamedTuple):
+    """A tank whose lower part narrows to a smaller cross section.
+
+    Parameters
+    ----------
+    height_share: of the cone in the depth. area_share: of the bottom in the area at the top.
+    """
+
+    height_share: Any
+    area_share: Any
+
+    def areas(self, cells: int) -> tuple[Any, Any]:
+        """Cross section at the faces and mean of the cells, over that at the top; volumes are exact."""
+
+        def filled(depth: Any) -> Any:
+            """Volume above a depth (both as shares), from the cube of the narrowing diameter."""
+            narrow = 1.0 - jnp.sqrt(self.area_share)
+            x = jnp.clip((depth - 1.0 + self.height_share) / self.height_share, 0.0, 1.0)
+            cone = self.height_share * (x - narrow * x**2 + narrow**2 * x**3 / 3.0)
+            return jnp.minimum(depth, 1.0 - self.height_share) + cone
+
+        edge = jnp.linspace(0.0, 1.0, cells + 1)
+        x = jnp.clip((edge - 1.0 + self.height_share) / self.height_share, 0.0, 1.0)
+        return (1.0 - (1.0 - jnp.sqrt(self.area_share)) * x) ** 2, jnp.diff(filled(edge)) * cells
+
+
 def simulate(
-    suspension: Suspension, depth: Any, initial: Any, operation: Operation, *, feed_depth: Any = 0.5, steps: Steps | None = None
-) -> Simulation:
+    suspension: Suspension, depth: Any, initial: Any, operation: Operation, *, feed_depth: Any = 0.5, steps: Steps | None = None,
+    cone: Cone | None = None,
+) -> Simulation:  # fmt: skip
     """Follow a column through an operation.
 
     Parameters
@@ -169,13 +206,14 @@ def simulate(
     feed_depth: share of the depth at which the feed enters.
     steps: whole numbers of time steps; as many as stability asks for when not given. Fix them (see ``steps_needed``) for
         ``vmap`` and for reverse-mode derivatives; forward-mode derivatives need nothing.
+    cone: narrowing of the lower part; flows stay those per area at the top.
     """
     suspension.check()
     initial = jnp.asarray(initial, dtype=float)
     if initial.ndim != 1 or initial.shape[0] < 3:
         raise InputError(_("A column needs at least three cells."))
     fixed = None if steps is None else Steps(*map(int, steps))
-    return _run(suspension, jnp.asarray(depth, dtype=float), initial, operation, feed_depth, fixed)
+    return _run(suspension, jnp.asarray(depth, dtype=float), initial, operation, feed_depth, fixed, cone)
 
 
 def settle(
@@ -195,11 +233,15 @@ class Steps(NamedTuple):
     compression: Any
 
 
-def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation) -> Steps:
+def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None = None) -> Steps:
     """Steps that keep the scheme monotone in the longest interval."""
     speed, dense_speed, spread = suspension.fastest()
     size = depth / cells
     span, bulk = jnp.max(jnp.diff(operation.times)), jnp.max(operation.feed_velocity)
+    if cone is not None:
+        faces, areas = cone.areas(cells)
+        wider = jnp.max(faces[:-1] / areas)
+        speed, dense_speed, spread, bulk = speed * wider, dense_speed * wider, spread * wider, bulk / jnp.min(areas)
     crossed = jnp.maximum((speed + bulk) / COURANT, (dense_speed + bulk) / BED_COURANT)
     steps = jnp.maximum(jnp.ceil(span * crossed / size), 1.0)
     compression = jnp.maximum(jnp.ceil(2.0 * spread * span / (steps * size**2)), 1.0)
@@ -207,8 +249,13 @@ def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Oper
 
 
 @eqx.filter_jit
-def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation, feed_depth: Any, steps: Steps | None) -> Simulation:
+def _run(
+    suspension: Suspension, depth: Any, initial: Any, operation: Operation, feed_depth: Any, steps: Steps | None, cone: Cone | None
+) -> Simulation:
     cells = initial.shape[0]
+    wide, areas = (1.0, jnp.ones(cells)) if cone is None else cone.areas(cells)
+    inner_wide = 1.0 if cone is None else wide[1:-1]
+    roomy = 1.0 if cone is None else jnp.pad(areas, 1, constant_values=1.0)
     size = depth / cells
     feed_cell = jnp.clip(jnp.floor(jnp.asarray(feed_depth) * cells), 0, cells - 1) + 1
     index, face = jnp.arange(cells + 2), jnp.arange(cells + 1)
@@ -218,7 +265,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
     velocity, compression = suspension.velocity_function(), suspension.compression
     critical = jnp.asarray(0.0 if compression is None else compression.critical_concentration, dtype=float)
     at_critical = 0.0 if compression is None else velocity(critical)
-    count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation)) if steps is None else steps
+    count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation, cone)) if steps is None else steps
 
     def interval(carry: Any, given: Any) -> Any:
         span, q, qu, Cf = given
@@ -226,7 +273,7 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
         # Faces under the feed carry the underflow down, those above the overflow up.
         down = share * jnp.where(face >= feed_cell, qu, 0.0)
         up = -share * jnp.where(face >= feed_cell, 0.0, q - qu)
-        spreads = jnp.where(inside, 0.5 * share / (size * count.compression), 0.0)
+        spreads = jnp.where(inside, 0.5 * share / (size * count.compression), 0.0) * wide
         source = jnp.where(index == feed_cell, share * q * Cf, 0.0)
 
         def step(_i: Any, C: Any) -> Any:
@@ -234,25 +281,27 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
             v = velocity(C)
             f = C * v
             supply, demand = jnp.where(peak > C, f, top_flux), jnp.where(peak < C, f, top_flux)
-            inner = share * jnp.minimum(supply[1:-2], demand[2:-1]) + down[1:-1] * C[1:-2] + up[1:-1] * C[2:-1]
+            inner = share * inner_wide * jnp.minimum(supply[1:-2], demand[2:-1]) + down[1:-1] * C[1:-2] + up[1:-1] * C[2:-1]
             # Joined from pieces, so that the compiler computes each face once and not anew for every neighbor.
             faces = jnp.concatenate([up[:1] * C[1:2], inner, down[-1:] * C[-2:-1]])
-            change = source + jnp.concatenate([-faces[:1], faces[:-1] - faces[1:], faces[-1:]])
+            change = (source + jnp.concatenate([-faces[:1], faces[:-1] - faces[1:], faces[-1:]])) / roomy
             if compression is None:
                 return C + change
             # Compression takes several short steps, each with its share of the change by flow, so that steady states are
             # exact; its coefficient (a mean over what lies above the critical concentration) is kept meanwhile.
             change = change / count.compression
+            # Where the bed is at rest the velocity cancels against that of the settling flux, which is the one of the denser
+            # cell: taken alike here, the bed does not stand too high on coarse grids.
             b = jnp.maximum(C, critical)
-            d = jnp.where(critical < C, v, at_critical) * suspension.stiffness(b)
+            stiff, slow = suspension.stiffness(b), jnp.where(critical < C, v, at_critical)
             above = critical < C
             mixed = above[1:] != above[:-1]
             part = jnp.where(mixed, (b[1:] - b[:-1]) / jnp.where(mixed, C[1:] - C[:-1], 1.0), above[1:])
-            spread = spreads * (d[1:] + d[:-1]) * part
+            spread = spreads * jnp.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1]) * part
 
             def compress(_j: Any, C: Any) -> Any:
                 rise = spread * (C[1:] - C[:-1])
-                return C + change + jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))
+                return C + change + (jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))) / roomy
 
             return lax.fori_loop(0, count.compression, compress, C)
 
@@ -271,4 +320,4 @@ def _run(suspension: Suspension, depth: Any, initial: Any, operation: Operation,
     _last, (states, means) = lax.scan(interval, first, (spans, *given))
     course = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), first, states)
     depths = (jnp.arange(cells) + 0.5) * size
-    return Simulation(operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3])
+    return Simulation(operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3], areas)

@@ -10,8 +10,8 @@ import numpy as np
 from granum.core import procedure
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, Concentration, Density, Distance, Fraction, Law, Length, Number, Series, Time, VolumeFlow
-from granum.settling.column import Operation, Simulation, Suspension, settle, simulate
+from granum.core.kinds import Area, Concentration, Density, Distance, Fraction, Law, Length, Number, OpenFraction, Series, Time, VolumeFlow
+from granum.settling.column import Cone, Operation, Simulation, Suspension, settle, simulate
 
 Settling = Annotated[Any, Law("settling_velocity")]
 Compression = Annotated[Any, Law("solids_stress")]
@@ -84,12 +84,12 @@ def continuous_simulation(
     underflow_volume_flow: Annotated[VolumeFlow, Series("intervals")], area: Area, height: Length, settling: Settling = "takacs",
     compression: Compression | None = None, solid_density: Density = 1050.0, liquid_density: Density = 998.0,
     packed_concentration: Concentration | None = None, start_concentration: Concentration = 0.0, feed_depth_share: Fraction = 0.5,
-    cells: int = 100,
+    cone_height_share: Fraction = 0.0, bottom_area_share: OpenFraction = 0.05, cells: int = 100,
 ) -> ContinuousCourse:  # fmt: skip
     """Continuous clarifier-thickener with feed, underflow and overflow that change from interval to interval.
 
     Feed and underflow hold one value, or one for each interval between the times. The blanket is where the concentration
-    passes half the last feed concentration.
+    passes half the last feed concentration. The lower part may be a cone: its share of the depth, and of the area at its bottom.
 
     >>> sludge = {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}
     >>> course = continuous_simulation(["0 day", "3 day", "6 day"], "800 m^3/hour", 2.5, "300 m^3/hour", 1000, 4, sludge, cells=30)
@@ -98,7 +98,8 @@ def continuous_simulation(
     """
     suspension = Suspension(settling, compression, solid_density, liquid_density, packed_concentration)
     course = continuous_course(time, volume_flow, feed_concentration, underflow_volume_flow, area, height, suspension,
-                               start_concentration, feed_depth_share, cells)  # fmt: skip
+                               start_concentration, feed_depth_share, cells,
+                               Cone(cone_height_share, bottom_area_share) if cone_height_share > 0 else None)  # fmt: skip
     last = float(np.atleast_1d(np.asarray(feed_concentration))[-1])
     return ContinuousCourse(
         np.asarray(course.times[1:]), np.asarray(course.underflow_concentration), np.asarray(course.overflow_concentration),
@@ -107,7 +108,8 @@ def continuous_simulation(
 
 
 def continuous_course(time: Any, volume_flow: Any, feed_concentration: Any, underflow_volume_flow: Any, area: Any, height: Any,
-                      suspension: Suspension, start_concentration: Any, feed_depth_share: Any, cells: int) -> Simulation:  # fmt: skip
+                      suspension: Suspension, start_concentration: Any, feed_depth_share: Any, cells: int,
+                      cone: Cone | None = None) -> Simulation:  # fmt: skip
     """The whole field of a continuous simulation."""
     times = check_times(time)
     given = [np.asarray(x, dtype=float) for x in (volume_flow, underflow_volume_flow, feed_concentration)]
@@ -122,4 +124,4 @@ def continuous_course(time: Any, volume_flow: Any, feed_concentration: Any, unde
     if np.any(under > flow):
         raise InputError(_("The underflow must not exceed the feed: the tank would run dry."))
     operation = Operation(jnp.asarray(times), jnp.asarray(flow / area), jnp.asarray(under / area), jnp.asarray(feed))
-    return simulate(suspension, height, jnp.full(cells, float(start_concentration)), operation, feed_depth=feed_depth_share)
+    return simulate(suspension, height, jnp.full(cells, float(start_concentration)), operation, feed_depth=feed_depth_share, cone=cone)
