@@ -117,14 +117,15 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
         as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None,
         estimate: Annotated[list[str] | None, typer.Option(help="Of a formula or law: a parameter to find, as NAME or NAME=first value.")] = None,
         output: Annotated[str, typer.Option(help="Of a formula with several results: the measured one.")] = "",
-        robust: Annotated[bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")] = False) -> None:  # fmt: skip
+        robust: Annotated[bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")] = False,
+        next_point: Annotated[bool, typer.Option("--next", help="Of a formula or law: where the next measurement tells most.")] = False) -> None:  # fmt: skip
     """Fit a lab test, a formula or a law to a data file: parameters with 95 % intervals."""
     from granum.core import registry
 
     thing = registry.find(key)
     if thing.card.sort == "lab test":
-        if estimate or output or robust:
-            raise InputError(_("A lab test knows what it estimates: leave out --estimate, --output and --robust."))
+        if estimate or output or robust or next_point:
+            raise InputError(_("A lab test knows what it estimates: leave out --estimate, --output, --robust and --next."))
         test = thing.read(data, **_pairs(conditions))
         found = test.fit()
     else:
@@ -133,16 +134,19 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
         wanted = {name: value or None for name, _equals, value in (word.partition("=") for word in estimate or ())}
         test = CardData.read(thing, data, estimate=wanted, fixed=_pairs(conditions), output=output)
         found = test.fit(Huber() if robust else None)
+    told = test.next_measurement(found) if next_point else None
     if chart is not None:
         from granum.core.files import write_atomic
 
         write_atomic(chart, test.chart().to_html(include_plotlyjs=True))
     if as_json:
-        _emit(found.as_json())
+        _emit(found.as_json() | ({"next": told} if told is not None else {}))
     else:
-        from granum.reports.terminal import print_fit
+        from granum.reports.terminal import print_fit, print_next
 
         print_fit(found, saved=chart)
+        if told is not None:
+            print_next(told)
 
 
 @app.command()

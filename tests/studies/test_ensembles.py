@@ -120,6 +120,15 @@ def test_sweep_map_scenarios() -> None:
     assert rows["warm"]["outputs"]["terminal_velocity"] == pytest.approx(2 * rows["cold"]["outputs"]["terminal_velocity"])
 
 
+def test_a_law_is_a_model_too() -> None:
+    """Richardson and Zaki with a fixed exponent: (1 − c)^4.65."""
+    found = studies.sweep("particles.richardson_zaki", {"solids_volume_fraction": [0.1, 0.3]}, fixed={"exponent": 4.65, "reynolds": 0.01})
+    assert found.cases.y[:, 0] == pytest.approx([0.9**4.65, 0.7**4.65])
+    slope = studies.optimize("particles.richardson_zaki", {"solids_volume_fraction": (0.01, 0.5)}, fixed={"exponent": 4.65, "reynolds": 0.01},
+                             maximize="solids_volume_fraction * hindrance", starts=1)  # fmt: skip
+    assert slope.values["solids_volume_fraction"] == pytest.approx(1 / 5.65, rel=1e-4)  # the flux peaks at 1/(n + 1)
+
+
 def test_expressions_among_the_figures() -> None:
     found = studies.sweep(
         STOKES, {"particle_diameter": [1e-5, 2e-5]}, fixed=SLURRY, outputs=["'1 m' / terminal_velocity", "terminal_velocity"]

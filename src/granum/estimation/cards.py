@@ -18,6 +18,7 @@ from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import REQUIRED, Parameter, convert, parameters_of
+from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit
 from granum.estimation.losses import Loss
 from granum.estimation.results import Fit
@@ -62,7 +63,7 @@ class CardData:
             )
         wanted = dict(estimate) if isinstance(estimate, Mapping) else dict.fromkeys(estimate)
         where = _("for {owner}").format(owner=thing.card.key)
-        inputs, result = _inputs(thing), _result(thing, output, where)
+        inputs, result = inputs_of(thing), _result(thing, output, where)
         for name in (*wanted, *(fixed or {})):
             if name not in inputs:
                 raise unknown_name(_("Input"), name, inputs, where)
@@ -129,6 +130,16 @@ class CardData:
             card=self.thing.card.key,
         )
 
+    def next_measurement(self, found: Fit, steps: int = 41) -> dict[str, Any]:
+        """Where in the measured ranges one more measurement tells most, SI: ``{"at", "shrinkage", "standard_errors"}``."""
+        per = max(2, round((steps**2) ** (1 / max(len(self.columns), 1)))) if len(self.columns) > 2 else steps
+        spans = [np.linspace(v.min(), v.max(), per) for v in self.columns.values()]
+        grid = dict(zip(self.columns, (g.ravel() for g in np.meshgrid(*spans, indexing="ij")), strict=True))
+        told = next_experiment(found, grid)
+        inputs = inputs_of(self.thing)
+        at = {n: {"value": float(g[told.best]), "unit": inputs[n].kind.unit if inputs[n].kind else ""} for n, g in grid.items()}  # type: ignore[union-attr]
+        return {"at": at, "shrinkage": float(told.shrinkage[told.best]), "standard_errors": told.standard_errors}
+
     def _miss(self, place: Mapping[str, float]) -> float:
         with np.errstate(all="ignore"):
             found = np.broadcast_to(np.asarray(self.model(place, self.columns), dtype=float), self.measured.shape)
@@ -150,7 +161,7 @@ class CardData:
         y, upward = scaled(self.output, self.measured)
         if len(self.columns) == 1:
             ((name, values),) = self.columns.items()
-            parameter = _inputs(self.thing)[name]
+            parameter = inputs_of(self.thing)[name]
             grid = np.linspace(values.min(), values.max(), 200)
             band = found.predict({name: grid})
             x, across = scaled(parameter, values)
@@ -170,7 +181,7 @@ class CardData:
         return drawing
 
 
-def _inputs(thing: Any) -> dict[str, Parameter]:
+def inputs_of(thing: Any) -> dict[str, Parameter]:
     """Inputs of a formula; of a law its parameters and the arguments of its call."""
     found = {p.name: p for p in thing.card.parameters}
     if thing.card.sort == "law":

@@ -114,6 +114,16 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
         console.print(_("saved to {path}").format(path=saved))
 
 
+def print_next(told: dict[str, Any]) -> None:
+    """Where the next measurement tells most."""
+    place = "; ".join(f"{name} = {format_number(row['value'])} {pretty_unit(row['unit'])}".strip() for name, row in told["at"].items())
+    errors = "; ".join(f"{name} ± {format_number(value, 3)}" for name, value in told["standard_errors"].items())
+    console = _console()
+    console.print(_("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
+        place=place, share=format_number(100 * told["shrinkage"], 3)))  # fmt: skip
+    console.print(Text(_("Expected standard errors: {errors}").format(errors=errors), style="dim"))
+
+
 def print_list(cards: Sequence[Card]) -> None:
     """The outcome of ``granum list``."""
     console = _console()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import abc
+import functools
 import hashlib
 import re
 from collections.abc import Callable, Mapping
@@ -17,6 +18,7 @@ from granum.core import flags, registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, convert
+from granum.estimation.cards import inputs_of
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
 EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN = -1, 0, 1, 2, 3, 4
@@ -200,22 +202,30 @@ def split_index(path: str) -> tuple[str, int | None]:
 
 @dataclass(frozen=True)
 class FormulaSubject(Subject):
-    """A formula, or a procedure (computed one by one, without derivatives), with the inputs that stay fixed."""
+    """A formula, a law, or a procedure (computed one by one, without derivatives), with the inputs that stay fixed.
+
+    The inputs of a law are its parameters and the arguments of its call.
+    """
 
     thing: Any
     fixed: Mapping[str, Any]
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, Parameter]:
+        """Inputs by name."""
+        return inputs_of(self.thing)
 
     @staticmethod
     def of(thing: Any, fixed: Mapping[str, Any], recipe: Any = None) -> FormulaSubject:
         """A formula card or its key with fixed inputs, in any unit."""
         thing = registry.find(thing) if isinstance(thing, str) else thing
-        if thing.card.sort not in ("formula", "procedure"):
+        if thing.card.sort not in ("formula", "law", "procedure"):
             raise InputError(
-                _("'{key}' is a {sort}: a study takes a formula, a procedure, or a case file with the equipment in it.").format(
+                _("'{key}' is a {sort}: a study takes a formula, a law, a procedure, or a case file with the equipment in it.").format(
                     key=thing.card.key, sort=_(thing.card.sort)
                 )
             )
-        known = {p.name: p for p in thing.card.parameters}
+        known = inputs_of(thing)
         where = _("for {owner}").format(owner=thing.card.key)
         for name in fixed:
             if name not in known:
@@ -229,11 +239,11 @@ class FormulaSubject(Subject):
     @property
     def pure(self) -> bool:
         """Whether it can be compiled and differentiated."""
-        return self.thing.card.sort == "formula"
+        return self.thing.card.sort != "procedure"
 
     def input(self, path: str) -> Variable:
         name, index = split_index(path)
-        known = {p.name: p for p in self.thing.card.parameters if p.kind is not None and p.sort is not int}
+        known = {n: p for n, p in self.parameters.items() if p.kind is not None and p.sort is not int}
         if name not in known:
             raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=self.thing.card.key))
         if (index is not None) != (known[name].series is not None):
@@ -246,14 +256,14 @@ class FormulaSubject(Subject):
 
     def nominal(self, path: str) -> Any:
         name, index = split_index(path)
-        value = self.fixed.get(name, self.thing.card.parameter(name).default)
-        if value is None or (value is self.thing.card.parameter(name).default and self.thing.card.parameter(name).required):
+        value = self.fixed.get(name, self.parameters[name].default)
+        if value is None or (name not in self.fixed and self.parameters[name].required):
             return np.nan
         return float(value if index is None else np.asarray(value)[index])
 
     def own_output(self, path: str) -> Variable:
         name, index = split_index(path)
-        known = {p.name: p for p in (*self.thing.card.outputs, *(p for p in self.thing.card.parameters if p.kind is not None))}
+        known = {p.name: p for p in (*self.thing.card.outputs, *self.parameters.values()) if p.kind is not None}
         if name not in known:
             raise unknown_name(_("Result"), name, known, _("for {owner}").format(owner=self.thing.card.key))
         if known[name].series and index is None:
@@ -264,13 +274,13 @@ class FormulaSubject(Subject):
         return tuple(p.name for p in self.thing.card.outputs if not p.series and p.kind is not None) + tuple(self.quantities)
 
     def arrays(self) -> Any:
-        numbers = {p.name for p in self.thing.card.parameters if p.kind is not None and p.sort is not int}
+        numbers = {n for n, p in self.parameters.items() if p.kind is not None and p.sort is not int}
         return {n: np.asarray(v, dtype=float) for n, v in self.fixed.items() if n in numbers and v is not None}
 
     def complete(self, varied: tuple[str, ...]) -> None:
         """Raise one clear error when inputs are neither fixed nor varied."""
         varied = tuple(split_index(v)[0] for v in varied)
-        missing = [p for p in self.thing.card.parameters if p.required and p.name not in self.fixed and p.name not in varied]
+        missing = [p for n, p in self.parameters.items() if p.required and n not in self.fixed and n not in varied]
         if missing:
             names = ", ".join(f"'{p.name}' ({p.label})" for p in missing)
             raise InputError(_("{owner} needs {names}.").format(owner=self.thing.card.key, names=names), missing=[p.name for p in missing])
@@ -280,9 +290,14 @@ class FormulaSubject(Subject):
         for path, value in values.items():
             name, index = split_index(path)
             given[name] = value if index is None else jnp.asarray(given[name]).at[index].set(value)
-        made = self.thing(**given)
+        if self.thing.card.sort == "law":
+            own = {p.name for p in self.thing.card.parameters}
+            law = self.thing(**{n: v for n, v in given.items() if n in own})
+            made = law(**{n: v for n, v in given.items() if n not in own})
+        else:
+            made = self.thing(**given)
         found = made._asdict() if hasattr(made, "_asdict") else {self.thing.card.outputs[0].name: made}
-        defaults = {p.name: p.default for p in self.thing.card.parameters if not p.required}
+        defaults = {n: p.default for n, p in self.parameters.items() if not p.required}
 
         def lookup(path: str) -> Any:
             name, index = split_index(path)
