@@ -72,6 +72,21 @@ def test_balances_close():
     assert fresh * (v.enthalpy_outlet - v.enthalpy_fresh) == pytest.approx(entered, rel=1e-9)
 
 
+def test_continuous_dryers_of_the_textbooks():
+    """Geankoplis, example 9.10-1: 1166 kg/h of dry air leave at 0.0248. Coulson and Richardson, vol. 2, example 16.5: 2.08 to 2.09 kg/s of moist air."""
+    counter = dryer_balance(dry_solid_flow="453.6 kg/hour", moisture_dry_basis_inlet=0.04, moisture_dry_basis_outlet=0.002,
+                            temperature_inlet="93.3 degC", humidity_ratio_inlet=0.010, temperature_outlet="37.8 degC",
+                            temperature_product_inlet="26.7 degC", temperature_product_outlet="62.8 degC", specific_heat_capacity_solid=1465.0)  # fmt: skip
+    assert counter.dry_gas_flow * 3600 == pytest.approx(1166, rel=3e-3)
+    assert counter.humidity_ratio_outlet == pytest.approx(0.0248, abs=1e-4)
+    assert counter.energy_per_water == 0.0  # the air comes hot
+    rotary = dryer_balance(dry_solid_flow=0.35, moisture_dry_basis_inlet=0.15, moisture_dry_basis_outlet=0.005, temperature_inlet=400.0,
+                           humidity_ratio_inlet=0.01, temperature_outlet=331.5, temperature_product_inlet=300.0, temperature_product_outlet=325.0,
+                           specific_heat_capacity_solid=2180.0)  # fmt: skip
+    assert rotary.wet_bulb_temperature == pytest.approx(312.0, abs=0.7)  # from a chart
+    assert rotary.dry_gas_flow * 1.01 == pytest.approx(147.0 / (1.03 * (400 - 331.5)), rel=0.01)
+
+
 def test_recirculation_of_treybal():
     """Treybal, example 12.2: trays with 3 m/s at 95 °C and 0.05, 7.5 g/s evaporated, fresh air of 0.01: 90.65 % returned; 233 and 215.9 kJ/kg."""
     through = 3.0 * 11 * (0.1 - 0.038) / ((0.00283 + 0.00456 * 0.05) * 368.0)

@@ -14,3 +14,4 @@ VaporResistance = Annotated[Any, Kind("resistance to vapor", "m/s", 0.0, open_lo
 VaporResistanceGradient = Annotated[Any, Kind("resistance to vapor per depth", "1/s", 0.0, display=("kPa*s*m/kg", "cm*hour*torr/g"))]
 PerLength = Annotated[Any, Kind("per length", "1/m", 0.0, display=("1/cm", "1/m"))]
 RampRate = Annotated[Any, Kind("rate of change of temperature", "kelvin/s", 0.0, open_lower=True, display=("kelvin/min", "kelvin/hour"))]
+VaporPermeability = Annotated[Any, Kind("permeability to vapor", "kg/(m*s*Pa)", 0.0, open_lower=True, display=("kg/(m*s*Pa)",))]

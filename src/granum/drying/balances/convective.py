@@ -33,7 +33,7 @@ from granum.core.kinds import (
 from granum.drying.balances.indices import latent_heat
 from granum.drying.balances.system import Relation, System, Values, linear
 from granum.humid_gas.pairs import AirWater
-from granum.numerics import find_root
+from granum.numerics import find_root, safe_divide
 
 PAIR = AirWater()
 COLDEST, HOTTEST = 223.15, 1400.0
@@ -179,8 +179,8 @@ def _finished(v: Values, activity: Any) -> DryerBalance:
         "evaporative_capacity": v["dry_gas_flow"] * (equilibrium - w0),
         "energy_per_water": energy,
         "energy_consumption_ratio": energy / latent_heat(wet),
-        "drying_efficiency": latent_heat(wet) / energy,
-        "moisture_extraction_rate": 1.0 / energy,
+        "drying_efficiency": safe_divide(latent_heat(wet), energy),
+        "moisture_extraction_rate": safe_divide(1.0, energy),
     }
     possible = jnp.asarray(True)
     for name, low, high in _LIMITS:
@@ -303,6 +303,8 @@ def dryer_balance(
     ``quantity_sought``. Without temperatures of the product the dryer is isenthalpic as in the course notes: the product's enthalpy is
     left out. With both of them it is a real dryer.
 
+    When nothing is said of fresh air and heater, the air comes as it enters the dryer, and the energy indices are zero.
+
     ``water_activity`` is that of the leaving product, with which the air could at best be in equilibrium; it only serves the mass efficiency.
     The energy indices count heater, fan and heat given inside. Saturated outlet air, air too cold for the water, or a negative flow: flagged.
 
@@ -321,6 +323,8 @@ def dryer_balance(
     constants |= {name: given.pop(name) for name in temperatures}
     if len(temperatures) == 1:
         raise InputError(_("Give the product's temperature at both ends, or at neither for an isenthalpic dryer."), given=temperatures)
+    if not any(name.endswith("_fresh") for name in given) and "heat_duty" not in given:
+        given["heat_duty"] = jnp.zeros(())  # the air comes hot
     equations = system(bool(temperatures))
     if quantity_sought in given:
         raise InputError(_("'{name}' is given; it cannot be sought.").format(name=quantity_sought), name=quantity_sought)
