@@ -100,3 +100,73 @@ def test_report_and_tables(tmp_path: Path) -> None:
     assert "mass_flow [kg/s]" in (tmp_path / "out.csv").read_text(encoding="utf-8")
     with pytest.raises(GranumError, match=r"\.csv or \.xlsx"):
         run.tables(tmp_path / "out.doc")
+
+
+TWO = """
+title = "Loop"
+[mixture]
+liquids = ["water"]
+[feeds.fresh]
+to = "mix.fresh"
+mass_flow = "1 kg/s"
+[units.mix]
+model = "streams.mixer"
+[units.heat]
+model = "streams.heater"
+temperature = "50 degC"
+[units.split]
+model = "streams.splitter"
+side_fraction = 0.5
+[streams]
+mixed = ["mix", "heat"]
+hot = ["heat", "split"]
+back = ["split.side", "mix.back"]
+[specifications.circulation]
+vary = "split.side_fraction"
+so_that = "mix.mass_flow"
+equals = "4 kg/s"
+lower = 0.0
+upper = 0.9
+"""
+SECOND = """
+[specifications.second]
+vary = "{vary}"
+so_that = "{so_that}"
+equals = "{equals}"
+lower = {lower}
+upper = {upper}
+"""
+
+
+def test_two_specifications_on_one_parameter_or_one_result_are_refused() -> None:
+    again = SECOND.format(vary="split.side_fraction", so_that="heat.temperature", equals="60 degC", lower=0.1, upper=0.9)
+    with pytest.raises(CaseError, match="'circulation' and 'second' both vary 'split.side_fraction'"):
+        read_text(TWO + again)
+    twice = SECOND.format(vary="heat.temperature", so_that="mix.mass_flow", equals="3 kg/s", lower='"20 degC"', upper='"90 degC"')
+    with pytest.raises(CaseError, match="over-specified"):
+        read_text(TWO + twice)
+    with pytest.raises(CaseError, match="'lower' must be below 'upper'"):
+        read_text(TWO.replace("upper = 0.9", "upper = 0.0"))
+
+
+def test_two_independent_specifications_are_met() -> None:
+    more = SECOND.format(vary="heat.temperature", so_that="heat.heat_duty", equals="200 kW", lower='"26 degC"', upper='"95 degC"')
+    run = read_text(TWO + more).solve()
+    assert run.figure("mix.mass_flow") == pytest.approx(4.0, rel=1e-8)
+    assert run.figure("heat.heat_duty") == pytest.approx(2e5, rel=1e-8)
+
+
+def test_specification_out_of_reach_says_what_can_be_reached() -> None:
+    with pytest.raises(ConvergenceError, match=r"out of reach: it is 1 at split.side_fraction = 0 and 10 at 0.9"):
+        read_text(TWO.replace('"4 kg/s"', '"40 kg/s"')).solve()
+
+
+def test_missing_parameter_leaves_the_line_under_specified() -> None:
+    with pytest.raises(CaseError, match="side_fraction"):
+        read_text(TWO.replace("side_fraction = 0.5\n", ""))
+
+
+def test_loop_without_a_way_out_names_the_stream() -> None:
+    text = TWO[: TWO.index("[specifications")].replace("side_fraction = 0.5", "side_fraction = 1.0")
+    with pytest.raises(ConvergenceError, match="loop through stream 'back'.*purge"):
+        read_text(text).solve()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 
 from granum.cases.schema import Case
@@ -18,9 +20,12 @@ from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
-from granum.flowsheet import Flowsheet, Solution, closures
+from granum.flowsheet import Flowsheet, Solution, closures, solve
+from granum.flowsheet.dynamics import Course, march
 from granum.flowsheet.packing import compiled
-from granum.flowsheet.specifications import Designed, Target, design
+from granum.flowsheet.schedule import Schedule, schedule
+from granum.flowsheet.specifications import Designed, Target, design, figure
+from granum.numerics import Anderson
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 
@@ -34,6 +39,18 @@ def _solved(sheet: Flowsheet, targets: tuple[Target, ...]) -> Designed:
 def _traced(tree: Any) -> Any:
     """Numbers as arrays, so that a compiled line is reused when only values change."""
     return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
+
+
+@compiled
+def _solved_carefully(sheet: Flowsheet) -> Designed:
+    solution = solve(sheet, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
+    return Designed(sheet, solution, {}, solution.converged)
+
+
+@compiled
+def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
+    solution = solve(sheet)
+    return figure(sheet, solution, path), solution.converged
 
 
 @dataclass(frozen=True)
@@ -53,7 +70,36 @@ class Line:
         bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
         if bool(found.converged) and not bad:
             return run
-        raise ConvergenceError(_failure(found, bad, self.targets), last=run, **_place(found, bad))
+        if not bad and not bool(found.solution.converged) and not self.targets:  # more patience, smaller steps
+            found = _solved_carefully(_traced(self.sheet))
+            run = Run(self, found.line, found.solution, {})
+            if bool(found.converged):
+                return run
+        raise ConvergenceError(_failure(found, bad, self.targets, self._reach), last=run, **_place(found, bad))
+
+    def _reach(self, target: Target) -> tuple[float, float]:
+        """What the result of a specification is at both ends of the varied parameter, the other specifications left out."""
+        ends = (_figure(_traced(self.sheet.with_values({target.vary: x})), target.so_that) for x in (target.lower, target.upper))
+        low, high = (float(value) if bool(good) else float("nan") for value, good in ends)
+        return low, high
+
+    def march(self) -> Course:
+        """The line in time, as its ``[dynamic]`` table says. Raises where a loop does not converge at some instant."""
+        from granum.cases.reading import movement
+
+        if self.case is None:
+            raise InputError(_("Only a line read from a case file knows how it runs in time; call granum.flowsheet.march."))
+        times, profiles, start = movement(self.case, self.sheet)
+        course = eqx.filter_jit(march)(_traced(self.sheet), times, profiles, start=start)
+        bad = np.flatnonzero(~np.asarray(course.converged))
+        if bad.size:
+            raise ConvergenceError(
+                _("A loop did not converge at {time} s ({count} of {all} times): take a smaller step.").format(
+                    time=f"{times[bad[0]]:.6g}", count=bad.size, all=len(times)
+                ),
+                last=course,
+            )
+        return course
 
     def with_values(self, **values: Any) -> Line:
         """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
@@ -73,7 +119,7 @@ def _place(found: Any, bad: list[str]) -> dict[str, Any]:
     return {"stream": tear, "unit": links[tear].source_unit, "residual": float(found.solution.residual[worst])}
 
 
-def _failure(found: Any, bad: list[str], targets: tuple[Target, ...]) -> str:
+def _failure(found: Any, bad: list[str], targets: tuple[Target, ...], reach: Callable[[Target], tuple[float, float]]) -> str:
     place = _place(found, bad)
     unmet = any(not np.isfinite(float(v)) for v in found.values.values())
     if bad and not unmet:
@@ -84,6 +130,20 @@ def _failure(found: Any, bad: list[str], targets: tuple[Target, ...]) -> str:
         return _(
             "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
         ).format(stream=place["stream"], unit=place["unit"], residual=f"{place['residual']:.2g}")
+    for t in targets:
+        low, high = reach(t)
+        if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
+            return _(
+                "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at {upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
+            ).format(
+                result=t.so_that,
+                wanted=f"{t.equals:.6g}",
+                low=f"{low:.6g}",
+                high=f"{high:.6g}",
+                vary=t.vary,
+                lower=f"{t.lower:.6g}",
+                upper=f"{t.upper:.6g}",
+            )
     wanted = "; ".join(f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets)
     return _("No value of the varied parameters meets the specifications: {wanted}. Widen the limits or change the wanted value.").format(
         wanted=wanted
@@ -157,7 +217,7 @@ class Run:
         """The formulas each unit evaluates, with their numbers: the calculation note."""
         notes: dict[str, tuple[Result, ...]] = {}
         for name in self.sheet.order:
-            unit, inlets = self.sheet.units[name], self.sheet.inlets_of(name, self.streams)
+            unit, inlets = self.sheet.units[name], jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
             with record_steps() as steps:
                 unit.results(inlets, unit(**inlets))
             notes[name] = tuple(steps)
@@ -178,6 +238,10 @@ class Run:
     def flags(self) -> list[dict[str, Any]]:
         """What the formulas of each unit flagged, with the unit's name."""
         return [{"unit": unit, **row} for unit, records in self.solution.records.items() for row in flags.describe(records)]
+
+    def schedule(self) -> Schedule:
+        """The cycles of the batch units, with a Gantt chart."""
+        return schedule({name: (u.model, u.values) for name, u in self.units.items()})
 
     def figure(self, path: str) -> float:
         """One result, ``unit.result``, SI."""

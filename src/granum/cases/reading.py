@@ -20,12 +20,14 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter, convert
 from granum.flowsheet import Flowsheet
+from granum.flowsheet.dynamics import Profile, check_profiles
 from granum.flowsheet.specifications import Target
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
 Shape = TypeVar("Shape", bound=BaseModel)
+MOST_STEPS = 100_000  # of a run in time
 LARGEST_FILE = 2_000_000  # bytes; a case is a page of text
 
 
@@ -121,6 +123,9 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     if case.fits:
         sheet = sheet.with_values(fitted_values(fits_of(case.fits, folder)))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
+    _require_independent(case, targets)
+    if case.dynamic is not None:
+        movement(case, sheet)  # so that a mistake shows at once
     return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text)
 
 
@@ -265,3 +270,53 @@ def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:
     else:
         raise CaseError(unknown_name(_("Unit"), unit, sheet.units, where).message)
     return Target(spec.vary, spec.so_that, wanted, low, high)
+
+
+def _require_independent(case: Case, targets: tuple[Target, ...]) -> None:
+    """As many parameters to find as results to meet, each once."""
+    names = list(case.specifications)
+    for place, reason in (
+        ("vary", _("both vary '{what}': one parameter cannot meet two conditions. Vary another parameter in one of them, or drop one.")),
+        ("so_that", _("both fix '{what}': the line is over-specified. Drop one of them.")),
+    ):
+        seen: dict[str, str] = {}
+        for name, target in zip(names, targets, strict=True):
+            what = getattr(target, place)
+            if what in seen:
+                pair = _("Specifications '{first}' and '{second}'").format(first=seen[what], second=name)
+                raise CaseError(f"{pair} {reason.format(what=what)}", specification=name)
+            seen[what] = name
+    for name, target in zip(names, targets, strict=True):
+        if not target.lower < target.upper:
+            raise CaseError(_("[specifications.{name}] 'lower' must be below 'upper'.").format(name=name), specification=name)
+
+
+def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, ...], str]:
+    """Times, disturbances and start of a run in time."""
+    table = case.dynamic
+    if table is None:
+        raise CaseError(_("The case has no [dynamic] table: give it 'duration' and 'step'."))
+    where = _("in [dynamic]")
+    duration, step = (quantity(getattr(table, n), "Time", n, where) for n in ("duration", "step"))
+    if not 0.0 < step <= duration:
+        raise CaseError(_("[dynamic] 'step' must be above zero and not longer than 'duration'."))
+    if duration / step > MOST_STEPS:
+        raise CaseError(
+            _("[dynamic] asks for {count} steps; at most {most} are run.").format(count=f"{duration / step:.3g}", most=MOST_STEPS)
+        )
+    if table.start not in ("steady", "empty"):
+        raise CaseError(unknown_name(_("Start"), table.start, ("steady", "empty"), where).message)
+    profiles = []
+    for name, change in table.disturbances.items():
+        place = _("in [dynamic.disturbances.{name}]").format(name=name)
+        head, _dot, field = change.vary.partition(".")
+        if head in sheet.feeds and field == "mass_flow":
+            kind = KINDS["MassFlow"]
+        else:
+            sheet.locate(change.vary)
+            kind = type(sheet.units[head]).card.parameter(field).kind if head in sheet.units and "." not in field else KINDS["Number"]
+        values = convert(change.values, Parameter("values", kind, series="points"), " " + place)
+        times = convert(change.times, Parameter("times", KINDS["Time"], series="points"), " " + place)
+        profiles.append(Profile(change.vary, np.asarray(times, dtype=float), np.asarray(values, dtype=float)))
+    check_profiles(sheet, tuple(profiles))
+    return np.arange(0.0, duration + 0.5 * step, step), tuple(profiles), table.start

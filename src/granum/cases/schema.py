@@ -99,6 +99,23 @@ class FitTable(_Strict):
     gives: dict[str, str] = Field(description="input of the line → estimate of the test")
 
 
+class Disturbance(_Strict):
+    """A parameter or a feed flow over time: straight between points, constant outside."""
+
+    vary: str = Field(description="unit.parameter, or feed.mass_flow")
+    times: list[Quantity] | str
+    values: list[Quantity] | str
+
+
+class DynamicTable(_Strict):
+    """A run in time: start-up from empty vessels or from the steady state, with disturbances."""
+
+    duration: Quantity
+    step: Quantity
+    start: str = Field(default="steady", description="steady or empty")
+    disturbances: dict[str, Disturbance] = {}
+
+
 class Studied(_Strict):
     """What a file with studies may hold besides its model."""
 
@@ -131,3 +148,4 @@ class Case(Studied):
     units: dict[str, dict[str, Any]]
     streams: dict[str, StreamTable | list[str]] = {}
     specifications: dict[str, Specification] = {}
+    dynamic: DynamicTable | None = Field(default=None, description="how the line runs in time: start-up and disturbances")

@@ -1,7 +1,23 @@
 """Flowsheets: units and streams connected, loops solved, audited and drawn."""
 
+from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.plan import Link
+from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution, closures, line_closure, solve, solve_compiled, unit_closures
 
-__all__ = ["Flowsheet", "Link", "Solution", "closures", "line_closure", "solve", "solve_compiled", "unit_closures"]
+__all__ = [
+    "Course",
+    "Profile",
+    "Schedule",
+    "march",
+    "schedule",
+    "Flowsheet",
+    "Link",
+    "Solution",
+    "closures",
+    "line_closure",
+    "solve",
+    "solve_compiled",
+    "unit_closures",
+]

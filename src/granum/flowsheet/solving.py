@@ -86,7 +86,7 @@ def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets
     return made
 
 
-def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson) -> tuple[_Made, Settled]:  # fmt: skip
+def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson, max_steps: int) -> tuple[_Made, Settled]:  # fmt: skip
     """A loop, solved: the pass through its units stands once in the compiled code."""
     words: list[Any] = []  # names and sources among what is made, which are no numbers
 
@@ -101,12 +101,14 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
         return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), numbers
 
     start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
-    found = settle(once, start, method=method, tolerance=TOLERANCE)
+    found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps)
     made = eqx.combine(found.made, words[0])
     return made._replace(streams=made.streams | torn(found.state)), found
 
 
-def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets: bool = False, method: Anderson = Anderson()) -> Solution:
+def solve(
+    line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets: bool = False, method: Anderson = Anderson(), max_steps: int = 200
+) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
     Parameters
@@ -114,7 +116,7 @@ def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets:
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
     sheets: also work out figures and checks of every unit (then jit with ``eqx.filter_jit``: checks carry words).
-    method: how loops are brought to rest.
+    method: how loops are brought to rest. max_steps: most passes through a loop.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
@@ -127,7 +129,7 @@ def solve(line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets:
         if block.tears:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears}
-            made, found = _run_loop(line, block, streams, guess, scale, sheets, method)
+            made, found = _run_loop(line, block, streams, guess, scale, sheets, method, max_steps)
             converged = converged & found.converged
             steps.append(found.steps)
             residual.append(found.residual)

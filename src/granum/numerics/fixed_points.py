@@ -285,6 +285,11 @@ def settle(
     traced, closed_over = jax.closure_convert(flat, start)
     tree, kinds = shape
 
+    def allowed(x: jax.Array) -> jax.Array:
+        """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand tolerances."""
+        rounding = 32.0 * jnp.finfo(start.dtype).eps * _size(x)
+        return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)
+
     @jax.custom_jvp
     def search(closed_over: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
@@ -295,7 +300,8 @@ def settle(
 
         def unfinished(carry: tuple) -> jax.Array:
             iteration = carry[0]
-            return (iteration[1][1] > tolerance) & (iteration[-1] < max_steps)
+            x, size = iteration[1]
+            return (size > allowed(x)) & (iteration[-1] < max_steps)
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
         iteration, made = lax.while_loop(unfinished, advance, (method.begin(start), blank))
@@ -316,10 +322,8 @@ def settle(
     x, packed, size, number = search(closed_over, start)
     parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
     made = jax.tree.unflatten(tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)])
-    # A change smaller than the rounding of a state that ran away proves nothing.
-    rounding = jnp.finfo(start.dtype).eps * _size(lax.stop_gradient(x))
     size = lax.stop_gradient(size)
-    return Settled(x, made, (size <= tolerance) & (rounding <= tolerance), number.astype(int), jnp.maximum(size, rounding))
+    return Settled(x, made, size <= allowed(lax.stop_gradient(x)), number.astype(int), size)
 
 
 def _solve(

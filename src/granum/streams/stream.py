@@ -82,12 +82,15 @@ class Stream(eqx.Module):
     # -- properties --------------------------------------------------------------------------------------------
     def enthalpy_at(self, temperature: Any) -> Any:
         """Enthalpy flow if the stream were at another temperature, W."""
-        m = self.mixture
-        total = jnp.zeros(())
-        for phase, flows in (("solids", self.solid_by_species), ("liquids", self.liquid), ("gases", self.gas)):
-            if getattr(m, phase):
-                total = total + jnp.sum(flows * m.enthalpies(phase, temperature))
-        return total
+        return self._enthalpy(self._by_phase(), temperature)
+
+    def _by_phase(self) -> dict[str, Any]:
+        flows = {"solids": self.solid_by_species, "liquids": self.liquid, "gases": self.gas}
+        return {phase: flow for phase, flow in flows.items() if getattr(self.mixture, phase)}
+
+    def _enthalpy(self, flows: dict[str, Any], temperature: Any) -> Any:
+        parts = [jnp.sum(flow * self.mixture.enthalpies(phase, temperature)) for phase, flow in flows.items()]
+        return sum(parts, jnp.zeros(()))
 
     @property
     @shared
@@ -230,8 +233,12 @@ class Stream(eqx.Module):
     def at_enthalpy(self, enthalpy_flow: Any, guess: Any = None) -> Stream:
         """The same matter at the temperature that gives an enthalpy flow (W)."""
         scale = jnp.maximum(self.mass_flow, 1e-300) * 1e3  # makes the residual a temperature
+        flows = self._by_phase()  # summed over the classes before the search
         root = find_root(
-            lambda T: (self.enthalpy_at(T) - enthalpy_flow) / scale, COLDEST, HOTTEST, start=self.temperature if guess is None else guess
+            lambda T: (self._enthalpy(flows, T) - enthalpy_flow) / scale,
+            COLDEST,
+            HOTTEST,
+            start=self.temperature if guess is None else guess,
         )
         return self.replace(temperature=jnp.where(self.mass_flow > 0, root.value, self.temperature))
 

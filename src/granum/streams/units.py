@@ -79,3 +79,31 @@ class Unit(eqx.Module):
     def power_names(cls) -> tuple[str, ...]:
         """Names of the powers among the outlets."""
         return tuple(n for n in cls.outlet_type()._fields if n not in cls.outlet_names())
+
+
+class Dynamic(abc.ABC):
+    """What a unit with a holdup adds for a line in time. Steady state and dynamics are the same equations.
+
+    The state is a pytree of arrays; ``advance`` returns it and the outlets (without powers) at the end of a step in which the inlets
+    change linearly.
+    """
+
+    @abc.abstractmethod
+    def initial_holdup(self, mixture: Any) -> Any:
+        """The state at a start-up."""
+
+    @abc.abstractmethod
+    def steady_holdup(self, inlets: Mapping[str, Stream]) -> Any:
+        """The state that steady inlets lead to."""
+
+    @abc.abstractmethod
+    def held_mass(self, state: Any) -> Any:
+        """Mass in the state, kg."""
+
+    def prepare(self, mixture: Any, step: Any) -> Any:
+        """What depends on the step alone, worked out once."""
+        return None
+
+    @abc.abstractmethod
+    def advance(self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any) -> tuple[Any, Any]:
+        """The state and the outlets after a step."""

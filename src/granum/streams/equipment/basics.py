@@ -7,10 +7,12 @@ from functools import reduce
 from operator import add
 from typing import Any, NamedTuple
 
+import jax.numpy as jnp
+
 from granum.core import equipment
-from granum.core.kinds import Fraction, MassFlow, Power, Temperature
+from granum.core.kinds import Fraction, Mass, MassFlow, Power, Temperature, Time
 from granum.streams.stream import Stream
-from granum.streams.units import Unit
+from granum.streams.units import Dynamic, Unit
 
 
 class Single(NamedTuple):
@@ -94,3 +96,77 @@ class Heater(Unit):
 
     def results(self, inlets: Mapping[str, Stream], outlets: Heated) -> HeaterFigures:
         return HeaterFigures(outlets.heat_duty, outlets.product.temperature)
+
+
+class TankFigures(NamedTuple):
+    """Figures of a stirred tank."""
+
+    residence_time: Time
+    temperature: Temperature
+
+
+class Contents(NamedTuple):
+    """What a tank holds: kg of each species and class, and J."""
+
+    solid: Any
+    liquid: Any
+    enthalpy: Any
+
+
+@equipment("stirred_tank", source="levenspiel1999, ch. 6; himmelblau2012, ch. 11", title="Stirred tank of constant holdup",
+           equation=r"\frac{dm_i}{dt} = \dot m_{i,in} - \frac{\dot m_{in}}{M}\,m_i")  # fmt: skip
+class StirredTank(Unit, Dynamic):
+    """A full, well-mixed vessel of slurry that overflows: what leaves has the composition inside. It evens out disturbances in time.
+
+    In steady state it passes its feed. A start-up begins with the tank full of the first liquid at 25 °C. Gas passes at once.
+    """
+
+    mass: Mass
+
+    def __call__(self, feed: Stream) -> Single:
+        return Single(feed)
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Single) -> TankFigures:
+        flow = inlets["feed"].solid_flow + inlets["feed"].liquid_flow
+        return TankFigures(self.mass / jnp.where(flow > 0, flow, 1.0), outlets.product.temperature)
+
+    def initial_holdup(self, mixture: Any) -> Contents:
+        first = jnp.zeros(len(mixture.liquids)).at[0].set(1.0) * self.mass
+        return Contents(jnp.zeros(mixture.solid_shape), first, jnp.sum(first * mixture.enthalpies("liquids", 298.15)))
+
+    def steady_holdup(self, inlets: Mapping[str, Stream]) -> Contents:
+        feed = inlets["feed"]
+        time = self.mass / jnp.maximum(feed.solid_flow + feed.liquid_flow, 1e-12)
+        return Contents(feed.solid * time, feed.liquid * time, _condensed(feed).enthalpy_flow * time)
+
+    def held_mass(self, state: Contents) -> Any:
+        return jnp.sum(state.solid) + jnp.sum(state.liquid)
+
+    def advance(
+        self, state: Contents, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
+    ) -> tuple[Contents, Single]:
+        then, now = _condensed(before["feed"]), _condensed(after["feed"])
+        rate = 0.5 * (then.mass_flow + now.mass_flow) / self.mass * step  # turnovers in the step
+        small = rate < 1e-4
+        r = jnp.where(small, 1.0, rate)
+        kept = jnp.exp(-rate)
+        early = jnp.where(small, 0.5 - rate / 3.0, (1.0 - kept * (1.0 + rate)) / r**2)  # weights of the inlet at both ends
+        late = jnp.where(small, 0.5 - rate / 6.0, (rate - 1.0 + kept) / r**2)
+
+        def new(held: Any, old_inlet: Any, new_inlet: Any) -> Any:
+            return kept * held + step * (early * old_inlet + late * new_inlet)
+
+        full = Contents(
+            new(state.solid, then.solid, now.solid), new(state.liquid, then.liquid, now.liquid),
+            new(state.enthalpy, then.enthalpy_flow, now.enthalpy_flow),
+        )  # fmt: skip
+        # A flow that changes within the step leaves the mass a third-order error off its constant.
+        share = self.mass / self.held_mass(full)
+        state = Contents(full.solid * share, full.liquid * share, full.enthalpy * share)
+        out = now.mass_flow / self.mass
+        product = now.replace(solid=state.solid * out, liquid=state.liquid * out).at_enthalpy(state.enthalpy * out)
+        return state, Single(product.replace(gas=after["feed"].gas))
+
+
+def _condensed(stream: Stream) -> Stream:
+    return stream.replace(gas=0.0 * stream.gas)

@@ -1,0 +1,194 @@
+"""A line in time: start-up and disturbances. Units with a holdup march, the others follow at once.
+
+Each step solves the line at its end: torn streams by the same fixed point as in the steady state, holdups by their own exact step for
+inlets that change linearly over it. Second order in the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _
+from granum.flowsheet.plan import Block
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.solving import TOLERANCE, _pack, _unpack, solve
+from granum.numerics import settle
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Dynamic
+
+
+class Profile(NamedTuple):
+    """A parameter over time, straight between points and constant outside: ``feed.mass_flow`` scales a feed, ``unit.parameter`` is set."""
+
+    path: str
+    times: Any
+    values: Any
+
+    def at(self, time: Any) -> Any:
+        """The value at a time."""
+        return jnp.interp(time, jnp.asarray(self.times, dtype=float), jnp.asarray(self.values, dtype=float))
+
+
+class Course(NamedTuple):
+    """A line over time: every stream with a leading axis of times.
+
+    Parameters
+    ----------
+    times: s. streams: by name, arrays with a leading axis of times.
+    holdups: the state of each unit that has one, at the end.
+    converged: whether the loops converged at each time. balance: relative mass imbalance of feeds, products and holdups over the whole run.
+    """
+
+    times: Any
+    streams: dict[str, Stream]
+    holdups: dict[str, Any]
+    converged: Any
+    balance: Any
+
+
+class _Instant(NamedTuple):
+    streams: dict[str, Stream]
+    states: dict[str, Any]
+
+
+def _with_profiles(line: Flowsheet, profiles: tuple[Profile, ...], time: Any) -> Flowsheet:
+    changes = {}
+    for p in profiles:
+        head, _dot, name = p.path.partition(".")
+        if head in line.feeds and name == "mass_flow":
+            feed = line.feeds[head]
+            share = p.at(time) / feed.mass_flow
+            changes |= {f"{head}.{phase}": getattr(feed, phase) * share for phase in ("solid", "liquid", "gas")}
+        else:
+            changes[p.path] = p.at(time)
+    return line.with_values(changes)
+
+
+def check_profiles(line: Flowsheet, profiles: tuple[Profile, ...]) -> None:
+    """Refuse profiles of unknown parameters or with times that do not increase."""
+    for p in profiles:
+        head, _dot, name = p.path.partition(".")
+        if not (head in line.feeds and name == "mass_flow"):
+            line.locate(p.path)
+        shape = jnp.asarray(p.times).shape
+        if shape != jnp.asarray(p.values).shape or len(shape) != 1 or not _increasing(p.times):
+            raise InputError(_("The profile of '{path}' needs as many values as times, and times that increase.").format(path=p.path))
+
+
+def _increasing(times: Any) -> bool:
+    """Whether times increase; traced ones were seen before."""
+    return isinstance(times, jax.core.Tracer) or bool(np.all(np.diff(np.asarray(times, dtype=float)) > 0))
+
+
+def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, start: str | Mapping[str, Any] = "steady") -> Course:
+    """Follow a line over equally spaced times. Pure but for its checks; compile it with ``eqx.filter_jit``.
+
+    Parameters
+    ----------
+    line: the flowsheet; units that are ``Dynamic`` hold matter, the others answer at once.
+    times: s, equally spaced; the first is the start.
+    profiles: disturbances, as parameters or feed flows over time.
+    start: ``steady`` (holdups in the steady state of the first instant), ``empty`` (holdups as the units declare for a start-up), or
+        the holdups themselves by unit, those left out being as for a start-up.
+    """
+    check_profiles(line, profiles)
+    if isinstance(start, str) and start not in ("steady", "empty"):
+        raise unknown_name(_("Start"), start, ("steady", "empty"))
+    times = jnp.asarray(times, dtype=float)
+    step = times[1] - times[0]
+    first = _with_profiles(line, profiles, times[0])
+    scale = jnp.maximum(sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(())), 1e-12)
+    guess = {n: empty(_mixture(line), 298.15) for block in line.blocks for n in block.tears}
+    if start == "steady":
+        streams = solve(first).streams
+        guess = {n: streams[n] for n in guess}
+        states = {n: u.steady_holdup(first.inlets_of(n, streams)) for n, u in first.units.items() if isinstance(u, Dynamic)}
+    else:
+        states = {n: u.initial_holdup(_mixture(line)) for n, u in first.units.items() if isinstance(u, Dynamic)}
+        states |= {} if isinstance(start, str) else dict(start)
+    prepared = {n: u.prepare(_mixture(line), step) for n, u in line.units.items() if isinstance(u, Dynamic)}
+    still = {n: u.prepare(_mixture(line), 0.0 * step) for n, u in line.units.items() if isinstance(u, Dynamic)}
+    begin, good = _instant(first, states, None, still, 0.0 * step, guess, scale)
+
+    def advance(carry: tuple[_Instant, Any, dict[str, Stream]], time: Any) -> tuple[Any, tuple[dict[str, Stream], Any]]:
+        before, passed, earlier = carry
+        now = _with_profiles(line, profiles, time)
+        torn = {n: _ahead(earlier[n], before.streams[n]) for n in guess}
+        after, converged = _instant(now, before.states, before.streams, prepared, step, torn, scale)
+        passed = passed + 0.5 * step * (_net(line, before.streams) + _net(line, after.streams))
+        return (after, passed, {n: before.streams[n] for n in guess}), (after.streams, converged)
+
+    first_torn = {n: begin.streams[n] for n in guess}
+    (last, passed, _torn), (streams, converged) = jax.lax.scan(advance, (begin, jnp.zeros(()), first_torn), times[1:])
+    held = sum((line.units[n].held_mass(last.states[n]) - line.units[n].held_mass(states[n]) for n in states), jnp.zeros(()))  # type: ignore[attr-defined]
+    through = scale * (times[-1] - times[0])
+    whole = jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), begin.streams, streams)
+    return Course(times, whole, last.states, jnp.concatenate([good[None], converged]), jnp.abs(passed - held) / through)
+
+
+def _ahead(earlier: Stream, before: Stream) -> Stream:
+    """A torn stream a step on, if it goes on changing as it did."""
+    on = jax.tree.map(lambda a, b: 2.0 * b - a, earlier, before)
+    return on.replace(solid=jnp.maximum(on.solid, 0.0), liquid=jnp.maximum(on.liquid, 0.0), gas=jnp.maximum(on.gas, 0.0))
+
+
+def _mixture(line: Flowsheet) -> Any:
+    return next(iter(line.feeds.values())).mixture
+
+
+def _net(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
+    flow = jnp.zeros(())
+    for k in line.links:
+        flow = flow + (0.0 if k.origin else streams[k.name].mass_flow) - (0.0 if k.target else streams[k.name].mass_flow)
+    return flow
+
+
+def _instant(
+    line: Flowsheet, states: dict[str, Any], before: dict[str, Stream] | None, prepared: dict[str, Any], step: Any,
+    torn: dict[str, Stream], scale: Any,
+) -> tuple[_Instant, Any]:  # fmt: skip
+    """All streams and holdups at the end of a step."""
+    found = _Instant(dict(line.feeds), {})
+    good = jnp.asarray(True)
+
+    def one_pass(block: Block, known: dict[str, Stream]) -> _Instant:
+        streams, made = dict(known), _Instant({}, {})
+        for name in block.units:
+            thing, inlets = line.units[name], line.inlets_of(name, streams)
+            if isinstance(thing, Dynamic):
+                earlier = inlets if before is None else line.inlets_of(name, before)
+                made.states[name], out = thing.advance(states[name], earlier, inlets, step, prepared[name])
+            else:
+                out = thing(**inlets)
+            new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == name}
+            made.streams.update(new)
+            streams |= {n: s for n, s in new.items() if n not in block.tears}
+        return made
+
+    for block in line.blocks:
+        if not block.tears:
+            made = one_pass(block, found.streams)
+        else:
+            guess = {n: torn[n] for n in block.tears}
+
+            def unpacked(vector: Any, guess: dict[str, Stream] = guess) -> dict[str, Stream]:
+                rows = vector.reshape(len(guess), -1)
+                return {n: _unpack(rows[i], s.mixture, s.pressure, scale) for i, (n, s) in enumerate(guess.items())}
+
+            def once(vector: Any, block: Block = block, unpacked: Any = unpacked) -> tuple[Any, _Instant]:
+                made = one_pass(block, found.streams | unpacked(vector))
+                return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), made
+
+            solved = settle(once, jnp.concatenate([_pack(s, scale) for s in guess.values()]), tolerance=1e4 * TOLERANCE)
+            made = solved.made._replace(streams=solved.made.streams | unpacked(solved.state))
+            good = good & solved.converged
+        found.streams.update(made.streams)
+        found.states.update(made.states)
+    streams = {k.name: jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), found.streams[k.name]) for k in line.links}
+    return _Instant(streams, found.states), good

@@ -1,0 +1,64 @@
+"""The lines of the examples: they converge, close, and agree with published figures."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import granum as gr
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying")
+
+
+@cache
+def run(name: str):
+    return gr.read(EXAMPLES / name / "line.toml").solve()
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_closes(name: str) -> None:
+    audit = run(name).audit
+    assert audit["mass_closure"] < 1e-9
+    assert audit["energy_closure"] < 1e-9
+
+
+def test_primary_clarifier_removes_what_plants_remove() -> None:
+    """Metcalf and Eddy (2003), section 5-7: 50 to 70 % of the suspended solids."""
+    line = run("sewage-sludge")
+    assert 0.5 < line.figure("clarifier.removal_efficiency") < 0.7
+    assert float(line.streams["dry_sludge"].moisture_dry_basis) < 0.111
+    # what enters with the sewage and neither overflows nor dries leaves as cake
+    solid = line.streams["sewage"].solid_flow - line.streams["settled_water"].solid_flow
+    assert float(line.streams["dry_sludge"].solid_flow) == pytest.approx(float(solid), rel=1e-6)
+
+
+def test_circulating_load_of_a_grinding_circuit() -> None:
+    """Wills and Finch (2016): 150 to 400 % of the new feed, commonly 250 %; Bond's law for the energy within a third."""
+    line = run("ore-grinding")
+    load = float(line.streams["coarse"].solid_flow / line.streams["ore"].solid_flow)
+    assert 1.5 < load < 4.0
+    from granum.comminution.equipment.screens import size_passing
+
+    f80, p80 = (float(size_passing(line.streams[n])) * 1e6 for n in ("ore", "fine"))
+    bond = 10 * 12.77 * (p80**-0.5 - f80**-0.5)  # kWh per short ton, quartz, Bond (1961)
+    assert pytest.approx(bond * 1.102, rel=0.34) == 200.0 / 10.0
+    assert all(c.ok for u in line.units.values() for c in u.checks)
+
+
+def test_batch_yield_is_that_of_the_solubilities() -> None:
+    """0.493 kg/kg at 32 °C (Miller and Rawlings 1994) down to 0.1286 + 5.88e-3·28 + 1.721e-4·28² = 0.428 kg/kg at 28 °C: 13 %."""
+    line = run("batch-pharma")
+    assert line.figure("crystallizer.yield_fraction") == pytest.approx((0.493 - 0.4282) / 0.493, rel=0.02)
+    assert float(line.streams["dry_product"].moisture_dry_basis) < 0.01
+    assert line.figure("filter.capacity_use") < 1.0
+
+
+def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
+    """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery (Mujumdar 2014)."""
+    line = run("starch-drying")
+    assert 3e6 < line.figure("dryer.energy_per_water") < 5e6
+    assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
+    assert float(line.streams["starch"].moisture_dry_basis) == pytest.approx(0.14, rel=1e-6)

@@ -1,0 +1,83 @@
+"""Every hard recycle of the corpus converges, closes and agrees with what is known of it. ``pytest -s`` prints the pass rate."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import jax
+import numpy as np
+import pytest
+
+from granum.flowsheet import closures, solve
+from granum.flowsheet.packing import compiled
+
+_spec = importlib.util.spec_from_file_location("corpus_cases", Path(__file__).with_name("cases.py"))
+assert _spec is not None
+assert _spec.loader is not None
+corpus = importlib.util.module_from_spec(_spec)
+sys.modules[_spec.name] = corpus
+_spec.loader.exec_module(corpus)
+
+_solve = compiled(lambda line: solve(line))
+passed: list[str] = []
+
+
+@pytest.mark.parametrize("name", corpus.CASES)
+def test_case(name: str) -> None:
+    case = corpus.CASES[name]()
+    line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case.line)
+    solution = _solve(line)
+    assert bool(solution.converged), [float(r) for r in solution.residual]
+    units, whole = closures(line, solution)
+    # the corpus has reactors, which keep the mass but not the components
+    assert max(abs(float(np.sum(c.by_component))) for c in (whole, *units.values())) < 1e-9
+    assert max(float(whole.energy), *(float(c.energy) for c in units.values())) < 1e-9
+    if case.stream:
+        stream = solution.streams[case.stream]
+        found = stream.liquid if np.ndim(case.expected) else stream.mass_flow
+        assert np.allclose(found, case.expected, rtol=1e-6, atol=1e-9)
+    passed.append(name)
+
+
+@pytest.mark.parametrize("name", corpus.REFUSED)
+def test_what_has_no_steady_state_is_refused(name: str) -> None:
+    line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, corpus.REFUSED[name]().line)
+    assert not bool(_solve(line).converged)
+
+
+def test_pass_rate() -> None:
+    assert len(corpus.CASES) >= 20
+    print(f"\n{len(passed)} of {len(corpus.CASES)} hard recycles solved")
+
+
+def test_heat_loop_by_hand() -> None:
+    """Equal heat capacities: the warm stream reaches 300 + 0.97·100 K, and the product leaves at 303 K."""
+    case = corpus.heat_loop(0.97)
+    solution = _solve(case.line)
+    assert float(solution.streams["warm"].temperature) == pytest.approx(397.0, abs=1e-6)
+    assert float(solution.streams["exchanger.side"].temperature) == pytest.approx(303.0, abs=1e-6)
+
+
+def test_cavett_against_plain_substitution() -> None:
+    """The same flashes in NumPy, repeated thousands of times."""
+    from scipy.optimize import brentq
+
+    def flash(moles: np.ndarray, k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        z = moles / moles.sum()
+        v = brentq(lambda v: np.sum(z * (k - 1) / (1 + v * (k - 1))), 0.0, 1.0, xtol=1e-15)
+        gas = moles * v * k / (1 + v * (k - 1))
+        return moles - gas, gas
+
+    k1, k2, k3, k4 = (corpus.wilson(*at) for at in ((311.0, 56.3), (322.0, 19.6), (309.0, 4.4), (303.0, 1.9)))
+    fresh = corpus.CAVETT[:, 3] / 27340.6
+    liquid1, gas3, gas4 = np.zeros(16), np.zeros(16), np.zeros(16)
+    for _ in range(600):
+        liquid2, gas2 = flash(fresh + liquid1 + gas3, k2)
+        liquid1, _gas1 = flash(gas2, k1)
+        liquid3, gas3 = flash(liquid2 + gas4, k3)
+        _liquid4, gas4 = flash(liquid3, k4)
+    solution = _solve(corpus.cavett().line)
+    assert np.allclose(solution.streams["gas3"].liquid, gas3, rtol=1e-7, atol=1e-10)
+    assert np.allclose(solution.streams["liquid1"].liquid, liquid1, rtol=1e-7, atol=1e-10)
