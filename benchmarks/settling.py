@@ -47,8 +47,8 @@ def peer(method):
         f = C * v
         through = np.minimum(np.where(peak > C, f, top)[:-1], np.where(peak < C, f, top)[1:])
         b = np.maximum(C, 6.0)
-        d = np.where(C > 6.0, v, velocity(6.0)) * factor * 4.0 / (4.0 + b - 6.0)
-        through = through - 0.5 / dz * (d[1:] + d[:-1]) * (b[1:] - b[:-1])
+        slow, stiff = np.where(C > 6.0, v, velocity(6.0)), factor * 4.0 / (4.0 + b - 6.0)
+        through = through - 0.5 / dz * np.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1]) * (b[1:] - b[:-1])
         inner = through + np.where(np.arange(1, CELLS) > mid, QU * C[:-1], -(Q - QU) * C[1:])
         faces = np.concatenate([[-(Q - QU) * C[0]], inner, [QU * C[-1]]])
         change = -np.diff(faces) / dz
