@@ -10,7 +10,7 @@ import pytest
 
 import granum
 
-ROOMS = ("core", "numerics", "estimation", "streams", "flowsheet", "cases", "reports")
+ROOMS = ("core", "numerics", "estimation", "streams", "flowsheet", "studies", "cases", "reports")
 MODULES = sorted(
     m.name for room in ROOMS for m in pkgutil.walk_packages(importlib.import_module(f"granum.{room}").__path__, f"granum.{room}.")
 )
