@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from granum import materials as m
+from granum.core import flags
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.sources import bibliography, keys_of
 
@@ -166,3 +167,12 @@ def test_usable_inside_jit() -> None:
     assert float(compiled) == pytest.approx(float(crystals(300.0, 0.6)), rel=1e-12)
     assert np.isfinite(float(jax.jit(jax.grad(crystals))(300.0, 0.6)))
     assert hash(m.solute("potassium nitrate")) == hash(m.solute("KNO3"))
+
+
+def test_solution_properties_are_flagged_beyond_the_data_of_their_coefficients() -> None:
+    # Laliberté 2009: density of potassium nitrate solutions 5 to 95 °C, up to 28.4 % by mass
+    system = m.solute("potassium nitrate")
+    for T, w, expected in ((298.15, 0.2, set()), (298.15, 0.4, {"solute_mass_fraction"}), (373.15, 0.2, {"temperature"})):
+        with flags.collect() as records:
+            system.density_law(T, w)
+        assert {row["name"] for row in flags.describe(records)} == expected

@@ -279,11 +279,11 @@ def _solute(key: str, _own: bool) -> SoluteSystem:
     dry = branches[-1].crystal
     density = viscosity = heat_capacity = None
     if entry.density:
-        density = LaliberteLaw(liquid_density_laliberte, tuple(entry.density))
+        density = LaliberteLaw(liquid_density_laliberte, tuple(entry.density), tuple(entry.density_limits or ()))
     if entry.viscosity:
-        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, tuple(entry.viscosity))
+        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, tuple(entry.viscosity), tuple(entry.viscosity_limits or ()))
     if entry.heat_capacity:
-        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, tuple(entry.heat_capacity))
+        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, tuple(entry.heat_capacity), tuple(entry.heat_capacity_limits or ()))
     if heat_capacity is None:
         parts = (solvent.liquid_heat_capacity, dry.heat_capacity)
         gap = next((part for part in parts if isinstance(part, Missing)), None)

@@ -100,6 +100,11 @@ class SoluteEntry(_Named):
     density: list[float] | None = Field(default=None, min_length=5, max_length=5)
     viscosity: list[float] | None = Field(default=None, min_length=6, max_length=6)
     heat_capacity: list[float] | None = Field(default=None, min_length=6, max_length=6)
+    density_limits: list[float] | None = Field(
+        default=None, min_length=3, max_length=3, description="K, K, largest mass fraction of solute"
+    )
+    viscosity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
+    heat_capacity_limits: list[float] | None = Field(default=None, min_length=3, max_length=3)
 
     @model_validator(mode="after")
     def _one_after_another(self) -> SoluteEntry:

@@ -13,6 +13,7 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core import flags
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError, unknown_name
 from granum.core.i18n import _, current_language
@@ -220,14 +221,25 @@ class SoluteSystem(eqx.Module):
         return _("solute {name} ({formula})").format(name=self.label, formula=self.formula)
 
 
+SLACK = 0.51  # K: the limits of the source are rounded
+
+
 class LaliberteLaw(eqx.Module):
-    """A solution property by one of Laliberté's models."""
+    """A solution property by one of Laliberté's models, flagged outside the data behind its coefficients."""
 
     form: Any = eqx.field(static=True)
     coefficients: tuple[float, ...] = eqx.field(static=True)
+    limits: tuple[float, ...] = eqx.field(static=True, default=())  # lowest and highest K, largest mass fraction
     is_missing = False
 
     def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
+        if self.limits:
+            cold, hot, most = self.limits
+            T, w = jnp.asarray(temperature), jnp.asarray(solute_mass_fraction)
+            key, source = self.form.card.key, self.form.source
+            outside = (cold - SLACK > T) | (hot + SLACK < T)
+            flags.record(flags.EXTRAPOLATED, outside & (w > 0), T, "temperature", key, cold, hot, source)
+            flags.record(flags.EXTRAPOLATED, w > most * (1.0 + 1e-3), w, "solute_mass_fraction", key, 0.0, most, source)
         return self.form(temperature, solute_mass_fraction, np.asarray(self.coefficients))
 
 
