@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import hashlib
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,14 @@ def note_step(step: Result) -> dict[str, Any]:
     }
 
 
+def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
+    """The steps of a note; one that was taken again with the same numbers stands once."""
+    found: dict[str, dict[str, Any]] = {}
+    for step in map(note_step, steps):
+        found.setdefault(str((step["key"], step["inputs"], step["outputs"])), step)
+    return list(found.values())
+
+
 def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
     report = run.units[name]
     checks = []
@@ -55,7 +64,7 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
         "parameters": [_row(p, value) for p, value in report.parameters()],
         "figures": [_row(p, value) for p, value in report.figures()],
         "checks": checks,
-        "steps": [note_step(s) for s in run.notes[name]],
+        "steps": note_steps(run.notes[name]),
     }
 
 

@@ -1,0 +1,53 @@
+"""The report of a line: findings first, every figure, each step of the note once, nothing fetched from outside, both languages."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from granum.cases import read
+from granum.core.i18n import language
+from granum.reports.html import line_report, note_steps
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+LINES = ("grinding-circuit/circuit.toml", "humid-air/line.toml", "filters/drum.toml")
+
+
+@pytest.fixture(scope="module", params=LINES)
+def run(request: pytest.FixtureRequest) -> Any:
+    return read(EXAMPLES / request.param).solve()
+
+
+def test_a_report_holds_everything_and_opens_anywhere(run: Any) -> None:
+    page = line_report(run)
+    for unit in run.sheet.order:
+        assert unit in page
+    for name in run.streams:
+        assert f">{name}<" in page
+    steps = [step for name in run.sheet.order for step in note_steps(run.notes[name])]
+    note = ("Calculation note",) if steps else ()
+    places = [page.index(f"<h2>{head}") for head in ("Findings", "Flow diagram", "Streams", *note, "Sources")]
+    assert ("<h2>Calculation note" in page) == bool(steps)
+    assert places == sorted(places)
+    outside = re.findall(r"""(?:src|href)=["'](?!data:|#)([^"']+)""", page.split("<script")[0] + page.rsplit("</script>", 1)[-1])
+    assert not outside
+    assert "@page" in page
+    assert all(step["source"] for step in steps), [s["key"] for s in steps if not s["source"]]
+
+
+def test_a_step_taken_again_stands_once(run: Any) -> None:
+    for name in run.sheet.order:
+        once = note_steps(run.notes[name])
+        assert note_steps([*run.notes[name], *run.notes[name]]) == once
+        assert {step["key"] for step in once} == {step.card.key for step in run.notes[name]}
+
+
+def test_a_report_in_french(run: Any) -> None:
+    with language("fr"):
+        page = line_report(run)
+    assert '<html lang="fr">' in page
+    for english in ("Findings", "Calculation note", "Flow diagram"):
+        assert f"<h2>{english}" not in page
