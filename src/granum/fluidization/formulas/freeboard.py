@@ -135,6 +135,8 @@ def elutriation_flux_wen_hashinger(
 ) -> MassFlux:
     """Elutriation rate constant of a size class by Wen and Hashinger, from 40 to 270 µm; none below the terminal velocity.
 
+    Reprints differ: 1.52e-5 for the constant in some.
+
     >>> elutriation_flux_wen_hashinger(superficial_velocity=0.2, terminal_velocity=0.3, particle_diameter="60 um", particle_density=1500,
     ...                                fluid_density=1.2, dynamic_viscosity=1.8e-5)
     0.0
