@@ -237,7 +237,9 @@ class Peeler(SetCake):
         void = void_flow(feed, self.solids_recovery, self.void_fraction)
         cake_flow = void / self.void_fraction
         filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + TRICKLE)
-        loading = loading_time_basket(radius_inner=self.radius_inner, cake_volume_per_filtrate=jnp.maximum(cake_flow / filtrate, THIN), **case)
+        loading = loading_time_basket(
+            radius_inner=self.radius_inner, cake_volume_per_filtrate=jnp.maximum(cake_flow / filtrate, THIN), **case
+        )
         washing_flow = filtrate_flow_basket(basket_height=self.basket_height, radius_inner=self.radius_inner, **case)
         washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
         falling = spin_off_time(radius_inner=self.radius_inner, **case)
