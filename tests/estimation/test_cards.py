@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from granum.cli import app
 from granum.core.errors import GranumError
-from granum.estimation import CardData, fit, next_experiment, optimal_design
+from granum.estimation import CardData, fit, fit_together, next_experiment, optimal_design
 
 # Richardson and Zaki: u = u_t (1 − c)^n; straight line in logarithms
 SLUDGE = """solids_volume_fraction [percent],hindered_velocity [mm/s]
@@ -91,6 +91,26 @@ def test_on_the_command_line(tmp_path) -> None:
     outcome = CliRunner().invoke(app, words)
     assert outcome.exit_code == 2
     assert "--estimate dynamic_viscosity" in outcome.stderr
+
+
+def test_sets_fitted_together_weigh_as_they_scatter() -> None:
+    """Two fluids, one unknown density of the grains: the estimate is the mean of the two, weighted by their inverse variances."""
+    rng = np.random.default_rng(5)
+    d = np.linspace(40e-6, 120e-6, 9)
+    sets = []
+    for viscosity, noise in ((1e-3, 2e-5), (4e-3, 5e-6)):
+        v = 9.80665 * 1650.0 * d**2 / (18 * viscosity) + noise * rng.standard_normal(9)
+        text = "particle_diameter [m],terminal_velocity [m/s]\n" + "\n".join(f"{a},{b}" for a, b in zip(d, v, strict=True))
+        sets.append(CardData.read("particles.terminal_velocity_stokes", io.StringIO(text), estimate=["particle_density"],
+                                  fixed={"fluid_density": 1000.0, "dynamic_viscosity": viscosity}))  # fmt: skip
+    one, two = (s.fit()["particle_density"] for s in sets)
+    weights = np.array([one.standard_error, two.standard_error]) ** -2.0
+    expected = (weights @ [one.value, two.value]) / weights.sum()
+    found = fit_together(sets)["particle_density"]
+    assert found.value == pytest.approx(expected, rel=1e-6)
+    assert found.standard_error == pytest.approx(weights.sum() ** -0.5, rel=0.05)  # the scatter is estimated again from all points
+    with pytest.raises(GranumError, match="same parameters"):
+        fit_together([])
 
 
 def test_box_and_lucas_design() -> None:

@@ -146,6 +146,19 @@ def test_cancel_keeps_what_is_done(monkeypatch) -> None:
     assert json.dumps(found.as_json(), allow_nan=False)
 
 
+def test_memory_bounds_the_chunk(monkeypatch) -> None:
+    """With little memory the chunks shrink; the figures stay."""
+    usual = studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=4096)
+    subject = studies.subject_of("particles.terminal_velocity", SLURRY)
+    wide = studies.engine.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
+    monkeypatch.setattr(studies.engine, "MEMORY", max(wide.compiled.memory_analysis().temp_size_in_bytes // 8, 1))
+    narrow = studies.engine.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
+    assert narrow.size <= wide.size // 4
+    assert narrow.compiled.memory_analysis().temp_size_in_bytes <= studies.engine.MEMORY
+    x = usual.cases.x[: narrow.size]
+    assert narrow(x)[0] == pytest.approx(wide(x)[0], rel=1e-12)
+
+
 def test_restart_from_disk(tmp_path, monkeypatch) -> None:
     monkeypatch.setitem(studies.engine.CHUNKS, "batched", 32)
     folder, seen = tmp_path / "parts", []

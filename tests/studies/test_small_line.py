@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +62,20 @@ def test_studies_declared_for_a_line(line) -> None:
     found = studies_of_line(line, table, doubt)["spread"].run()
     assert found.findings()["statistics"]["hot.mass_flow"]["mean"] == pytest.approx(np.log(1.5) / 0.1, rel=1e-3)  # mean of 1/s
     assert found.counts()["failed"] == 0
+
+
+def test_fingerprint_is_the_same_in_another_process_and_tells_models_apart(line) -> None:
+    """A stored study continues in another process, but never with another model."""
+    own = LineSubject.of(line).fingerprint()
+    text = f"import granum as gr; from granum.studies import LineSubject; print(LineSubject.of(gr.read({str(CASE)!r})).fingerprint())"
+    other = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout.strip()
+    assert other == own
+    assert LineSubject.of(line.with_values(**{"warm.temperature": 320.0})).fingerprint() != own
+    assert LineSubject.of(line).with_quantities({"q": "warm.heat_duty"}).fingerprint() != own
+    stokes, newton = (
+        studies.subject_of("particles.terminal_velocity", {"drag": law}).fingerprint() for law in ("stokes", "haider_levenspiel")
+    )
+    assert stokes != newton
 
 
 @pytest.mark.parametrize(

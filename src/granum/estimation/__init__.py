@@ -46,7 +46,7 @@ but a choice of the evaluation is a plain ``int`` or ``bool`` field with a defau
 
 from __future__ import annotations
 
-from granum.estimation.cards import CardData
+from granum.estimation.cards import CardData, fit_together
 from granum.estimation.design import NextExperiment, next_experiment, optimal_design
 from granum.estimation.lab_test import LabTest
 from granum.estimation.least_squares import fit
@@ -54,5 +54,5 @@ from granum.estimation.losses import Huber, LeastSquares, Loss, SoftL1
 from granum.estimation.results import Estimate, Fit
 from granum.estimation.tables import read_table
 
-__all__ = ["CardData", "Estimate", "Fit", "Huber", "LabTest", "LeastSquares", "Loss", "NextExperiment", "SoftL1", "fit", "next_experiment",
+__all__ = ["CardData", "Estimate", "Fit", "Huber", "LabTest", "LeastSquares", "Loss", "NextExperiment", "SoftL1", "fit", "fit_together", "next_experiment",
            "optimal_design", "read_table"]  # fmt: skip

@@ -181,6 +181,25 @@ class CardData:
         return drawing
 
 
+def fit_together(sets: Sequence[CardData], loss: Loss | None = None) -> Fit:
+    """One fit of the same parameters to several data sets, each with its own columns and fixed values.
+
+    Each set is weighted by the scatter it shows when it is fitted alone, so that sets of different sizes and precision count as they deserve.
+    """
+    if not sets or len({tuple(s.starts) for s in sets}) != 1:
+        raise InputError(_("Data sets are fitted together when all of them estimate the same parameters."))
+    alone = [s.fit(loss) for s in sets]
+    spreads = tuple(
+        max(f.statistics["residual_standard_deviation"], 1e-12 * float(np.max(np.abs(s.measured))))
+        for f, s in zip(alone, sets, strict=True)
+    )
+    start = {n: float(np.mean([f[n].value for f in alone])) for n in sets[0].starts}
+    kinds = {n: Annotated[Any, p.kind] for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
+    bounds = {n: (p.kind.lower, p.kind.upper) for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
+    return fit(lambda p, x: tuple(s.model(p, c) for s, c in zip(sets, x, strict=True)), start, tuple(s.columns for s in sets),
+               tuple(s.measured for s in sets), sigma=spreads, bounds=bounds, kinds=kinds, loss=loss, card=sets[0].thing.card.key)  # fmt: skip
+
+
 def inputs_of(thing: Any) -> dict[str, Parameter]:
     """Inputs of a formula; of a law its parameters and the arguments of its call."""
     found = {p.name: p for p in thing.card.parameters}

@@ -55,6 +55,9 @@ class LineSubject(Subject):
     def title(self) -> str:
         return self.name
 
+    def identity(self) -> str:
+        return f"{self.name} {self.targets}"
+
     @property
     def batched(self) -> bool:
         return False

@@ -14,6 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+import granum
 from granum.core import flags, registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
@@ -26,6 +27,7 @@ NOT_FINITE, OUTSIDE = 1000, 2000
 """Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result,
 from 2000 the input at fault."""
 
+_ADDRESS = re.compile(r"0x[0-9a-f]+")
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
 Traced = Callable[[Any, Any], tuple[Any, Any]]
 
@@ -95,13 +97,28 @@ class Subject(abc.ABC):
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         """Solves for given inputs: a function that looks up figures, and the code of the outcome. Pure."""
 
+    def identity(self) -> str:
+        """What tells the model from another one, apart from its numbers."""
+        return self.title
+
     def fingerprint(self) -> str:
-        """A digest of the model, so that a stored study is never continued with another one."""
-        leaves = jax.tree_util.tree_leaves(self.arrays())
-        text = self.title + "".join(f"{q.name}{q.fixed}{[(n, e.text) for n, e in q.inputs]}" for q in self.quantities.values())
-        digest = hashlib.sha256(text.encode())
+        """A digest of the model and the version, the same in every process, so that a stored study is never continued with another model."""
+        leaves, tree = jax.tree.flatten(self.arrays())
+        parts = [
+            granum.__version__,
+            self.identity(),
+            str(tree),
+            *(f"{q.name}{q.fixed}{[(n, e.text) for n, e in q.inputs]}" for q in self.quantities.values()),
+        ]
+        parts += [
+            getattr(leaf, "key", None) or getattr(leaf, "__qualname__", None) or type(leaf).__name__
+            for leaf in leaves
+            if not _is_number(leaf)
+        ]
+        digest = hashlib.sha256(_ADDRESS.sub("", "\n".join(parts)).encode())
         for leaf in leaves:
-            digest.update(np.asarray(leaf).tobytes() if isinstance(leaf, (np.ndarray, jax.Array, float, int)) else repr(leaf).encode())
+            if _is_number(leaf):
+                digest.update(np.asarray(leaf, dtype=float).tobytes())
         return digest.hexdigest()
 
     # -- common to all -----------------------------------------------------------------------------------------
@@ -235,6 +252,10 @@ class FormulaSubject(Subject):
     @property
     def title(self) -> str:
         return self.thing.card.title
+
+    def identity(self) -> str:
+        words = {n: v for n, v in self.fixed.items() if not hasattr(v, "dtype")}
+        return f"{self.thing.card.key} {sorted((n, str(v)) for n, v in words.items())}"
 
     @property
     def pure(self) -> bool:
