@@ -86,18 +86,20 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
 
 
 def docstring_values(card: Card) -> dict[str, Any]:
-    """Keyword arguments of the call in the docstring's example, as far as they are literals; empty when one is not."""
+    """Arguments of the call in the docstring's example, as far as they are literals; empty when one is not."""
     for item in doctest.DocTestParser().get_examples(card.doc):
         for node in ast.walk(ast.parse(item.source)):
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
                 and node.func.id == card.name
-                and node.keywords
-                and not node.args
+                and len(node.args) <= len(card.parameters)
             ):
+                words = [(p.name, arg) for p, arg in zip(card.parameters, node.args, strict=False)]
+                words += [(word.arg, word.value) for word in node.keywords if word.arg]
                 try:
-                    return {str(word.arg): ast.literal_eval(word.value) for word in node.keywords if word.arg}
+                    if words:
+                        return {name: ast.literal_eval(value) for name, value in words}
                 except ValueError:
                     break
     return {}

@@ -68,8 +68,8 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
         if (
             (p.law and not isinstance(value, (str, dict)))
             or (listed and (single or not value or not p.kind))
-            or (isinstance(value, dict) and not p.law)
-            or (isinstance(value, bool) and p.sort is not bool)
+            or (isinstance(value, dict) and not p.law and p.kind is None)
+            or (isinstance(value, bool) and p.sort is not bool and p.kind is None)
         ):
             raise InputError(_("'{name}' cannot take this value: {value}.").format(name=p.name, value=str(value)[:60]), name=p.name)
     return values
