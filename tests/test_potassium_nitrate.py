@@ -1,15 +1,12 @@
-"""The potassium nitrate line: converges, closes, agrees with hand calculations, and its gradient goes through the recycle."""
+"""The potassium nitrate line: converges, closes, agrees with hand calculations. Its derivatives: tests/studies/test_line_gradients.py."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import jax
-import numpy as np
 import pytest
 
 import granum as gr
-from granum.flowsheet import solve
 
 CASE = Path(__file__).parents[1] / "examples" / "potassium-nitrate" / "line.toml"
 
@@ -66,17 +63,3 @@ def test_figures_are_those_of_a_plant(run) -> None:
     assert run.figure("dryer.evaporation_rate") * 2.5e6 < run.figure("air_heater.heat_duty")
     assert -200e3 < run.figure("crystallizer.heat_duty") < -50e3
     assert all(check.ok for unit in run.units.values() for check in unit.checks)
-
-
-def test_gradient_of_production_to_crystallizer_temperature(run) -> None:
-    sheet = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, run.line.sheet)
-
-    def product(temperature):
-        return solve(sheet.with_values({"crystallizer.temperature": temperature})).streams["crystals"].solid_flow
-
-    compiled = jax.jit(product)
-    exact = float(jax.jit(jax.jacfwd(product))(301.15))
-    h = 2e-3
-    difference = float(compiled(301.15 + h) - compiled(301.15 - h)) / (2 * h)
-    assert exact == pytest.approx(difference, rel=1e-6)
-    assert exact < 0.0  # warmer mother liquor keeps more salt
