@@ -11,6 +11,7 @@ from granum.core import chart
 from granum.core.charts import ACCENT, CAUTION, GAS, INK, LIQUID, OUT, SOLID, add_label, add_line, add_points, axis_title, figure
 from granum.core.i18n import _
 from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series, Time, VolumeFlow
+from granum.core.units import format_number
 from granum.settling.column import Suspension
 from granum.settling.flux import settling_flux, state_point_clarifier
 from granum.settling.lab_tests.batch_test import BatchTest
@@ -33,18 +34,23 @@ def settling_curve_chart(
     if c.compression is not None:
         limits.append(((c.compression.time + lag) / MINUTE, _("C–D compression")))
     edges = [start for start, _name in limits] + [end]
+    row = 0
     for (start, name), stop, shade in zip(limits, edges[1:], ("white", LIQUID, ACCENT, SOLID), strict=False):
         if stop > start:
-            drawing.add_vrect(
-                x0=start, x1=stop, fillcolor=shade, opacity=0.07, line_width=0, annotation_text=name, annotation_position="top left"
+            drawing.add_vrect(x0=start, x1=stop, fillcolor=shade, opacity=0.07, line_width=0)
+            # One line below the other: short zones would write over each other.
+            drawing.add_annotation(
+                x=max(start, 0.12 * end), y=0.98 - 0.07 * row, yref="paper", text=name, showarrow=False, xanchor="left", yanchor="top"
             )
+            drawing.add_shape(type="line", x0=start, x1=start, y0=0.0, y1=1.0, yref="paper", line={"color": shade, "width": 1})
+            row += 1
     found = c.convex.tangents
-    chosen = np.unique(np.linspace(0, found.time.size - 1, min(5, found.time.size)).astype(int))
+    chosen = np.unique(np.linspace(0, found.time.size - 1, min(4, found.time.size)).astype(int))
     for i in chosen:
         cut, v = found.intercept_height[i], found.settling_velocity[i]
         stop = min(cut / v, c.time[-1])
         density = float(initial_concentration) * c.initial_height / cut
-        label = f"{density:.3g} g/L"
+        label = f"{format_number(density, 3)} g/L"
         add_line(drawing, [lag / MINUTE, (lag + stop) / MINUTE], [cut * CM, (cut - v * stop) * CM], _("tangent"), color=GAS, dash="dash", width=1,
                  showlegend=bool(i == chosen[0]))  # fmt: skip
         add_label(drawing, lag / MINUTE, cut * CM, label, color=GAS, xanchor="left", yanchor="bottom")
@@ -82,7 +88,7 @@ def flux_diagram(
         drawing,
         feed_concentration,
         over * feed_concentration * HOUR,
-        f"{verdict} ({state.loading_ratio:.2f})",
+        f"{verdict} ({format_number(float(state.loading_ratio), 2)})",
         xanchor="left",
         yanchor="bottom",
     )
@@ -107,17 +113,29 @@ def animated(times: np.ndarray, heights: np.ndarray, concentration: np.ndarray) 
     """Profiles over height, one frame a time, with a slider and a play button."""
     drawing = figure(axis_title("solids_concentration", "g/L"), axis_title("height", "m"), title=_("Concentration over depth and time"))
     add_line(drawing, concentration[0], heights, _("concentration"), color=SOLID)
+    drawing.update_traces(line={"simplify": False})  # every profile keeps its points, so that frames follow each other one to one
     names = [f"{t / MINUTE:.3g} min" for t in times]
     drawing.frames = [
-        go.Frame(data=[go.Scatter(x=row, y=heights, mode="lines", line={"color": SOLID, "width": 2})], name=name)
+        go.Frame(data=[go.Scatter(x=row, y=heights, mode="lines", line={"color": SOLID, "width": 2, "simplify": False})], name=name)
         for row, name in zip(concentration, names, strict=True)
     ]
+    still = {"duration": 0}  # profiles jump: a tween between two of them would be no profile
     steps = [
-        {"label": n, "method": "animate", "args": [[n], {"mode": "immediate", "frame": {"duration": 0, "redraw": False}}]} for n in names
+        {
+            "label": n,
+            "method": "animate",
+            "args": [[n], {"mode": "immediate", "frame": {"duration": 0, "redraw": False}, "transition": still}],
+        }
+        for n in names
     ]
-    play = {"label": "▶", "method": "animate", "args": [None, {"frame": {"duration": 120, "redraw": False}, "fromcurrent": True}]}
+    play = {
+        "label": "▶",
+        "method": "animate",
+        "args": [None, {"frame": {"duration": 120, "redraw": False}, "fromcurrent": True, "transition": still}],
+    }
     drawing.update_layout(
-        sliders=[{"steps": steps, "pad": {"t": 40}}], updatemenus=[{"type": "buttons", "buttons": [play], "x": 0, "y": 1.12}]
+        sliders=[{"steps": steps, "pad": {"t": 40}, "x": 0.1, "len": 0.9}],
+        updatemenus=[{"type": "buttons", "buttons": [play], "x": 0.0, "xanchor": "left", "y": 0.0, "yanchor": "top", "pad": {"t": 60}}],
     )
     drawing.update_xaxes(range=[0.0, 1.05 * float(concentration.max())])
     return drawing

@@ -78,9 +78,9 @@ class BatchKinetics(LabTest):
         if self.mean_diameter is not None:
             add_line(drawing, minutes, 1e6 * np.asarray(fitted[1]), _("size, model"), color=SOLID, yaxis="y2")
             add_points(drawing, minutes, 1e6 * np.asarray(self.mean_diameter), _("size, data"), color=SOLID, yaxis="y2")
+            right = {"overlaying": "y", "side": "right", "title": axis_title("mean_diameter_mass", "um"), "showgrid": False}
             drawing.update_layout(
-                yaxis2={"overlaying": "y", "side": "right", "title": axis_title("mean_diameter_mass", "um"), "showgrid": False},
-                margin={"r": 70},
+                yaxis2={**right, "tickmode": "auto", "nticks": 6}, margin={"r": 70, "t": 80}, legend={"orientation": "h", "y": 1.08}
             )
         return drawing
 
