@@ -34,6 +34,15 @@ def default_humidity(T_high: float) -> float:
     return 0.03 if t <= 60.0 else 0.03 + 8e-4 * (t - 55.0)
 
 
+def _window(low: float | None, high: float | None, usual: float, w_high: float | None, states: Any) -> tuple[float, float, float]:
+    """Coldest and hottest temperature and largest humidity: those given, or the usual ones widened so that every state is inside."""
+    T = [] if states is None else list(states[0])
+    low = min([263.15, *(5.0 * np.floor((t - 1.0) / 5.0) + 3.15 for t in T)]) if low is None else low
+    high = max([usual, *(5.0 * np.ceil((t + 1.85) / 5.0) + 3.15 for t in T)]) if high is None else high
+    top = w_high or max([default_humidity(high), *([] if states is None else 1.1 * states[1])])
+    return float(low), float(high), float(top)
+
+
 class _Sheet:
     """Draws isolines, labels and states on one of the two charts; ``place`` turns temperature and humidity into coordinates."""
 
@@ -175,8 +184,8 @@ def _families(sheet: _Sheet, wet_at: float, volume_at: float) -> None:
 
 @chart(source="ashrae2017, ch. 1", title="Psychrometric chart")
 def psychrometric_chart(
-    temperature_low: Temperature = 263.15,
-    temperature_high: Temperature = 323.15,
+    temperature_low: Temperature | None = None,
+    temperature_high: Temperature | None = None,
     humidity_ratio_high: HumidityRatio | None = None,
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
@@ -185,15 +194,16 @@ def psychrometric_chart(
 ) -> go.Figure:
     """Psychrometric chart of Carrier's type: humidity ratio over dry-bulb temperature, with the states of a process if given.
 
-    Lines of relative humidity, wet bulb, enthalpy and volume; the pointer shows the full state.
+    Lines of relative humidity, wet bulb, enthalpy and volume; the pointer shows the full state. Without limits the chart runs from −10 to
+    50 °C, or as far as the states need.
 
     >>> psychrometric_chart(temperature=["20 degC", "60 degC", "35 degC"], humidity_ratio=[0.008, 0.008, 0.018]).layout.xaxis.range
-    (-10.0, 50.0)
+    (-10.0, 65.0)
     """
     from granum.core.charts import axis_title
 
     states = _checked(temperature, humidity_ratio)
-    top = humidity_ratio_high or default_humidity(temperature_high)
+    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 323.15, humidity_ratio_high, states)
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     drawing, height, share = _frame(_("Psychrometric chart"), states, pair, pressure)
     x, y = (temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS), (0.0, 1e3 * top)
@@ -210,8 +220,8 @@ def psychrometric_chart(
 
 @chart(source="mollier1923; ramzin1927", title="Mollier–Ramzin chart")
 def mollier_chart(
-    temperature_low: Temperature = 263.15,
-    temperature_high: Temperature = 333.15,
+    temperature_low: Temperature | None = None,
+    temperature_high: Temperature | None = None,
     humidity_ratio_high: HumidityRatio | None = None,
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
@@ -228,7 +238,7 @@ def mollier_chart(
     from granum.core.charts import INK, axis_title
 
     states = _checked(temperature, humidity_ratio)
-    top = humidity_ratio_high or default_humidity(temperature_high)
+    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 333.15, humidity_ratio_high, states)
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     zero = (
         float(lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([1e-3]))[0] - lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([0.0]))[0])

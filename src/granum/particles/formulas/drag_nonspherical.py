@@ -72,7 +72,7 @@ def drag_coefficient_chien(reynolds: PositiveNumber, sphericity: Sphericity = 1.
 @formula(
     source="holzer2008, eq. 10",
     equation=r"C_D = \frac{8}{\mathrm{Re}}\frac{1}{\sqrt{\psi_\perp}} + \frac{16}{\mathrm{Re}}\frac{1}{\sqrt{\psi}}"
-    r" + \frac{3}{\sqrt{\mathrm{Re}}}\frac{1}{\psi^{3/4}} + 0.4210^{0.4(-\log_{10}\psi)^{0.2}}\frac{1}{\psi_\perp}",
+    r" + \frac{3}{\sqrt{\mathrm{Re}}}\frac{1}{\psi^{3/4}} + 0.42\cdot10^{0.4(-\log_{10}\psi)^{0.2}}\frac{1}{\psi_\perp}",
     fitted={"reynolds": (0.0, 1e5)},
     typical={"crosswise_sphericity": (0.5, 1.2)},
 )
