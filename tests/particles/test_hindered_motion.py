@@ -127,8 +127,12 @@ def test_slip_and_brownian_motion_of_hinds_tables():
     table = {1e-7: (2.93, 8.8e-7, 6.94e-10), 1e-6: (1.155, 3.48e-5, 2.74e-11), 1e-5: (1.015, 3.06e-3, 2.41e-12)}
     for d, (factor, velocity, diffusivity) in table.items():
         knudsen = 2 * 66e-9 / d
-        for slip_law in (slip.slip_factor_davies, slip.slip_factor_allen_raabe, slip.slip_factor_kim):
-            assert slip_law(knudsen) == pytest.approx(factor, rel=0.04)
+        # Hinds' own fit is 1 + (15.60 + 7.00 exp(−0.059 P d))/(P d), P in kPa and d in µm; Davies' constants are nearest to it
+        Pd = 101.3 * d * 1e6
+        assert factor == pytest.approx(1 + (15.60 + 7.00 * np.exp(-0.059 * Pd)) / Pd, rel=5e-3)
+        assert slip.slip_factor_davies(knudsen) == pytest.approx(factor, rel=0.02)
+        for slip_law in (slip.slip_factor_allen_raabe, slip.slip_factor_kim):  # other materials: 2.5 and 3.2 % less at 0.1 µm
+            assert slip_law(knudsen) == pytest.approx(factor, rel=0.035 if d < 5e-7 else 0.015)
         v = slip.terminal_velocity_slip(d, 1000.0, 1.2, 1.81e-5, 66e-9)
         assert v == pytest.approx(velocity, rel=0.03)
         assert slip.brownian_diffusivity(d, 293.15, 1.81e-5, slip.slip_factor_davies(knudsen)) == pytest.approx(diffusivity, rel=0.03)

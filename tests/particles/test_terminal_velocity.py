@@ -24,12 +24,21 @@ def test_command_of_the_issue():
 
 
 def test_water_drops_in_air_as_gunn_and_kinzer_measured():
-    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2: 20 °C, 1013 mbar; drops below 1 mm are nearly rigid spheres
-    d = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]) * 1e-3
-    measured = np.array([0.27, 0.72, 1.17, 1.62, 2.06, 2.47, 3.27, 4.03])
+    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2: 20 °C, 1013 mbar; drops below 1 mm are nearly rigid spheres. Their smallest
+    # drop (0.1 mm, 0.27 m/s) is left out: 8 % faster than any sphere, against the later measurements of Beard and Pruppacher below.
+    d = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]) * 1e-3
+    measured = np.array([0.72, 1.17, 1.62, 2.06, 2.47, 3.27, 4.03])
     v = terminal_velocity(particle_diameter=d, particle_density=998.2, fluid_density=1.204, dynamic_viscosity=1.816e-5)
-    np.testing.assert_allclose(v, measured, rtol=0.09)
-    assert np.mean(abs(v / measured - 1)) < 0.04
+    np.testing.assert_allclose(v[:-1], measured[:-1], rtol=0.025)  # last digit 1.4 % at 0.2 mm
+    np.testing.assert_allclose(v[-1], measured[-1], rtol=0.04)  # flattening begins
+
+
+def test_small_drops_in_air_as_beard_and_pruppacher_measured():
+    # J. Atmospheric Sciences 26 (1969) 1066: drag of water drops at terminal fall in a wind tunnel, three pieces
+    Re = np.geomspace(0.21, 199.0, 25)
+    pieces = np.where(Re < 2, 1 + 0.102 * Re**0.955, np.where(Re < 21, 1 + 0.115 * Re**0.802, 1 + 0.189 * Re**0.632))
+    found = np.asarray(drag_modern.drag_coefficient_brown_lawler(Re))
+    np.testing.assert_allclose(found, 24 / Re * pieces, rtol=0.055)  # the pieces themselves jump by 2 % where they meet
 
 
 def test_coulson_and_richardson_steel_ball_in_oil():
