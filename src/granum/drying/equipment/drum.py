@@ -9,6 +9,8 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -24,6 +26,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )  # fmt: skip
+from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
 from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
@@ -103,7 +106,41 @@ class DrumDryer(Unit):
         X2 = moisture_dry_basis_after(X1, jnp.maximum(contact - heating, 0.0), N, load, self.critical_moisture, self.equilibrium_moisture)
         dryness = jnp.clip((self.critical_moisture - X2) / self.critical_moisture, 0.0, 1.0)
         T2 = boiling + dryness * (wall - boiling)
-        return {"boiling": boiling, "wall": wall, "area": area, "load": load, "contact": contact, "N": N, "X2": X2, "T2": T2}
+        return {
+            "boiling": boiling,
+            "wall": wall,
+            "area": area,
+            "load": load,
+            "contact": contact,
+            "N": N,
+            "X2": X2,
+            "T2": T2,
+            "heating": heating,
+            "turn": turn,
+        }
+
+    @classmethod
+    def size(cls, moisture_outlet: Any, feed: Stream, diameter: Any, rotation_speed: Any, pressure_steam: Any, **more: Any) -> DrumDryer:
+        """The width of a drum of given diameter that a product moisture needs: warming, constant and falling rate, each in closed form."""
+        first = cls(diameter, 1.0, rotation_speed, pressure_steam, **more)
+        film = first._film(feed)
+        X1, Xc, Xe = safe_divide(feed.liquid[0], feed.solid_flow), first.critical_moisture, first.equilibrium_moisture
+        if not Xe < float(moisture_outlet) < float(X1):
+            raise InputError(
+                _("A drum dries to a moisture between equilibrium ({low} kg/kg) and the feed ({high} kg/kg), not to {value}.").format(
+                    low=format_number(Xe, 3), high=format_number(float(X1), 3), value=format_number(float(moisture_outlet), 3)
+                ),
+                name="moisture_outlet",
+            )
+        upper = jnp.minimum(X1, Xc)
+        ways = jnp.maximum(X1 - jnp.maximum(Xc, moisture_outlet), 0.0)
+        ways = ways + jnp.where(
+            moisture_outlet < upper, (upper - Xe) * jnp.log((upper - Xe) / (jnp.minimum(moisture_outlet, upper) - Xe)), 0.0
+        )
+        # time on the drum is turn · wrapped fraction; warming and drying both take turn/area times a number
+        per_area = film["heating"] * film["area"] / film["turn"] + feed.solid_flow * ways / film["N"]
+        area = per_area / first.wrapped_fraction
+        return cls(diameter, float(area / (jnp.pi * first.diameter)), rotation_speed, pressure_steam, **more)
 
     def __call__(self, feed: Stream) -> ContactDried:
         film = self._film(feed)

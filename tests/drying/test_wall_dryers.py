@@ -1,0 +1,158 @@
+"""Tray, drum and paddle dryers: textbook examples, the course notes' tables, closed forms and independent integrations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.special import erf
+
+import granum as gr
+from granum.core.errors import InputError
+from granum.drying.formulas import assisted
+from granum.drying.formulas import contact_drying as c
+from granum.humid_gas import state
+from granum.streams.audit import closure
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "dryers"
+
+
+def inlets_of(line):
+    return {target.split(".")[1]: line.sheet.feeds[name] for name, target in ((n, t.to) for n, t in line.case.feeds.items())}
+
+
+def test_tray_of_the_textbook():
+    """Dutta's example: 43.3 W/(m² K), 41.5 °C, 1.412 g/(m² s); 1.10 h and 2.63 h to 0.005 from 0.28 with 35 kg/m²."""
+    run = gr.read(EXAMPLES / "tray.toml").solve()
+    assert run.figure("oven.heat_transfer_coefficient") == pytest.approx(43.3, rel=0.005)
+    assert run.figure("oven.surface_temperature") - 273.15 == pytest.approx(41.5, abs=0.4)
+    assert run.figure("oven.drying_rate_constant") == pytest.approx(1.412e-3, rel=0.02)
+    hours = 35 / 1.412e-3 * (0.16 + 0.12 * np.log(0.12 / 0.005)) / 3600
+    assert run.figure("oven.drying_time") / 3600 == pytest.approx(hours, rel=0.02)
+    assert run.audit["mass_closure"] < 1e-12
+    assert run.audit["energy_closure"] < 1e-9
+    assert all(check.ok for check in run.units["oven"].checks)
+
+
+def test_tray_reports_what_cannot_be():
+    line = gr.read(EXAMPLES / "tray.toml")
+    wet = line.with_values(**{"oven.equilibrium_moisture": 0.01, "oven.temperature_limit": 350.0})
+    unit, inlets = wet.sheet.units["oven"], inlets_of(line)
+    failed = [k.name for k in unit.checks(inlets, unit(**inlets)) if not k.ok]
+    assert "moisture of the product above equilibrium with the hot air" in failed
+    damp = line.with_values(**{"oven.radiated_heat": 2000.0}).sheet.units["oven"]
+    assert float(damp.results(inlets, damp(**inlets)).drying_time) < 3.3 * 3600
+
+
+def test_gas_along_a_tray():
+    """A tutorial of the University of Glasgow: 90 °C and 10 %, 0.3 kg/s on 0.5 m, 200 W/(m² K), 60 °C at the end: 3.59 m."""
+    air = state(temperature=363.15, relative_humidity=0.1)
+    heat = 1005 + 1884 * air.humidity_ratio
+    length = brentq(lambda L: c.temperature_outlet_tray(363.15, air.wet_bulb_temperature, 200.0, 6.0, L, 0.1, heat) - 333.15, 0.1, 20.0)
+    assert length == pytest.approx(3.59, rel=0.025)
+
+
+def test_infrared_warms_the_surface():
+    plain, help_ = (assisted.drying_rate_assisted(353.15, 0.01, 30.0, q) for q in (0.0, 3000.0))
+    wet = state(temperature=353.15, humidity_ratio=0.01).wet_bulb_temperature
+    assert plain.surface_temperature == pytest.approx(wet, abs=0.5)
+    assert help_.surface_temperature > plain.surface_temperature + 5
+    # the heat taken up is the heat of vaporization
+    latent = (30.0 * (353.15 - help_.surface_temperature) + 3000.0) / help_.drying_rate_constant
+    assert latent == pytest.approx(2501e3 - 2361 * (help_.surface_temperature - 273.15), rel=5e-3)
+    radiator = assisted.drying_rate_assisted(353.15, 0.01, 30.0, 0.0, 600.0, 0.8)
+    assert radiator.drying_rate_constant > plain.drying_rate_constant
+    assert assisted.radiated_heat_microwave(1000.0, 0.5, 1.0, 0.01, 0.6) == pytest.approx(1200.0)
+
+
+def test_penetration_is_stefans_problem_without_wall_resistance():
+    """Neumann's solution of freezing, one phase: √π ζ e^{ζ²} erf ζ = c ΔT/(X L)."""
+    for X in (0.02, 0.1, 0.5):
+        stefan = 1000 * 60.0 / (X * 2.4e6)
+        z = brentq(lambda z, s=stefan: np.sqrt(np.pi) * z * np.exp(z * z) * erf(z) - s, 1e-6, 5.0)
+        found = c.penetration_drying(X, 390.0, 330.0, 1e9, 100.0)
+        assert found.front_position == pytest.approx(z, rel=1e-5)
+        assert found.heat_transfer_coefficient == pytest.approx(100.0 / erf(z), rel=1e-5)
+        assert found.latent_share == pytest.approx(np.exp(-z * z), rel=1e-5)
+
+
+def test_penetration_between_its_limits():
+    wet, dry = c.penetration_drying(1e4, 390.0, 330.0, 400.0, 80.0), c.penetration_drying(1e-6, 390.0, 330.0, 400.0, 80.0)
+    assert wet.heat_transfer_coefficient == pytest.approx(400.0, rel=1e-3)
+    assert dry.heat_transfer_coefficient == pytest.approx(1 / (1 / 400 + 1 / 80), rel=1e-3)
+    flux = [float(c.penetration_drying(X, 390.0, 330.0, 400.0, 80.0).drying_flux) for X in (0.02, 0.05, 0.1, 0.2, 0.4)]
+    assert np.all(np.diff(flux) > 0)
+    assert c.penetration_drying(0.2, 330.0, 330.0, 400.0, 80.0).drying_flux == pytest.approx(0.0, abs=1e-12)
+
+
+def test_wall_coefficient_falls_with_vacuum_and_size():
+    at = [c.heat_transfer_coefficient_wall_particles(1e-3, 350.0, P) for P in (1e5, 1e4, 1e3)]
+    assert at[0] > at[1] > at[2] > 100
+    assert c.heat_transfer_coefficient_wall_particles(2e-4, 350.0, 1e5) > at[0]
+
+
+def test_paddle_dryer_has_the_capacity_of_the_notes():
+    """Tables IV.21 and IV.22: sludge from 70 to 3.2 % with steam at 120 to 130 °C, 10 to 15 kg/(m² h), 10 min to 10 h."""
+    line = gr.read(EXAMPLES / "paddle.toml")
+    run = line.solve()
+    assert 10.0 <= run.figure("dryer.evaporation_per_area") * 3600 <= 15.0
+    assert 600 <= run.figure("dryer.residence_time") <= 36000
+    assert run.figure("dryer.temperature_product") < 403.15
+    assert run.figure("dryer.energy_per_water") == pytest.approx(2.65e6, rel=0.02)  # boiling dryers 2400 to 3300 kJ/kg (table III.2)
+    assert run.audit["mass_closure"] < 1e-12
+    assert run.audit["energy_closure"] < 1e-9
+    assert all(check.ok for check in run.units["dryer"].checks)
+    vacuum = line.with_values(**{"dryer.pressure": 1e4, "dryer.wall_temperature": 373.15}).solve()
+    assert vacuum.figure("dryer.temperature_product") < 350.0
+    assert vacuum.figure("dryer.boiling_temperature") - 273.15 == pytest.approx(45.8, abs=0.1)  # steam tables at 0.1 bar
+
+
+def test_paddle_curve_conserves_heat():
+    """Heat through the wall, integrated over the way, is what vapor and bed took up."""
+    line = gr.read(EXAMPLES / "paddle.toml")
+    unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
+    bed = unit.curve(feed)
+    X, T = np.asarray(bed.moisture), np.asarray(bed.temperature)
+    boiling, wall, coefficient, capacity = (float(x) for x in unit._heat(feed))
+    heat = []
+    for x, t in zip(X, T, strict=True):
+        p = c.penetration_drying(float(x), 403.15, float(t), wall, coefficient, capacity, 2256.5e3)
+        heat.append(float(p.heat_transfer_coefficient) * (403.15 - t))
+    through = np.trapezoid(heat, np.asarray(bed.time)) / 40.0
+    water = X[0] - X[-1]
+    sensible = capacity * (T[-1] - T[0]) + 4187.0 * np.trapezoid(X, T)
+    assert through == pytest.approx(2256.5e3 * water + sensible, rel=5e-3)
+    assert T[0] == pytest.approx(boiling)
+
+
+def test_drum_dryer_of_the_notes():
+    """Tables IV.3 and IV.4: potato flakes from 80 to about 5 %, 100 to 180 °C, 3 to 30 s, 15 to 40 kg/(m² h); 1.1 to 1.6 kg of steam."""
+    line = gr.read(EXAMPLES / "drum.toml")
+    run = line.solve()
+    moisture = run.figure("drum.moisture_dry_basis")
+    assert moisture / (1 + moisture) == pytest.approx(0.05, abs=0.015)
+    assert 15 <= run.figure("drum.evaporation_per_area") * 3600 <= 40
+    assert 3 <= run.figure("drum.contact_time") <= 30
+    assert run.figure("drum.wall_temperature") - 273.15 == pytest.approx(151.8, abs=0.1)  # steam tables at 5 bar
+    assert 1.1 <= run.figure("drum.steam_per_water") <= 1.6
+    assert run.figure("drum.drying_flux") == pytest.approx(780 * (151.84 - 99.97) / 2256.5e3, rel=2e-3)
+    assert run.audit["mass_closure"] < 1e-12
+    assert run.audit["energy_closure"] < 1e-9
+    colder = line.with_values(**{"drum.pressure_steam": 4e5}).solve()
+    assert colder.figure("drum.moisture_dry_basis") > moisture
+    unit, feed = line.sheet.units["drum"], line.sheet.feeds["mash"]
+    out = unit(feed)
+    assert float(closure((feed,), (out.product, out.vapor), out.heat_duty).energy) < 1e-12
+
+
+def test_drum_sized_and_run_meet():
+    line = gr.read(EXAMPLES / "drum.toml")
+    unit, feed = line.sheet.units["drum"], line.sheet.feeds["mash"]
+    more = {"heat_transfer_coefficient": 780.0, "critical_moisture": 0.5}
+    for moisture in (0.05, 0.2, 0.5, 1.5):
+        sized = type(unit).size(moisture, feed, 1.0, 0.35, 5e5, **more)
+        assert float(sized.results({"feed": feed}, sized(feed)).moisture_dry_basis) == pytest.approx(moisture, rel=1e-9)
+    with pytest.raises(InputError, match="not to 5"):
+        type(unit).size(5.0, feed, 1.0, 0.35, 5e5, **more)
