@@ -204,7 +204,7 @@ def study(case: CaseFile, names: Annotated[list[str] | None, typer.Argument(help
         target = out if out is None or len(picked) == 1 else out.with_stem(f"{out.stem}-{one.name}")
         parts = None if target is None or not one.kept_in_parts else target.with_name(target.name + ".parts")
         with advancing(one.title, quiet=as_json) as progress:
-            outcome = one.run(progress=progress, folder=parts, workers=workers)
+            outcome = one.run(progress=progress, folder=parts, workers=workers if one.kept_in_parts or len(picked) == 1 else None)
         if target is not None:
             outcome.save(target)
             saved.append(target)

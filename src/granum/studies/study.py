@@ -127,6 +127,8 @@ class Study:
         options = {"title": self.title, **self.options}
         if known.uncertain:
             options["uncertain"] = self.uncertain
+        if workers is not None and not known.chunks:
+            raise InputError(_("A {kind} study has no '{key}'.").format(kind=self.kind, key="workers"), name="workers")
         if known.chunks:
             options |= {"folder": folder, "workers": workers}
         try:

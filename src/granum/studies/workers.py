@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import lru_cache
@@ -65,7 +66,9 @@ def _connect(distributed: Any, workers: Any, stack: ExitStack) -> Any:
         if int(text) < 1:
             raise InputError(_("'workers' must be at least 1."))
         try:
-            cluster = distributed.LocalCluster(n_workers=int(text), threads_per_worker=1, processes=True, dashboard_address=None)
+            cluster = distributed.LocalCluster(
+                n_workers=int(text), threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=logging.ERROR
+            )
         except RuntimeError as problem:
             raise InputError(
                 _(
