@@ -253,9 +253,12 @@ def _run(
     suspension: Suspension, depth: Any, initial: Any, operation: Operation, feed_depth: Any, steps: Steps | None, cone: Cone | None
 ) -> Simulation:
     cells = initial.shape[0]
-    wide, areas = (1.0, jnp.ones(cells)) if cone is None else cone.areas(cells)
-    inner_wide = 1.0 if cone is None else wide[1:-1]
-    roomy = 1.0 if cone is None else jnp.pad(areas, 1, constant_values=1.0)
+    wide: Any
+    inner_wide: Any
+    wide, inner_wide, areas, roomy = 1.0, 1.0, jnp.ones(cells), 1.0
+    if cone is not None:
+        wide, areas = cone.areas(cells)
+        inner_wide, roomy = wide[1:-1], jnp.pad(areas, 1, constant_values=1.0)
     size = depth / cells
     feed_cell = jnp.clip(jnp.floor(jnp.asarray(feed_depth) * cells), 0, cells - 1) + 1
     index, face = jnp.arange(cells + 2), jnp.arange(cells + 1)

@@ -231,7 +231,7 @@ class BatchCrystallizer(_Batch):
         *figures, _course, found = self._figures(inlets["feed"], outlets.product)
         cycle = self.duration + self.dead_time
         seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
-        return BatchFigures(*figures, seed, outlets.product.slurry_volume_flow * cycle, outlets.heat_duty)
+        return BatchFigures._make((*figures, seed, outlets.product.slurry_volume_flow * cycle, outlets.heat_duty))
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
         return self._usual_checks(self.results(inlets, outlets), outlets.product)
@@ -283,7 +283,7 @@ class JacketedBatchCrystallizer(_Batch):
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
         count = feed.slurry_volume_flow * (self.duration + self.dead_time) / self.volume
         seed = self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.volume / feed.slurry_volume_flow
-        return JacketedBatchFigures(*figures, seed, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
+        return JacketedBatchFigures._make((*figures, seed, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty))
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
         figures = self.results(inlets, outlets)
@@ -340,7 +340,7 @@ class VacuumBatchCrystallizer(_Batch):
         seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
         fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * cycle  # after the first flash
         gone = course.solvent[0] - course.solvent[-1]
-        return VacuumBatchFigures(*figures, seed, outlets.product.slurry_volume_flow * cycle, gone, fastest)
+        return VacuumBatchFigures._make((*figures, seed, outlets.product.slurry_volume_flow * cycle, gone, fastest))
 
     def checks(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> tuple[Check, ...]:
         return self._usual_checks(self.results(inlets, outlets), outlets.product)
@@ -379,7 +379,7 @@ class PlugFlowCrystallizer(_Batch):
 
     def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> PlugFlowFigures:
         *figures, _course, _found = self._figures(inlets["feed"], outlets.product)
-        return PlugFlowFigures(*figures, self._time(inlets["feed"]), outlets.heat_duty)
+        return PlugFlowFigures._make((*figures, self._time(inlets["feed"]), outlets.heat_duty))
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
         return self._usual_checks(self.results(inlets, outlets), outlets.product)

@@ -361,4 +361,5 @@ def _rebuilt(seeds: Seeds, path: Any, born: Any, model: Model) -> Packets:
         return Packets(low + since, high + until, number)
     shares, factors = model.dispersion.factors()
     rows = [(low + f * since, high + f * until, share * number) for share, f in zip(shares, factors, strict=True)]
-    return Packets(*(jnp.concatenate(parts) for parts in zip(*rows, strict=True)))
+    lows, highs, numbers = (jnp.concatenate(parts) for parts in zip(*rows, strict=True))
+    return Packets(lows, highs, numbers)

@@ -192,7 +192,7 @@ def march_cascade(
     begin = [row(stage, T, times[0]) for stage, T in zip(first, temperatures, strict=True)]
     _last, (later, outflows) = lax.scan(advance, first, (times[:-1], times[1:]))
     joined = [jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), a, b) for a, b in zip(begin, later, strict=True)]
-    return tuple(StageCourse(*rows, out) for rows, out in zip(joined, outflows, strict=True))
+    return tuple(StageCourse._make((*rows, out)) for rows, out in zip(joined, outflows, strict=True))
 
 
 def _with_values(population: Population, values: Any) -> Population:
