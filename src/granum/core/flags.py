@@ -17,6 +17,7 @@ import jax.extend
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.errors import InputError
 from granum.core.i18n import _
 
 EXTRAPOLATED, OUTSIDE_DOMAIN, NOT_FINITE, NOT_CONVERGED, LIMIT_ACTIVE = 1, 2, 4, 8, 16
@@ -163,16 +164,16 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
 def sentence(row: dict[str, Any]) -> str:
     """One readable line for a flag."""
     from granum.core.glossary import quantity_in, term
-    from granum.core.units import format_number
 
     word = quantity_in(row["name"])
     name = term(word).label if word else row["name"]
-    value = "" if row["worst"] is None else f" = {format_number(row['worst'])}"
+    shown, unit = _units_of(row)
+    value = "" if row["worst"] is None else f" = {shown(row['worst'])}{unit}"
     span = ""
     if row["low"] is not None or row["high"] is not None:
-        low = "−∞" if row["low"] is None else format_number(row["low"])
-        high = "∞" if row["high"] is None else format_number(row["high"])
-        span = f" [{low} … {high}]"
+        low = "−∞" if row["low"] is None else shown(row["low"])
+        high = "∞" if row["high"] is None else shown(row["high"])
+        span = f" [{low} … {high}{unit}]"
     templates = {
         "extrapolated": _("{name}{value} is outside the range the source covers{span} in {card}: extrapolated."),
         "outside domain": _("{name}{value} is outside what is possible{span} in {card}: no value."),
@@ -181,3 +182,19 @@ def sentence(row: dict[str, Any]) -> str:
         "limit active": _("{name}{value}: a limit of {card} is active."),
     }
     return templates[row["flag"]].format(name=name, value=value, span=span, card=row["card"])
+
+
+def _units_of(row: dict[str, Any]) -> tuple[Any, str]:
+    """How to print the numbers of a flag, and their unit: those of the card's parameter where the flag is about one."""
+    from granum.core.registry import find
+    from granum.core.units import best_unit, format_number, from_si, pretty_unit
+
+    try:
+        parameter = find(row["card"]).card.parameter(row["name"])
+    except (InputError, StopIteration):  # a number computed inside the body, or a card that is not registered
+        return format_number, ""
+    if parameter.kind is None:
+        return format_number, ""
+    numbers = [row[end] for end in ("worst", "low", "high") if row[end] is not None and np.isfinite(row[end])]
+    unit = best_unit(max(map(abs, numbers), default=0.0), parameter.kind)
+    return lambda value: format_number(float(from_si(value, unit, parameter.kind))), f" {pretty_unit(unit)}" if pretty_unit(unit) else ""
