@@ -33,6 +33,19 @@ def test_purchase_from_the_printed_coefficients(call, logarithm: float, factor: 
     assert found.bare_module_cost == pytest.approx(factor * 10.0**logarithm, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("call", "logarithm"),
+    [
+        (lambda: costs.purchased_cost_evaporator(area=100.0, evaporator="falling_film_evaporator"), 3.9119 + 2 * 0.8627 - 4 * 0.0088),
+        (lambda: costs.purchased_cost_fan(volume_flow="10 m3/s", fan="backward_curved_fan"), 3.3471 - 0.0734 + 0.3090),
+        (lambda: costs.purchased_cost_pump(power="100 kW"), 3.3892 + 2 * 0.0536 + 4 * 0.1538),
+        (lambda: costs.equipment_cost_mixer(power="10 kW").purchased_cost, 3.8511 + 0.7009 - 0.0003),
+    ],
+)
+def test_machines_from_the_printed_coefficients(call, logarithm: float) -> None:
+    assert call() == pytest.approx(10.0**logarithm, rel=1e-12)
+
+
 def test_sizes_outside_the_table_are_flagged() -> None:
     inside = costs.equipment_cost_by_area.evaluate(area=50.0)
     outside = costs.equipment_cost_by_area.evaluate(area=500.0)
@@ -45,7 +58,9 @@ def test_every_row_belongs_to_a_formula_and_costs_more_when_larger() -> None:
     choices = {
         c
         for card, name in (("equipment_cost_by_area", "equipment_by_area"), ("equipment_cost_by_volume", "equipment_by_volume"),
-                           ("equipment_cost_by_diameter", "centrifuge"), ("purchased_cost_exchanger", "exchanger"))
+                           ("equipment_cost_by_diameter", "centrifuge"), ("purchased_cost_exchanger", "exchanger"),
+                           ("purchased_cost_evaporator", "evaporator"), ("purchased_cost_fan", "fan"), ("purchased_cost_pump", "pump"),
+                           ("equipment_cost_mixer", "mixer"))
         for c in getattr(costs, card).card.parameter(name).choices
     }  # fmt: skip
     assert choices == set(correlations())

@@ -7,11 +7,12 @@ from typing import Any, Literal, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import flags, formula
-from granum.core.kinds import Area, Cost, Length, PositiveNumber, Ratio, Volume
+from granum.core.kinds import Area, Cost, Length, PositiveNumber, Power, Ratio, Volume, VolumeFlow
 from granum.costs.tables import correlations
 
 BASE_INDEX = 397.0
 """Plant cost index of the correlations: mid 2001."""
+KILOWATT = 1e3
 
 
 class EquipmentCost(NamedTuple):
@@ -21,19 +22,12 @@ class EquipmentCost(NamedTuple):
     bare_module_cost: Cost
 
 
-def _cost(equipment: str, size: Any, name: str, card: str, cost_index: Any) -> EquipmentCost:
+def _cost(equipment: str, value: Any, name: str, card: str, cost_index: Any, unit: float = 1.0) -> EquipmentCost:
+    """``unit``: SI units in the unit of the table."""
     row = correlations()[equipment]
-    flags.record(
-        flags.EXTRAPOLATED,
-        (size < row.smallest) | (size > row.largest),
-        size,
-        name,
-        card,
-        row.smallest,
-        row.largest,
-        "turton2018, table A.1",
-    )
-    decades = jnp.log10(size)
+    low, high = row.smallest * unit, row.largest * unit
+    flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, name, card, low, high, "turton2018, table A.1")
+    decades = jnp.log10(value / unit)
     bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX
     return EquipmentCost(bought, bought * row.bare_module_factor)
 
@@ -127,6 +121,73 @@ def equipment_cost_by_diameter(
     93300.0
     """
     return _cost(centrifuge, diameter, "diameter", "costs.equipment_cost_by_diameter", cost_index)
+
+
+@formula(source="turton2018, eq. A.1, table A.1", title="Cost of an evaporator", typical={"area": (110.0, 450.0)},
+         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2")  # fmt: skip
+def purchased_cost_evaporator(
+    area: Area,
+    evaporator: Literal[
+        "forced_circulation_evaporator", "falling_film_evaporator", "agitated_film_evaporator", "long_tube_evaporator"
+    ] = "forced_circulation_evaporator",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> Cost:
+    """Purchased cost of an evaporator from its heating area.
+
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(purchased_cost_evaporator(area=10.0, evaporator="forced_circulation_evaporator"), -3)
+    276000.0
+    """
+    return _cost(evaporator, area, "area", "costs.purchased_cost_evaporator", cost_index).purchased_cost
+
+
+@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a fan", typical={"volume_flow": (5.0, 80.0)},
+         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} \dot V + K_3 (\log_{10} \dot V)^2")  # fmt: skip
+def purchased_cost_fan(
+    volume_flow: VolumeFlow,
+    fan: Literal["radial_fan", "backward_curved_fan", "axial_vane_fan"] = "radial_fan",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> Cost:
+    """Purchased cost of a fan from the volume flow of gas.
+
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(purchased_cost_fan(volume_flow=10.0, fan="radial_fan"), -2)
+    4300.0
+    """
+    return _cost(fan, volume_flow, "volume_flow", "costs.purchased_cost_fan", cost_index).purchased_cost
+
+
+@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a pump", typical={"power": (2e3, 9e4)},
+         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} P + K_3 (\log_{10} P)^2")  # fmt: skip
+def purchased_cost_pump(
+    power: Power,
+    pump: Literal["centrifugal_pump", "positive_displacement_pump"] = "centrifugal_pump",
+    cost_index: PositiveNumber = BASE_INDEX,
+) -> Cost:
+    """Purchased cost of a pump with drive from its shaft power.
+
+    Cast iron, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(purchased_cost_pump(power="10 kW", pump="centrifugal_pump"), -1)
+    3950.0
+    """
+    return _cost(pump, power, "power", "costs.purchased_cost_pump", cost_index, KILOWATT).purchased_cost
+
+
+@formula(source="turton2018, eq. A.1, tables A.1 and A.7", title="Cost of a mixer", typical={"power": (6e3, 1.4e5)}, equation=_EQUATION)
+def equipment_cost_mixer(
+    power: Power, mixer: Literal["impeller_mixer", "turbine_mixer"] = "impeller_mixer", cost_index: PositiveNumber = BASE_INDEX
+) -> EquipmentCost:
+    """Purchased and installed cost of a stirrer with drive from its power.
+
+    Carbon steel, US dollars of the year of the plant cost index given (397: mid 2001).
+
+    >>> round(equipment_cost_mixer(power="10 kW", mixer="impeller_mixer").purchased_cost, -2)
+    35600.0
+    """
+    return _cost(mixer, power, "power", "costs.equipment_cost_mixer", cost_index, KILOWATT)
 
 
 @formula(source="williams1947", equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}", title="Cost of a larger or smaller piece of the same kind",
