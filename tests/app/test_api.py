@@ -222,7 +222,11 @@ def test_charts_are_plotly_json(client: httpx.Client) -> None:
 
 
 def test_every_selection_guide_answers_its_own_example(client: httpx.Client) -> None:
-    guides = [c["card"] for c in client.get("/api/cards?sort=procedure").json()["cards"] if c["card"].split(".")[1].startswith("choose")]
+    guides = [
+        c["card"]
+        for c in client.get("/api/cards?sort=procedure").json()["cards"]
+        if c["card"].split(".")[1].startswith("choose") or c["card"].endswith("_choice")
+    ]
     assert guides
     for guide in guides:
         form = client.get(f"/api/cards/{guide}").json()

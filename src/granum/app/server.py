@@ -227,8 +227,9 @@ def _no_progress(_share: float) -> None:
 
 
 def _structure(case: str) -> str:
-    """Cases of the same title go to the process that has compiled it."""
-    return next((line for line in case.splitlines() if line.startswith("title")), "")[:200]
+    """The title of a case: cases of the same title go to the process that has compiled it."""
+    found = next((line for line in case.splitlines() if line.startswith("title")), "")
+    return found.partition("=")[2].strip().strip("\"'")[:200]
 
 
 def _files(app: FastAPI, workspace: Path | None) -> None:
@@ -266,7 +267,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
     @app.get("/api/examples")
     async def examples() -> Response:
         """Case files shipped with the package."""
-        return Answer({"files": sorted(_examples())})
+        return Answer(
+            {"files": sorted(_examples()), "titles": {name: _structure(p.read_text(encoding="utf-8")) for name, p in _examples().items()}}
+        )
 
     @app.get("/api/examples/{name:path}")
     async def example(name: str) -> Response:

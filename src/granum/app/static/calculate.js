@@ -6,7 +6,7 @@ import { Spread } from './spread.js';
 
 const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
 /** Selection guides are the procedures whose name says that they choose. */
-export const isSelection = (c) => c.sort === 'procedure' && c.card.split('.')[1].startsWith('choose');
+export const isSelection = (c) => c.sort === 'procedure' && /^choose|_choice$/.test(c.card.split('.')[1]);
 
 export function Calculate({ state, page = 'calculate', keep = CALCULATED, first = 'particles.terminal_velocity' }) {
   const cards = useCards(keep);

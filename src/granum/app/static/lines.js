@@ -18,7 +18,7 @@ export function Lines({ state }) {
   const [kept, setKept] = useState([]);
   const stop = useRef(null);
   const latest = useRef('');
-  const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files }));
+  const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files, titles: shipped.titles }));
   useEffect(() => { files(); return () => stop.current?.abort(); }, []);
   useEffect(() => { if (state.key.includes(':')) open(state.key); }, [state.visit]);
   const shown = (next) => { latest.current = next; setText(next); ask('/api/case/form', { case: next }).then((found) => { if (latest.current === next) setForm(found); }, () => setForm(null)); };
@@ -81,7 +81,7 @@ export function Lines({ state }) {
     <section aria-label=${t('Believe')}>
     ${busy && html`<div class="row" aria-busy="true"><span role="status">${t('Working… a new line takes a little while the first time.')}</span> <button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button></div>`}
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
-    ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${f.replace(/\/[^/]*$/, '').replaceAll('-', ' ')}<span class="small dim">${f}</span></button>`)}</div>`}
+    ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
     ${outcome && html`<div class=${busy || error ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} edit=${edit} clear=${() => setKept([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
       <button class="button" disabled=${kept.length >= MOST_KEPT} onClick=${() => setKept([...kept, { ...outcome, form }])}>${t('Keep to compare')}</button>
       <a class="button" href=${place ? `#/studies/${encodeURIComponent(place)}` : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
