@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import ZERO_CELSIUS
-from granum.core.kinds import Number, PositiveNumber, Ratio, Temperature
+from granum.core.kinds import Fraction, Number, PositiveNumber, Ratio, Series, Temperature
 
 ROOM = 298.15
 
@@ -76,3 +76,20 @@ def salt_molality_from_product(solubility_product: PositiveNumber, cation_count:
     """
     p, q = cation_count, anion_count
     return jnp.exp((jnp.log(solubility_product) - p * jnp.log(p) - q * jnp.log(q)) / (p + q))
+
+
+@formula(source="stumm1996, ch. 3", equation=r"\alpha_n = \left[1 + \sum_{k=1}^{n} 10^{\,\sum_{j=n-k+1}^{n} pK_j - k\,\mathrm{pH}}\right]^{-1}",
+         output="deprotonated_fraction", typical={"ph_value": (5.0, 11.0)})  # fmt: skip
+def deprotonated_fraction(ph_value: Number, acid_exponents: Annotated[Number, Series("steps")]) -> Fraction:
+    """Share of a dissolved weak acid that is there as its last anion, from pH and the exponents pK of its steps, first step first.
+
+    It turns total carbonate, oxalate or phosphate into the free anion that a solubility product counts. Concentration constants at the
+    ionic strength of the solution; ideal where those of infinite dilution are used.
+
+    >>> round(float(deprotonated_fraction(ph_value=10.33, acid_exponents=[6.35, 10.33])), 3)
+    0.5
+    """
+    steps = jnp.asarray(acid_exponents)[::-1]
+    count = jnp.arange(1, steps.shape[0] + 1)
+    powers = jnp.cumsum(steps) - count * jnp.asarray(ph_value)[..., None]
+    return 1.0 / (1.0 + jnp.sum(10.0 ** jnp.clip(powers, -300.0, 300.0), axis=-1))
