@@ -180,7 +180,7 @@ class Packets(Population):
         """Moment of the crystals in each size class; what lies beyond the last boundary joins the last class."""
         low, high = self.sizes()
         total = jnp.sum(self.number * mean_power(low, high, order))
-        return jnp.diff(jnp.append(self.below(jnp.asarray(edges)[:-1], order).at[0].set(0.0), total))
+        return jnp.maximum(jnp.diff(jnp.append(self.below(jnp.asarray(edges)[:-1], order).at[0].set(0.0), total)), 0.0)
 
     def mean_size(self, upper: int, lower: int) -> Any:
         """Mean diameter D[p, q]; zero without crystals."""
