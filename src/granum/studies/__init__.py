@@ -10,8 +10,8 @@ from typing import Any
 
 _HOME = {
     "Study": "study", "KINDS": "study", "Outcome": "outcome", "Progress": "engine", "evaluate": "engine", "subject_of": "subjects",
-    "FormulaSubject": "subjects", "LineSubject": "lines", "monte_carlo": "ensembles", "sobol": "ensembles", "sweep": "ensembles",
-    "parameter_map": "ensembles", "scenarios": "ensembles", "optimize": "optimizing", "pareto": "optimizing",
+    "FormulaSubject": "subjects", "LineSubject": "lines", "monte_carlo": "ensembles", "sobol": "ensembles", "sweep": "grids",
+    "parameter_map": "grids", "scenarios": "grids", "optimize": "optimizing", "pareto": "fronts",
 }  # fmt: skip
 
 

@@ -12,8 +12,10 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.symbols import html_symbol
 from granum.core.units import best_unit, format_number, from_si, pretty_unit
-from granum.studies.ensembles import Ensemble, Map, Sensitivity, Sweep
-from granum.studies.optimizing import Front, Optimum
+from granum.studies.ensembles import Ensemble, Sensitivity
+from granum.studies.fronts import Front
+from granum.studies.grids import Map, Sweep
+from granum.studies.optimizing import Optimum
 from granum.studies.outcome import meets
 from granum.studies.subjects import Variable
 

@@ -21,7 +21,7 @@ from typing import Any
 
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
-from granum.studies import ensembles, optimizing
+from granum.studies import ensembles, fronts, grids, optimizing
 from granum.studies.engine import Cancel, Report
 from granum.studies.outcome import Outcome
 from granum.studies.subjects import Subject
@@ -51,11 +51,11 @@ class Kind:
 KINDS: dict[str, Kind] = {
     "monte_carlo": Kind(ensembles.monte_carlo, uncertain=True),
     "sobol": Kind(ensembles.sobol, uncertain=True),
-    "sweep": Kind(ensembles.sweep),
-    "map": Kind(ensembles.parameter_map),
-    "scenarios": Kind(ensembles.scenarios),
+    "sweep": Kind(grids.sweep),
+    "map": Kind(grids.parameter_map),
+    "scenarios": Kind(grids.scenarios),
     "optimize": Kind(optimizing.optimize, uncertain=True, chunks=False),
-    "pareto": Kind(optimizing.pareto, chunks=False),
+    "pareto": Kind(fronts.pareto, chunks=False),
 }
 
 
