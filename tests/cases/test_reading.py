@@ -140,7 +140,7 @@ upper = {upper}
 
 def test_two_specifications_on_one_parameter_or_one_result_are_refused() -> None:
     again = SECOND.format(vary="split.side_fraction", so_that="heat.temperature", equals="60 degC", lower=0.1, upper=0.9)
-    with pytest.raises(CaseError, match="'circulation' and 'second' both vary 'split.side_fraction'"):
+    with pytest.raises(CaseError, match=r"'circulation' and 'second' both vary 'split\.side_fraction'"):
         read_text(TWO + again)
     twice = SECOND.format(vary="heat.temperature", so_that="mix.mass_flow", equals="3 kg/s", lower='"20 degC"', upper='"90 degC"')
     with pytest.raises(CaseError, match="over-specified"):
@@ -168,5 +168,5 @@ def test_missing_parameter_leaves_the_line_under_specified() -> None:
 
 def test_loop_without_a_way_out_names_the_stream() -> None:
     text = TWO[: TWO.index("[specifications")].replace("side_fraction = 0.5", "side_fraction = 1.0")
-    with pytest.raises(ConvergenceError, match="loop through stream 'back'.*purge"):
+    with pytest.raises(ConvergenceError, match=r"loop through stream 'back'.*purge"):
         read_text(text).solve()

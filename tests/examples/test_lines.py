@@ -62,3 +62,17 @@ def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
     assert 3e6 < line.figure("dryer.energy_per_water") < 5e6
     assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
     assert float(line.streams["starch"].moisture_dry_basis) == pytest.approx(0.14, rel=1e-6)
+
+
+def test_start_up_ends_in_the_steady_states() -> None:
+    """Two hours are nine turnovers of the mill with its circulating load: the circuit stands before the feed changes, and again at the end."""
+    line = gr.read(EXAMPLES / "start-up" / "circuit.toml")
+    data = line.solve().as_json()["dynamic"]
+    assert data["mass_balance"] < 1e-4
+    time, back = data["time"]["value"], data["streams"]["returned"]["solid"]
+    before, last = time.index(7200.0), -1
+    feed = line.sheet.feeds["fresh"].solid
+    for at, scale in ((before, 1.0), (last, 1.2)):
+        steady = line.with_values(**{"fresh.solid": feed * scale}).solve()
+        assert back[at] == pytest.approx(float(steady.streams["returned"].solid_flow), rel=2e-3)
+    assert back[last] / back[before] > 1.2

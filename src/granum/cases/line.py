@@ -276,6 +276,7 @@ class Run:
             "converged": bool(self.solution.converged),
             "iterations": [int(n) for n in self.solution.steps],
             "flags": self.flags,
+            **({"dynamic": course_json(self.line.march())} if self.line.case is not None and self.line.case.dynamic else {}),
         }
 
     def report(self, path: str | Path) -> None:
@@ -299,6 +300,23 @@ def median_size(stream: Stream) -> float | None:
         return None
     edges = np.maximum(stream.mixture.edges, 1e-12)
     return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
+
+
+def course_json(course: Course) -> dict[str, Any]:
+    """A run in time as plain data, SI: flow of each phase and temperature of every stream."""
+
+    def flow(array: Any) -> Any:
+        return plain(np.asarray(array).reshape(len(course.times), -1).sum(axis=1))
+
+    return {
+        "time": {"value": plain(course.times), "unit": "s"},
+        "streams": {
+            name: {"solid": flow(s.solid), "liquid": flow(s.liquid), "gas": flow(s.gas), "temperature": plain(s.temperature)}
+            for name, s in course.streams.items()
+        },
+        "units": {"flow": "kg/s", "temperature": "K"},
+        "mass_balance": plain(course.balance),
+    }
 
 
 def stream_json(s: Stream) -> dict[str, Any]:

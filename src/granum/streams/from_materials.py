@@ -27,6 +27,7 @@ from granum.streams.mixture import Mixture, Species
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
 HOTTEST_GAS = 873.15
+CONDENSED = (COLDEST, HOTTEST)
 
 
 def mixture_of(
@@ -79,7 +80,9 @@ def _liquid(name: str) -> Species:
     if name not in names("fluid"):
         raise unknown_name(_("Liquid"), name, (*names("fluid"), *names("solute")))
     f = fluid(name)
-    return Species(f.name, ((f.name, 1.0),), _polynomial(f.liquid_density), _polynomial(f.liquid_heat_capacity), 0.0, float(f.molar_mass))
+    return Species(
+        f.name, ((f.name, 1.0),), _polynomial(f.liquid_density), _polynomial(f.liquid_heat_capacity), 0.0, float(f.molar_mass), CONDENSED
+    )
 
 
 def _dissolved(name: str, system: SoluteSystem) -> Species:
@@ -94,7 +97,9 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
     T = np.linspace(280.0, 350.0, 8)
     densities, heat_capacity = apparent(T)
     density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
-    return Species(name, ((name, 1.0),), tuple(float(c) for c in density), (float(heat_capacity),), 0.0, float(system.molar_mass))
+    return Species(
+        name, ((name, 1.0),), tuple(float(c) for c in density), (float(heat_capacity),), 0.0, float(system.molar_mass), CONDENSED
+    )
 
 
 def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
@@ -110,19 +115,22 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
                     _polynomial(branch.crystal.heat_capacity),
                     float(jax.jit(lambda T, system=system: system.crystal_enthalpy(T, name))(ZERO_CELSIUS)),
                     float(branch.crystal.molar_mass),
+                    CONDENSED,
                 )
     return None
 
 
 def _inert(name: str) -> Species:
     s = solid(name)
-    return Species(s.name, ((s.name, 1.0),), _polynomial(s.density), _polynomial(s.heat_capacity), 0.0, float(s.molar_mass))
+    return Species(s.name, ((s.name, 1.0),), _polynomial(s.density), _polynomial(s.heat_capacity), 0.0, float(s.molar_mass), CONDENSED)
 
 
 def _gas(name: str) -> Species:
     f = fluid(name)
     heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
-    return Species(f.name, ((f.name, 1.0),), (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass))
+    return Species(
+        f.name, ((f.name, 1.0),), (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass), (COLDEST, HOTTEST_GAS)
+    )
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,8 @@ class Species:
     reference_enthalpy: J/kg at 0 °C. Zero for the reference state of each component, so that differences between the
         species of one component are heats of phase change: 2.501e6 for water vapor against liquid water.
     molar_mass: kg/mol.
+    valid: K, between which the heat capacity is taken as given; outside it stays what it is at the end, so that enthalpy always grows
+        with temperature.
     """
 
     name: str
@@ -36,14 +38,17 @@ class Species:
     heat_capacity: tuple[float, ...] = (0.0,)
     reference_enthalpy: float = 0.0
     molar_mass: float = float("nan")
+    valid: tuple[float, float] = (0.0, 1e4)
 
     def enthalpy(self, temperature: Any) -> Any:
         """Specific enthalpy, J/kg, at a temperature in K."""
-        theta = temperature - ZERO_CELSIUS
-        total = 0.0
+        inside = jnp.clip(jnp.asarray(temperature, dtype=float), *self.valid)
+        theta = inside - ZERO_CELSIUS
+        total, slope = 0.0, 0.0
         for power in range(len(self.heat_capacity), 0, -1):  # Horner on the integral of the polynomial
             total = (total + self.heat_capacity[power - 1] / power) * theta
-        return self.reference_enthalpy + total
+            slope = slope * theta + self.heat_capacity[power - 1]
+        return self.reference_enthalpy + total + slope * (temperature - inside)
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +140,14 @@ class Mixture:
 
     def enthalpies(self, phase: str, temperature: Any) -> Any:
         """Specific enthalpies of the species of a phase, J/kg."""
-        return _horner(self._tables[phase][0], temperature)
+        table, ends = self._tables[phase][0], [s.valid for s in getattr(self, phase)]
+        if table.shape[1] < 3:  # constant heat capacities
+            return _horner(table, temperature)
+        T = jnp.asarray(temperature, dtype=float)
+        low, high = (np.array(side).reshape((-1,) + (1,) * T.ndim) for side in zip(*ends, strict=True))
+        inside = jnp.clip(T, low, high)
+        slopes = table[:, 1:] * np.arange(1, table.shape[1])
+        return _horner(table, inside, by_row=True) + _horner(slopes, inside, by_row=True) * (T - inside)
 
     def densities(self, phase: str, temperature: Any) -> Any:
         """Densities of the (condensed) species of a phase, kg/m³."""
@@ -147,10 +159,13 @@ def _table(rows: list[tuple[float, ...]]) -> np.ndarray:
     return np.array([row + (0.0,) * (width - len(row)) for row in rows]).reshape(len(rows), width)
 
 
-def _horner(table: np.ndarray, temperature: Any) -> Any:
+def _horner(table: np.ndarray, temperature: Any, by_row: bool = False) -> Any:
+    """One polynomial a row, at a temperature common to the rows or, ``by_row``, at one for each."""
     theta = jnp.asarray(temperature, dtype=float) - ZERO_CELSIUS
-    columns = [column.reshape((-1,) + (1,) * theta.ndim) for column in table.T]
-    total = jnp.broadcast_to(columns[-1], (len(table), *theta.shape)) if columns else jnp.zeros((0, *theta.shape))
+    inner = theta.ndim - by_row
+    columns = [column.reshape((-1,) + (1,) * inner) for column in table.T]
+    shape = theta.shape if by_row else (len(table), *theta.shape)
+    total = jnp.broadcast_to(columns[-1], shape) if columns else jnp.zeros(shape)
     for column in reversed(columns[:-1]):
         total = total * theta + column
     return total
