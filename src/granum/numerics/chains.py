@@ -168,7 +168,7 @@ def advance_chain(
     inputs: Any,
     outflow: Callable[[jax.Array, Any], jax.Array] | None = None,
 ) -> tuple[jax.Array, jax.Array]:
-    """States of a chain of cells over time by Verwer's two-stage Rosenbrock method: second order, L-stable, equal steps.
+    """States of a chain of cells over time by Verwer's two-stage Rosenbrock method: second order, L-stable, given steps.
 
     What is linear in the unknowns and conserved by ``function`` is conserved to rounding.
 
@@ -176,7 +176,7 @@ def advance_chain(
         function: ``capacity · du/dt = function(u, input)``, rows coupled to their neighbors only.
         start: ``(cells, unknowns)``.
         capacity: zero for an equation without memory, broadcastable to a state.
-        step: length of a step.
+        step: length of the steps, or of each of them.
         inputs: pytree whose leaves have a leading axis of steps; constant within a step.
         outflow: ``outflow(u, input)``, linear in u: flows (any vector) whose time integral is wanted.
 
@@ -193,8 +193,8 @@ def advance_chain(
     eye = jnp.eye(start.shape[1])
     count = outflow or (lambda u, _input: jnp.zeros((0,)))
 
-    def one(carry: tuple, given: Any) -> tuple[tuple, tuple]:
-        u, total = carry
+    def one(carry: tuple, row: tuple) -> tuple[tuple, tuple]:
+        (u, total), (given, step) = carry, row
         now, before, own, after = _linearized(lambda v: function(v, given), u)
         scale = GAMMA * step
         factors = factor_chain(-scale * before, capacity[:, :, None] * eye - scale * own, -scale * after)
@@ -209,5 +209,7 @@ def advance_chain(
         return (u, total), (u, total)
 
     first = jax.tree.map(lambda leaf: leaf[0], inputs)
-    _end, (states, totals) = lax.scan(one, (start, jnp.zeros_like(count(start, first))), inputs)
+    number = jax.tree.leaves(inputs)[0].shape[0]
+    lengths = jnp.broadcast_to(jnp.asarray(step, dtype=float), (number,))
+    _end, (states, totals) = lax.scan(one, (start, jnp.zeros_like(count(start, first))), (inputs, lengths))
     return states, totals

@@ -42,19 +42,20 @@ def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int)
     n = like.solid.shape[0]
     X, T = jnp.broadcast_to(X, (n, 1)), jnp.broadcast_to(T, (n, 1))
     found, clock = [], 0.0
+    edges = (jnp.arange(steps + 1) / steps) ** 2  # short steps where a zone begins
     for zone in zones:
         network = Network.counter_current(n) if zone.backwards else Network.co_current(n)
         column = Contact(
             like.matter, like.kinetics, like.solid, jnp.zeros((n, 1)), zone.gas_per_solid, network, like.exchange,
             like.wall_exchange, like.wall_temperature, like.heat_loss,
         )  # fmt: skip
-        start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, jnp.full(n, 1.0) * zone.temperature)
+        start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0])  # gas at rest with the solid, so that the first step is mild
         inlets = Inlet(
             *(jnp.broadcast_to(jnp.asarray(v, dtype=float), (steps, *jnp.shape(v))) for v in (X[0], T[0], zone.humidity, zone.temperature))
         )
-        layers, totals = column.dynamic(start, inlets, zone.duration / steps)
+        layers, totals = column.dynamic(start, inlets, zone.duration * jnp.diff(edges))
         X, T = layers.moisture[-1], layers.temperature[-1]
-        time = clock + zone.duration * (jnp.arange(steps) + 1.0) / steps
+        time = clock + zone.duration * edges[1:]
         found.append(Passage(layers, time, zone.gas_per_solid, totals[-1, -2], ENTHALPY * totals[-1, -1]))
         clock = clock + zone.duration
     return found

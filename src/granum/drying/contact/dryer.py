@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
+from scipy.optimize import brentq
 
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
@@ -17,7 +19,7 @@ from granum.core.kinds import HumidityRatio, Mass, MassFlow, MoistureDryBasis, P
 from granum.drying.contact.cells import Contact, Inlet, Profile
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
 from granum.drying.contact.matter import Matter, temperature_at
-from granum.numerics import find_root, safe_divide
+from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -235,14 +237,13 @@ def sized(
         return changed(feed, supplied(changed) if supplied else gas).product.moisture_dry_basis
 
     size = float(getattr(dryer, name))
-    wet = float(moisture(jnp.log(size), dryer))
+    wet = float(moisture(np.log(size), dryer))
     grow = WIDER if wet > float(target) else 1.0 / WIDER
     ahead, other = wet, size
     while (ahead > float(target)) == (wet > float(target)) and low < other < high:
         size, other = other, other * grow
-        ahead = float(moisture(jnp.log(other), dryer))
-    root = find_root(lambda x: jnp.log(moisture(x, dryer) / target), jnp.log(size), jnp.log(other), tolerance=1e-11)
-    if not bool(root.converged):
+        ahead = float(moisture(np.log(other), dryer))
+    if (ahead > float(target)) == (wet > float(target)) or not np.isfinite(ahead):
         best = min(wet, ahead)
         raise ApplicabilityError(
             _(
@@ -250,4 +251,5 @@ def sized(
                 "saturates or the gas cools to the solid; take more or hotter gas."
             ).format(value=shown, name=name, high=f"{max(size, other):.3g}", best=f"{best:.4g}")
         )
-    return eqx.tree_at(lambda d: getattr(d, name), dryer, float(jnp.exp(root.value)))
+    found = brentq(lambda x: np.log(float(moisture(x, dryer)) / float(target)), np.log(size), np.log(other), xtol=1e-13, rtol=1e-13)
+    return eqx.tree_at(lambda d: getattr(d, name), dryer, float(np.exp(found)))

@@ -12,12 +12,11 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import Diffusivity, Law, Length, MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Temperature
-from granum.drying.contact.matter import Matter
+from granum.drying.contact.matter import Matter, vapor_pressure
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.drying.isotherms.base import AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
-from granum.materials.formulas.water import water_vapor_pressure
-from granum.numerics import find_root, safe_divide
+from granum.numerics import find_root
 
 Isotherm = Annotated[Any, Law("isotherm")]
 Curve = Annotated[Any, Law("characteristic_rate")]
@@ -45,7 +44,7 @@ class Meeting(NamedTuple):
 
     def film_rate(self, activity: Any = 1.0) -> Any:
         """Rate of a surface of given water activity at the temperature of the solid."""
-        pressure = activity * water_vapor_pressure.function(self.temperature)
+        pressure = activity * vapor_pressure(self.temperature)
         return self.conductance * self.matter.driving_force(pressure, self.humidity)
 
     @property
@@ -66,8 +65,8 @@ class Meeting(NamedTuple):
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
 
         def balance(Ts: Any, T: Any, Y: Any) -> Any:
-            pressure = water_vapor_pressure.function(Ts)
-            heat = jnp.log1p(m.vapor_heat_capacity(Ts) * (T - Ts) / m.heat_of_vaporization(Ts)) / m.vapor_heat_capacity(Ts)
+            pressure = vapor_pressure(Ts)
+            heat = _stefan(m.vapor_heat_capacity(Ts), m.heat_of_vaporization(Ts), T - Ts)
             return heat - m.driving_force(pressure, Y) / m.gas_heat_capacity(T, Y)
 
         return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0).value
@@ -83,6 +82,11 @@ class AbstractKinetics(eqx.Module):
     @abstractmethod
     def equilibrium(self, at: Meeting) -> Any:
         """Moisture that the solid tends to in this gas."""
+
+
+def _stefan(heat_capacity: Any, latent: Any, difference: Any) -> Any:
+    """Evaporation per heat transfer coefficient from a temperature difference: Spalding's logarithm of the heat that the vapor takes along."""
+    return jnp.log1p(jnp.maximum(heat_capacity * difference / latent, -0.9)) / heat_capacity
 
 
 def _hindered(rate: Any, phi: Any, curve: Any, conductance: Any) -> Any:
@@ -134,8 +138,7 @@ class VanMeelKinetics(_Curved):
 
     def rate(self, at: Meeting) -> Any:
         m, Tw = at.matter, at.wet_bulb
-        heat = m.vapor_heat_capacity(Tw)
-        wet = at.exchange / heat * jnp.log1p(heat * (at.gas_temperature - Tw) / m.heat_of_vaporization(Tw))
+        wet = at.exchange * _stefan(m.vapor_heat_capacity(Tw), m.heat_of_vaporization(Tw), at.gas_temperature - Tw)
         return _hindered(wet, self._phi(at), self.characteristic_rate, at.conductance)
 
 
@@ -226,6 +229,5 @@ class DiffusionKinetics(AbstractKinetics):
         D = self.diffusivity_reference * jnp.exp(-self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature))
         inner = jnp.pi**2 * D / self.radius**2 * (at.moisture - self.equilibrium(at))
         film = at.film_rate()
-        both = (inner > 0) & (film > 0)
-        series = safe_divide(inner * film, inner + film)
-        return jnp.where(both, series, jnp.minimum(inner, jnp.where(inner > 0, film, inner)))
+        share = jnp.maximum(inner, 0.0) / jnp.maximum(jnp.maximum(inner, 0.0) + jnp.abs(film), 1e-30)
+        return jnp.where(inner > 0, share * film, inner)  # what diffuses bounds condensation too, which keeps the law smooth

@@ -18,6 +18,7 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
 NEWTON_STEPS = 4  # enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
+LIQUID = (200.0, 640.0)  # K
 NEAR_BOILING = 0.98  # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
 
 
@@ -102,7 +103,7 @@ class Matter(eqx.Module):
 
     def relative_humidity(self, T: Any, Y: Any) -> Any:
         """Partial pressure of the vapor over its saturation pressure."""
-        return Y / (self.molar_mass_ratio + Y) * self.pressure / water_vapor_pressure.function(T)
+        return Y / (self.molar_mass_ratio + Y) * self.pressure / vapor_pressure(T)
 
     def driving_force(self, partial_pressure: Any, Y: Any) -> Any:
         """ln[(1 + Y_s)/(1 + Y)]: Stefan flow in a film whose surface has this partial pressure of vapor."""
@@ -121,6 +122,11 @@ class Matter(eqx.Module):
         """Dry gas per volume of moist gas, kg/m³."""
         mean = self.mixture.gases[self.vapor].molar_mass / self.molar_mass_ratio
         return self.pressure * mean / (8.314462618 * T * (1.0 + Y / self.molar_mass_ratio))
+
+
+def vapor_pressure(T: Any) -> Any:
+    """Of water; held at the ends of its range, which only a search on its way to the solution leaves."""
+    return water_vapor_pressure.function(jnp.clip(T, *LIQUID))
 
 
 def slope(function: Callable[[Any], Any], T: Any) -> tuple[Any, Any]:

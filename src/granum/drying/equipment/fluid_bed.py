@@ -120,7 +120,7 @@ class FluidBedDryer(ContactDryer):
     ) -> FluidBedDryer:
         """The bed in which the inlet gas has a velocity, and the solid stays as long as a product moisture needs."""
         area = float(gas.gas_volume_flow / gas_velocity)
-        return sized(cls(area, 1.0, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
+        return sized(cls(area, 200.0 * area, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
 
     def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
         feed, gas = inlets["feed"], inlets["gas"]
