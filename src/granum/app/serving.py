@@ -45,7 +45,7 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
     crew().warm()
     if browser:
         threading.Timer(0.5, webbrowser.open, [address]).start()
-    config = uvicorn.Config(create_app(workspace, token), log_level="warning", backlog=2048)
+    config = uvicorn.Config(create_app(workspace, token), log_level="warning", backlog=2048, timeout_keep_alive=75)
     try:
         uvicorn.Server(config).run(sockets=[listener])
     finally:
