@@ -36,7 +36,7 @@ from granum.humid_gas.pairs import AirWater
 from granum.numerics import find_root, safe_divide
 
 PAIR = AirWater()
-COLDEST, HOTTEST = 223.15, 1400.0
+COLDEST, WARMEST, HOTTEST = 223.15, 673.15, 1400.0
 WETTEST = 50.0  # kg/kg, nearly pure steam
 POINTS = ("fresh", "inlet", "outlet")
 
@@ -126,18 +126,20 @@ def _relations(real: bool) -> tuple[Relation, ...]:
     )
 
 
-def _bracket(name: str, v: Values) -> tuple[Any, Any]:
-    """Ends between which a guessed quantity lies."""
+def _bracket(name: str, v: Values) -> tuple[Any, Any, bool]:
+    """Ends between which a guessed quantity lies, and whether the balance of heat is monotone in it."""
     P = v["pressure"]
+    hot = "temperature_inlet" in v and "heat_duty" not in v
     if name == "temperature_outlet" and "relative_humidity_outlet" in v:
-        return COLDEST, PAIR.boiling_temperature(P) * (1.0 - 1e-9)
-    if name == "humidity_ratio_outlet":
-        return -1e-4, WETTEST  # below zero, so that the end never falls on perfectly dry fresh air
+        return COLDEST, PAIR.boiling_temperature(P) * (1.0 - 1e-9), hot
+    if name == "humidity_ratio_outlet":  # from below zero, so that the end never falls on perfectly dry fresh air
+        return (-1e-4, WETTEST, True) if hot and "temperature_outlet" in v else (-1e-4, 1.0, False)
     if name.startswith("temperature"):
-        return COLDEST, HOTTEST
+        return COLDEST, WARMEST, False
     if name.startswith("humidity_ratio"):
-        return -1e-4, WETTEST  # below zero, so that the end never falls on perfectly dry fresh air
-    return {"recirculated_fraction": (0.0, 1.0 - 1e-9), "moisture_dry_basis_outlet": (0.0, 100.0)}.get(name, (1e-9, 1e6))
+        return 1e-6, 0.1 if name.endswith("fresh") else 1.0, False
+    ends = {"recirculated_fraction": (0.0, 1.0 - 1e-9), "moisture_dry_basis_outlet": (0.0, 20.0), "leak_fraction": (0.0, 1.0)}
+    return *ends.get(name, (1e-6, 1e3)), False
 
 
 def _weight(v: Values) -> Any:

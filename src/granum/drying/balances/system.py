@@ -66,14 +66,40 @@ class Plan(NamedTuple):
     decides: int = -1
 
 
+PIECES, TRIED = 64, 4
+
+
+def _only_root(mismatch: Callable[[Any], Any], low: Any, high: Any) -> Any:
+    root = find_root(mismatch, low, high, tolerance=1e-14)
+    return jnp.where(root.converged, root.value, jnp.nan)
+
+
+def _first_root(mismatch: Callable[[Any], Any], low: Any, high: Any) -> Any:
+    """The first root between the ends, where the mismatch may have poles or gaps: looked for piece by piece."""
+    shape = jax.eval_shape(mismatch, jnp.asarray(low, dtype=float) + 0.0 * jnp.asarray(high, dtype=float)).shape
+    share = jnp.linspace(0.0, 1.0, PIECES + 1).reshape((-1,) + (1,) * len(shape))
+    grid = low + (high - low) * share + jnp.zeros(shape)
+    signs = jnp.sign(mismatch(grid))
+    change = (signs[:-1] * signs[1:] <= 0) & jnp.isfinite(signs[:-1]) & jnp.isfinite(signs[1:])
+    first = jnp.argsort(~change, axis=0, stable=True)[:TRIED]
+    ends = (jnp.take_along_axis(grid[:-1], first, 0), jnp.take_along_axis(grid[1:], first, 0))
+    root = find_root(mismatch, *jax.lax.stop_gradient(ends), tolerance=1e-14)
+    good = root.converged & jnp.isfinite(root.value)
+    best = jnp.argmax(good, axis=0)[None]
+    return jnp.where(jnp.any(good, axis=0), jnp.take_along_axis(root.value, best, 0)[0], jnp.nan)
+
+
 class System:
-    """Relations between named quantities, and how to search each of them: ``pole`` names one that grows without limit, and what vanishes there."""
+    """Relations between named quantities, and how to search each of them: ``pole`` names one that grows without limit, and what vanishes there.
+
+    ``bracket`` gives the ends between which a quantity is guessed, and whether the mismatch changes its sign only once in between.
+    """
 
     def __init__(
         self,
         relations: tuple[Relation, ...],
         guesses: tuple[str, ...],
-        bracket: Callable[[str, Values], tuple[Any, Any]],
+        bracket: Callable[[str, Values], tuple[Any, Any, bool]],
         pole: tuple[str, Callable[[Values], Any]],
         free: tuple[str, ...] = (),
     ):
@@ -104,9 +130,9 @@ class System:
             assert residual is not None
             return residual(found) if self.pole[0] in known else residual(found) * self.pole[1](found)
 
-        low, high = self.bracket(name, known)
-        root = find_root(mismatch, low, high, tolerance=1e-14)
-        return self._run(plan.after, {**known, name: jnp.where(root.converged, root.value, jnp.nan)})
+        low, high, monotone = self.bracket(name, known)
+        found = _only_root(mismatch, low, high) if monotone else _first_root(mismatch, low, high)
+        return self._run(plan.after, {**known, name: found})
 
     def _run(self, steps: tuple[Step, ...], values: Values) -> Values:
         for step in steps:
