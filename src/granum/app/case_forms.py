@@ -50,8 +50,7 @@ def line_form(case: str) -> dict[str, Any]:
     from granum.cases.reading import parsed
 
     raw = parsed(case, "case")
-    units = raw.get("units") if isinstance(raw.get("units"), dict) else {}
-    feeds = raw.get("feeds") if isinstance(raw.get("feeds"), dict) else {}
+    units, feeds = (found if isinstance(found := raw.get(name), dict) else {} for name in ("units", "feeds"))
     return {
         "units": {name: _unit(table) for name, table in units.items() if isinstance(table, dict)},
         "feeds": {name: _feed(table) for name, table in feeds.items() if isinstance(table, dict)},
