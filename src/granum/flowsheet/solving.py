@@ -135,8 +135,10 @@ def solve(
             residual.append(found.residual)
         else:
             made = _run_block(line, block, streams, sheets)
-        for all_of, new in zip(whole, made, strict=True):
-            all_of.update(new)
+        whole.streams.update(made.streams)
+        whole.powers.update(made.powers)
+        whole.records.update(made.records)
+        whole.sheets.update(made.sheets)
     return Solution(streams, whole.powers, converged, tuple(steps), tuple(residual), whole.records, whole.sheets)
 
 
