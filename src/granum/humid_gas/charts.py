@@ -36,11 +36,10 @@ def default_humidity(T_high: float) -> float:
 
 def _window(low: float | None, high: float | None, usual: float, w_high: float | None, states: Any) -> tuple[float, float, float]:
     """Coldest and hottest temperature and largest humidity: those given, or the usual ones widened so that every state is inside."""
-    T = [] if states is None else list(states[0])
-    low = min([263.15, *(5.0 * np.floor((t - 1.0) / 5.0) + 3.15 for t in T)]) if low is None else low
-    high = max([usual, *(5.0 * np.ceil((t + 1.85) / 5.0) + 3.15 for t in T)]) if high is None else high
-    top = w_high or max([default_humidity(high), *([] if states is None else 1.1 * states[1])])
-    return float(low), float(high), float(top)
+    T, w = ([], []) if states is None else ([float(t) for t in states[0]], [float(x) for x in states[1]])
+    cold = min([263.15] + [5.0 * float(np.floor((t - 1.0) / 5.0)) + 3.15 for t in T]) if low is None else float(low)
+    hot = max([usual] + [5.0 * float(np.ceil((t + 1.85) / 5.0)) + 3.15 for t in T]) if high is None else float(high)
+    return cold, hot, float(w_high) if w_high else max([default_humidity(hot)] + [1.1 * x for x in w])
 
 
 class _Sheet:
