@@ -24,6 +24,13 @@ from granum.particles import reynolds_number
         ("10 degC", "TemperatureDifference", 10.0), ("1.2 cP", "DynamicViscosity", 1.2e-3), ("1 darcy", "Permeability", 9.869232667160130e-13),
         ("12 %", "VolumeFraction", 0.12), ("20 t/hour", "MassFlow", 20000 / 3600), ("2630kg/m3", "Density", 2630.0), ("1 kcal/kg", "SpecificEnergy", 4184.0),
         ("3000 rpm", "RotationSpeed", 314.159265358979), ("25 cm2/g", "SpecificSurfaceMass", 2.5), ("0.5 m²", "Area", 0.5),
+        ("14.7 psia", "Pressure", 101352.932209), ("0 psig", "Pressure", 101325.0), ("4 in. H2O", "PressureDrop", 996.35564), ("1.2 bara", "Pressure", 1.2e5),
+        ("62.4 lbm/ft^3", "Density", 999.552114), ("1 gpm", "VolumeFlow", 6.30901964e-5), ("1 US gal/min", "VolumeFlow", 6.30901964e-5),
+        ("1 mgd", "VolumeFlow", 0.0438126363889), ("1 cfs", "VolumeFlow", 0.028316846592), ("60 rev/min", "RotationSpeed", 6.283185307179586),
+        ("1 short ton", "Mass", 907.18474), ("10 tph", "MassFlow", 10000 / 3600), ("77 F", "Temperature", 298.15), ("25 C", "Temperature", 298.15),
+        ("18 degF", "TemperatureDifference", 10.0), ("18 °F", "TemperatureDifference", 10.0), ("10 K", "TemperatureDifference", 10.0),
+        # a difference knows no zero of the scale: 2 bar above atmosphere drop by 2 bar, not by 3
+        ("2 barg", "PressureDrop", 2e5), ("40 psig", "PressureDifference", 275790.29172673),
     ],
 )  # fmt: skip
 def test_text_becomes_si(text: str, kind: str, expected: float) -> None:

@@ -23,6 +23,10 @@ def test_times_of_both_periods() -> None:
     assert times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.5, 0.4, 0.05).drying_time_falling_rate == 0.0
     short = times.drying_time(10.0, 2.0, 1e-3, 0.3, 0.1, 0.4, 0.05)
     assert short.drying_time == pytest.approx(times.drying_time_falling_rate(10.0, 2.0, 1e-3, 0.3, 0.1, 0.4, 0.05))
+    # Geankoplis 9.7: falling-rate part 4.39 h from 0.195; a start of 0.38, above the critical moisture, adds nothing to it
+    for start in (0.195, 0.38):
+        falling = times.drying_time_falling_rate("399 kg", "18.58 m2", "1.51 kg/(m2 hour)", start, 0.04, 0.195)
+        assert falling / 3600 == pytest.approx(4.39, abs=0.005)
     # equilibrium is never reached
     assert np.isnan(times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.05, 0.4, 0.05).drying_time)
 

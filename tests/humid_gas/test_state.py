@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from granum.core.errors import ApplicabilityError, InputError
-from granum.humid_gas.formulas.properties import humidity_ratio_saturated, wet_bulb_temperature
+from granum.humid_gas.formulas.properties import humidity_ratio_saturated, pressure_at_altitude, wet_bulb_temperature
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.inputs import MOISTURE, NAMES, WET, Solver
 from granum.humid_gas.pairs import AIR_WATER
@@ -149,3 +149,11 @@ def test_two_states_of_one_wet_bulb_and_volume_are_flagged() -> None:
     again = state(temperature=found.value.temperature, humidity_ratio=found.value.humidity_ratio, pressure=65985.0, pair=pair)
     assert again.specific_volume == pytest.approx(warm.specific_volume, rel=1e-8)
     assert again.wet_bulb_temperature == pytest.approx(warm.wet_bulb_temperature, rel=1e-8)
+
+
+def test_pressure_at_altitude() -> None:
+    # standard atmosphere, ASHRAE Fundamentals ch. 1, table 1
+    heights = np.array([-500.0, 0.0, 500.0, 1000.0, 1500.0, 2000.0, 3000.0, 5000.0, 10000.0])
+    printed = np.array([107478.0, 101325.0, 95461.0, 89875.0, 84556.0, 79495.0, 70108.0, 54020.0, 26436.0])
+    np.testing.assert_allclose(pressure_at_altitude(heights), printed, rtol=2e-4)
+    assert pressure_at_altitude("5000 ft") == pytest.approx(12.228 * 6894.757, rel=1e-3)

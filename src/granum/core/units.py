@@ -36,6 +36,19 @@ def _registry() -> Any:
         "barg = 1e5 * pascal; offset: 101325 = bar_gauge",
         "svedberg = 1e-13 * second",
         "mmH2O = 9.80665 * pascal",
+        "inwg = inH2O = inWC",
+        "psia = psi",
+        "psig = 6894.757293168361 * pascal; offset: 101325 = psi_gauge",
+        "bara = bar",
+        "lbm = pound",
+        "lbmol = 453.59237 * mole",
+        "btu = Btu",
+        "rev = revolution",
+        "gpm = gallon / minute",
+        "gpd = gallon / day",
+        "mgd = 1e6 * gallon / day = MGD",
+        "cfs = foot ** 3 / second",
+        "tph = tonne / hour",
         "USD = [currency] = dollar",
     ):
         ureg.define(line)
@@ -43,7 +56,9 @@ def _registry() -> Any:
 
 
 _SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "%": "percent", "µ": "u", "μ": "u", "Ω": "ohm",
-              "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1"}  # fmt: skip
+              "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1", "in. H2O": "inH2O", "in H2O": "inH2O", "US gal": "gallon",
+              "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
+_DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}  # read so only where a temperature is due
 
 
 @cache
@@ -80,6 +95,16 @@ def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     return one - zero, zero
 
 
+def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
+    """(factor, offset) for a kind: differences of temperature and of pressure drop the zero of the scale (°F, barg)."""
+    if kind.unit in ("K", "delta_degC"):
+        unit = _DEGREES.get(unit.strip(), unit)
+    if kind.unit == "delta_degC":
+        return _affine(unit, "K")[0], 0.0
+    factor, offset = _affine(unit, kind.unit)
+    return factor, 0.0 if kind.unit == "Pa" and kind.name != "absolute pressure" else offset
+
+
 def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     """A number or array in ``unit`` as SI floats of the given kind.
 
@@ -91,7 +116,7 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     if kind.unit == "delta_degC" and unit.strip() in ("degC", "°C", "K"):
         return value
     try:
-        factor, offset = _affine(unit, kind.unit)
+        factor, offset = _conversion(unit, kind)
     except UnitError as problem:
         if problem.message != "dimension":
             raise UnitError(
@@ -115,7 +140,7 @@ def from_si(value: Any, unit: str, kind: Kind) -> Any:
     """SI floats of a kind expressed in another unit of the same dimension."""
     if not same_dimension(unit, kind.unit):
         to_si(1.0, unit, kind)
-    factor, offset = _affine(unit, kind.unit)
+    factor, offset = _conversion(unit, kind)
     return (value - offset) / factor
 
 

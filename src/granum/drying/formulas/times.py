@@ -110,10 +110,12 @@ def drying_time_falling_rate(
 ) -> Time:
     """Time below the critical moisture when the rate falls on a straight line to zero at equilibrium.
 
+    Water above the critical moisture leaves at the constant rate and takes no part: a start above it counts from the critical moisture.
+
     >>> round(drying_time_falling_rate(1.0, 1.0, 0.001, 0.2, 0.1, 0.2, 0.0), 2)
     138.63
     """
-    X1, X2, Xe = moisture_dry_basis_start, moisture_dry_basis_end, equilibrium_moisture
+    X1, X2, Xe = jnp.minimum(moisture_dry_basis_start, critical_moisture), moisture_dry_basis_end, equilibrium_moisture
     possible = (Xe < X2) & (Xe < X1)
     ratio = jnp.where(possible, X1 - Xe, 1.0) / jnp.where(possible, X2 - Xe, 1.0)
     t = dry_solid_mass / (area * drying_rate_constant) * (critical_moisture - Xe) * jnp.log(ratio)

@@ -11,6 +11,7 @@ from granum.core.kinds import (
     Density,
     HeatCapacity,
     HumidityRatio,
+    Position,
     PositiveNumber,
     Pressure,
     RelativeHumidity,
@@ -27,6 +28,19 @@ _WARM = {"temperature": (303.15, 363.15), "humidity_ratio": (0.002, 0.02), "pres
 
 def _gas(pair: GasVaporPair, T: Temperature, w: HumidityRatio, P: Pressure) -> rel.Gas:
     return rel.settled(pair, jnp.asarray(T, dtype=float), jnp.asarray(P, dtype=float), pair.fraction(jnp.asarray(w, dtype=float)))
+
+
+@formula(source="ashrae2017, ch. 1, eq. 3", equation=r"p = 101325\,(1 - 2.25577\times 10^{-5}\,Z)^{5.2559}",
+         fitted={"altitude": (-5000.0, 11000.0)}, title="Air pressure at an altitude")  # fmt: skip
+def pressure_at_altitude(altitude: Position) -> Pressure:
+    """Pressure of the standard atmosphere at a height above sea level, to put into every formula of humid air.
+
+    A sensible default where the barometer is not known; weather moves it by a few percent.
+
+    >>> round(pressure_at_altitude(altitude="1500 m"))
+    84556
+    """
+    return STANDARD_ATMOSPHERE * jnp.maximum(1.0 - 2.25577e-5 * altitude, 1e-3) ** 5.2559
 
 
 @formula(source=_SOURCE, equation=r"w = \frac{M_v}{M_g}\,\frac{p_v}{p - p_v}",

@@ -82,7 +82,7 @@ def settling_exponent_khan_richardson(reynolds: PositiveNumber, wall_ratio: Wall
     """Exponent n of the settling velocity (1 − φ)ⁿ by Khan and Richardson, from the Archimedes number and the wall.
 
     The Archimedes number follows from the Reynolds number by Brown and Lawler's drag. Above a particle over vessel diameter of
-    0.45 the bracket turns negative; it is held at zero there.
+    0.45 the bracket turns negative; it is held at zero there. Textbooks that print 2.4 for the 1.24 of the wall term find larger exponents.
 
     >>> round(settling_exponent_khan_richardson(reynolds=1e-9), 2)
     4.8
