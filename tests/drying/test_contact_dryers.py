@@ -178,9 +178,6 @@ def test_belt_is_sized_with_its_gas() -> None:
     dryer = BeltDryer.size(0.2, feed, 0.8, gas, 0.05, 500.0, KINETICS, layers=6, steps=12)
     supplied = gas.part(gas=0.8 * dryer.area * gas.gas_density / gas.gas_flow)
     assert float(dryer(feed, supplied).product.moisture_dry_basis) == pytest.approx(0.2, rel=1e-6)
-    turned = BeltDryer(dryer.area, 0.05, 500.0, KINETICS, zone_count=2, alternating=True, layers=6, steps=6)
-    spread = [float(jnp.ptp(d.profile(feed, supplied).moisture[-1])) for d in (dryer, turned)]
-    assert spread[1] < spread[0]  # air from both sides evens the layer out
 
 
 def test_what_cannot_be_is_said() -> None:

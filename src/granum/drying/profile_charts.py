@@ -21,7 +21,8 @@ def _drawn(x: Any, title: str, x_label: str) -> Any:
 
     drawing = figure(x_label, axis_title("temperature", "degC"), title=title)
     drawing.update_layout(
-        yaxis2={"overlaying": "y", "side": "right", "showgrid": False, "rangemode": "tozero", "title": axis_title("moisture_dry_basis", "kg/kg")},
+        yaxis2={"overlaying": "y", "side": "right", "showgrid": False, "rangemode": "tozero",
+                "tickmode": "auto", "title": axis_title("moisture_dry_basis", "kg/kg")},
         legend={"orientation": "h", "y": -0.22, "x": 0.0}, margin={"r": 75, "b": 110},
     )  # fmt: skip
     drawing.update_xaxes(range=[float(np.min(x)), float(np.max(x))])

@@ -251,5 +251,7 @@ def sized(
                 "saturates or the gas cools to the solid; take more or hotter gas."
             ).format(value=shown, name=name, high=f"{max(size, other):.3g}", best=f"{best:.4g}")
         )
-    found = brentq(lambda x: np.log(float(moisture(x, dryer)) / float(target)), np.log(size), np.log(other), xtol=1e-13, rtol=1e-13)
+    found = brentq(
+        lambda x: np.log(max(float(moisture(x, dryer)), 1e-12) / float(target)), np.log(size), np.log(other), xtol=1e-13, rtol=1e-13
+    )
     return eqx.tree_at(lambda d: getattr(d, name), dryer, float(np.exp(found)))
