@@ -75,6 +75,8 @@ def test_table_in_a_narrow_terminal() -> None:
 
 def test_list_and_show() -> None:
     assert "particles.terminal_velocity" in granum("list", "terminal")[1]
+    assert "humid_gas.wet_bulb_temperature" in granum("list", "bulb", "wet")[1]
+    assert "centrifuges.centrifugal_effect" in granum("list", "g-force")[1]  # another name, in the description only
     code, out, _err = granum("show", "particles.terminal_velocity", "--json")
     assert code == 0
     assert {p["name"] for p in json.loads(out)["parameters"]} >= {"particle_diameter", "dynamic_viscosity"}

@@ -249,14 +249,17 @@ def chart(
 
 @app.command("list")
 @_one_message
-def list_cards(word: Annotated[str, typer.Argument(help="Show only cards that contain this word.")] = "", as_json: Json = False,
+def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)] = None,
+               as_json: Json = False,
                sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "") -> None:  # fmt: skip
     """List the cards."""
     from granum.core import registry
 
     cards = [thing.card for thing in registry.everything().values()]
-    needle = word.lower()
-    found = [c for c in cards if needle in f"{c.key} {c.title} {c.summary}".lower() and (not sort or c.sort == sort)]
+    needles = " ".join(words or ()).lower().split()
+    cards = [c for c in cards if not sort or c.sort == sort]
+    found = [c for c in cards if all(n in f"{c.key} {c.title} {c.summary}".lower() for n in needles)]
+    found = found or [c for c in cards if all(n in c.doc.lower() for n in needles)]  # other names of a thing stand in its description
     if as_json:
         _emit({"cards": [{"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found]})
     else:

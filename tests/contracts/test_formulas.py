@@ -53,6 +53,8 @@ def test_declaration_is_complete(key: str) -> None:
     for p in (*card.parameters, *card.outputs):
         assert quantity_in(p.name), f"'{p.name}' is not in the glossary"
         assert p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty, f"'{p.name}' has no kind"
+        if p.kind and isinstance(p.default, int | float):
+            assert p.kind.contains(float(p.default)), f"the default of '{p.name}' lies outside its own bounds"
     assert card.english_summary.endswith("."), "the docstring starts with one sentence"
     assert "<math" in mathml(card.equation or "x")
     for text in (card.given_title, card.english_summary):

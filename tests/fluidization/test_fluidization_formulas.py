@@ -145,3 +145,13 @@ def test_heat_and_distributor() -> None:
     assert plate.open_area_fraction * plate.orifice_velocity == pytest.approx(0.4)
     assert plate.orifices_per_area * np.pi / 4 * 4e-6 * plate.orifice_velocity == pytest.approx(0.4)
     assert 0.5 * 1.2 * (plate.orifice_velocity / 0.6) ** 2 == pytest.approx(plate.distributor_pressure_drop)
+
+
+def test_bubbles_over_a_porous_plate_without_catchment_area() -> None:
+    # by hand: 0.54 × 0.25^0.4 × 1^0.8 / 9.80665^0.2 = 0.1965 m at 1 m; Darton's 4√A₀ = 3 cm adds 3 %
+    bare = bubbles.bubble_diameter_darton(superficial_velocity=0.3, minimum_fluidization_velocity=0.05, height=1.0, catchment_area=0.0)
+    assert bare == pytest.approx(0.19646, rel=1e-4)
+    plate = bubbles.bubble_diameter_darton(
+        superficial_velocity=0.3, minimum_fluidization_velocity=0.05, height=1.0, catchment_area="0.5625 cm2"
+    )
+    assert plate / bare == pytest.approx(1.03**0.8, rel=1e-9)

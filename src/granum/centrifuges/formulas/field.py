@@ -41,8 +41,8 @@ def surface_height_rotating(radius: Distance, rotation_speed: RotationSpeed, sur
 def centrifugal_effect(radius: Length, rotation_speed: RotationSpeed) -> PositiveNumber:
     """Centrifugal effect: acceleration of the field over that of gravity, also called relative centrifugal force.
 
-    The customary 1.118 · 10⁻⁵ r N² holds for r in centimeters and N in turns per minute. Differs from the print in the notes, which
-    have 1.119 · 10⁵.
+    Known as RCF, g-force or separation factor too. The customary 1.118 · 10⁻⁵ r N² holds for r in centimeters and N in turns per
+    minute. Differs from the print in the notes, which have 1.119 · 10⁵.
 
     >>> round(centrifugal_effect(radius="10 cm", rotation_speed="3000 rpm"))
     1006

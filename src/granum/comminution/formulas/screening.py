@@ -77,7 +77,7 @@ def screening_effectiveness(
 ) -> Fraction:
     """Recovery of the desired times rejection of the undesired material; 1 for an ideal screen.
 
-    Differs from the print: the second factor of the course notes lacks the 1 - x.
+    Known as overall screen efficiency too. Differs from the print: the second factor of the course notes lacks the 1 - x.
 
     >>> round(screening_effectiveness(0.47, 0.85, 0.195), 3)
     0.669

@@ -42,6 +42,8 @@ def cut_size_lapple(
 ) -> Length:
     """Cut size of a cyclone by Lapple, from inlet velocity, inlet width and number of turns.
 
+    Known as cut diameter or d50 too: the size collected by half.
+
     >>> round(1e6 * cut_size_lapple(velocity=20.0, inlet_width=0.15, particle_density=1001.0, fluid_density=1.0,
     ...                             dynamic_viscosity=2.08e-5, turn_number=8.0), 2)
     5.29
@@ -104,6 +106,8 @@ def cyclone_efficiency_lapple(
     dust_outlet_diameter: Length,
 ) -> Fraction:
     """Grade efficiency of a gas cyclone by Lapple.
+
+    Known as fractional collection efficiency too.
 
     >>> d = dict(diameter=1.0, inlet_height=0.5, inlet_width=0.25, outlet_diameter=0.5, finder_length=0.625, cylinder_height=2.0,
     ...          height=4.0, dust_outlet_diameter=0.25)

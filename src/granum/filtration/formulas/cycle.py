@@ -73,7 +73,8 @@ def filtration_cycle(
 ) -> Cycle:
     """Best cycle of a batch filter at constant pressure: volume, times, mean flow and cake, for production or cost.
 
-    The wash time is ``wash_time_ratio`` times the part of the filtration time that the cake takes, which holds for a fixed wash ratio.
+    Known as optimum cycle too. The wash time is ``wash_time_ratio`` times the part of the filtration time that the cake takes,
+    which holds for a fixed wash ratio.
 
     >>> best = filtration_cycle(10, "3 bar", "1 cP", 1e11, 20, dead_time="20 min")
     >>> round(best.filtration_time, 6), round(best.filtrate_volume, 4)

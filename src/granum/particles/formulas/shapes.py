@@ -16,6 +16,8 @@ from granum.numerics.smooth import safe_power
 def sphericity_diameters(diameter_volume: Length, diameter_surface: Length) -> Sphericity:
     """Surface of the sphere of the same volume over the surface of the particle.
 
+    Known as Wadell's sphericity.
+
     A volume diameter above the surface diameter is impossible: the result, above 1, then only shows a measuring error.
 
     >>> round(sphericity_diameters(diameter_volume=1.2407, diameter_surface=1.3820), 3)
