@@ -117,6 +117,12 @@ def test_solution_properties_against_printed_tables() -> None:
             assert float(s.solution_density("20 degC", w / (1 - w))) == pytest.approx(density, rel=4e-3), name
             if viscosity:
                 assert float(s.solution_viscosity("20 degC", w / (1 - w))) * 1e3 == pytest.approx(viscosity, rel=0.05), name
+            found = m.solution_properties(temperature="20 degC", solute_mass_fraction=w, system=name)
+            assert found.liquid_density == pytest.approx(density, rel=4e-3), name
+            if viscosity:
+                assert found.dynamic_viscosity * 1e3 == pytest.approx(viscosity, rel=0.05), name
+    assert np.isnan(m.solution_properties("20 degC", 0.1, "citric acid").dynamic_viscosity)  # a gap in the library hides nothing else
+    assert m.solution_properties("20 degC", 0.2, "citric acid").liquid_density == pytest.approx(1080.5, rel=0.01)
     assert float(m.solute("sodium chloride").solution_heat_capacity("20 degC", 0.1 / 0.9)) == pytest.approx(3730.0, rel=0.01)
     brine = m.solute("sodium chloride").solution_density("20 degC", np.array([0.0, 1e-6]))
     np.testing.assert_allclose(brine, 998.2, rtol=1e-4)
