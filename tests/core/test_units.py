@@ -28,6 +28,7 @@ from granum.particles import reynolds_number
         ("62.4 lbm/ft^3", "Density", 999.552114), ("1 gpm", "VolumeFlow", 6.30901964e-5), ("1 US gal/min", "VolumeFlow", 6.30901964e-5),
         ("1 mgd", "VolumeFlow", 0.0438126363889), ("1 cfs", "VolumeFlow", 0.028316846592), ("60 rev/min", "RotationSpeed", 6.283185307179586),
         ("1 short ton", "Mass", 907.18474), ("10 tph", "MassFlow", 10000 / 3600), ("77 F", "Temperature", 298.15), ("25 C", "Temperature", 298.15),
+        ("1/8 in", "Length", 0.003175), ("1/3", "VolumeFraction", 1 / 3), ("2 1/m", "SpecificSurface", 2.0),
         ("18 degF", "TemperatureDifference", 10.0), ("18 °F", "TemperatureDifference", 10.0), ("10 K", "TemperatureDifference", 10.0),
         # a difference knows no zero of the scale: 2 bar above atmosphere drop by 2 bar, not by 3
         ("2 barg", "PressureDrop", 2e5), ("40 psig", "PressureDifference", 275790.29172673),
@@ -41,6 +42,11 @@ def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
 def test_wrong_units_are_named(text: str) -> None:
     with pytest.raises(UnitError, match=r"x|Unit"):
         units.read_quantity(text, KINDS["Length"], "x")
+
+
+def test_mesh_numbers_lead_to_the_sieve_series() -> None:
+    with pytest.raises(UnitError, match=r"particles\.aperture"):
+        units.read_quantity("200 mesh", KINDS["Length"], "particle_diameter")
 
 
 @pytest.mark.parametrize("text", ["", "abc", "--3 m", "1..2 m", "nan m"])

@@ -14,7 +14,7 @@ from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 
-_NUMBER = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
+_NUMBER = re.compile(r"^\s*([+-]?(?:\d+/[1-9]\d*(?![\d.,])|(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*$", re.DOTALL)
 _LONGEST_UNIT = 40
 
 
@@ -74,6 +74,10 @@ def parse_unit(text: str) -> Any:
     try:
         return registry().Unit(spelled) if spelled else registry().Unit("dimensionless")
     except Exception as problem:  # Pint raises many kinds: tokenizer, undefined, assertion, attribute
+        if spelled in ("mesh", "mesh Tyler", "Tyler mesh", "mesh US"):
+            raise UnitError(
+                _("A mesh number belongs to a sieve series; 'particles.aperture' turns it into an opening."), unit=text
+            ) from problem
         raise UnitError(_("Unit '{unit}' is not known.").format(unit=text), unit=text) from problem
 
 
@@ -160,7 +164,8 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
             name=name or kind.name,
             value=text,
         )
-    number = float(found.group(1).replace(",", "."))
+    above, _over, below = found.group(1).replace(",", ".").partition("/")  # 1/8 in
+    number = float(above) / float(below or 1.0)
     return number if not found.group(2) else float(to_si(number, found.group(2), kind, name))
 
 
