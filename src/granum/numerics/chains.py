@@ -37,10 +37,11 @@ def chain_blocks(function: Field, state: Any) -> tuple[jax.Array, jax.Array, jax
         >>> before[:, 0, 0]
         Array([ 0. , -0.5, -0.5, -0.5], dtype=float64)
     """
-    return _linearized(function, state)[1:]
+    _value, before, own, after = _linearized(function, state)
+    return before, own, after
 
 
-def _linearized(function: Field, state: Any) -> tuple[jax.Array, ...]:
+def _linearized(function: Field, state: Any) -> tuple[jax.Array, jax.Array, jax.Array, jax.Array]:
     """Value and blocks, with one trace of the function."""
     n, b = state.shape
     color = jnp.arange(n) % 3

@@ -198,7 +198,8 @@ class Contact(eqx.Module):
         """A first guess: solid and gas as they enter."""
         n, m = self.solid.shape
         Y, Tg = (jnp.sum(jnp.broadcast_to(v, (n,)) * self.network.inlet) for v in (inlet.humidity, inlet.gas_temperature))
-        return self.state(*(jnp.broadcast_to(v, (n, m)) for v in (inlet.moisture, inlet.temperature)), jnp.full(n, Y), jnp.full(n, Tg))
+        X, T = (jnp.broadcast_to(v, (n, m)) for v in (inlet.moisture, inlet.temperature))
+        return self.state(X, T, jnp.full(n, Y), jnp.full(n, Tg))
 
     def steady(self, inlet: Inlet) -> Profile:
         """The steady state."""

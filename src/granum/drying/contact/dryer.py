@@ -11,7 +11,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
@@ -251,7 +251,9 @@ def sized(
                 "saturates or the gas cools to the solid; take more or hotter gas."
             ).format(value=shown, name=name, high=f"{max(size, other):.3g}", best=f"{best:.4g}")
         )
-    found = brentq(
-        lambda x: np.log(max(float(moisture(x, dryer)), 1e-12) / float(target)), np.log(size), np.log(other), xtol=1e-13, rtol=1e-13
-    )
+
+    def over(x: float) -> float:
+        return float(np.log(max(float(moisture(x, dryer)), 1e-12) / float(target)))
+
+    found = root_scalar(over, bracket=sorted((float(np.log(size)), float(np.log(other)))), method="brentq", xtol=1e-13, rtol=1e-13).root
     return eqx.tree_at(lambda d: getattr(d, name), dryer, float(np.exp(found)))
