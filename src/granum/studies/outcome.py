@@ -7,6 +7,7 @@ import os
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -183,10 +184,8 @@ def _write(data: Any, name: str, suffix: str) -> None:
         units = {n: data[n].attrs.get("units", "") for n in data.data_vars}
         frame.rename(columns={n: f"{n} [{u}]" for n, u in units.items() if u}).to_csv(name, index=False)
         return
-    try:
-        import pyarrow  # noqa: F401
-    except ImportError:
-        raise InputError(_("Parquet needs pyarrow: pip install pyarrow, or write .nc or .csv.")) from None
+    if find_spec("pyarrow") is None:
+        raise InputError(_("Parquet needs pyarrow: pip install pyarrow, or write .nc or .csv."))
     frame.to_parquet(name, engine="pyarrow")
 
 
