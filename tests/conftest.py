@@ -8,7 +8,6 @@ from pathlib import Path
 
 # Both test processes share what they compile, also after forgetting it; a folder already named in the environment is kept.
 os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(Path(tempfile.gettempdir()) / "granum-tests-compiled"))
-os.environ.setdefault("JAX_COMPILATION_CACHE_MAX_SIZE", "2_000_000_000")
 os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.3")
 
 import pytest
