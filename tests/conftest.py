@@ -27,7 +27,7 @@ _finished = count(1)
 def _bounded_memory():
     """Thousands of compiled functions in one process would exhaust memory maps: forget them before that."""
     yield
-    if next(_finished) % 20 == 0 and MAPS.exists() and MAPS.read_bytes().count(b"\n") > MANY_MAPS:
+    if next(_finished) % 5 == 0 and MAPS.exists() and MAPS.read_bytes().count(b"\n") > MANY_MAPS:
         import jax
 
         jax.clear_caches()

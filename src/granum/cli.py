@@ -31,7 +31,12 @@ CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).")]
 
 
 @app.callback()
-def _options(lang: Annotated[str, typer.Option("--lang", help="Language of messages: en or fr.", envvar="GRANUM_LANG")] = "") -> None:
+def _options(lang: Annotated[str, typer.Option("--lang", help="Language of messages: en or fr.", envvar="GRANUM_LANG")] = "",
+             units: Annotated[str, typer.Option("--units", help="Units of what is shown: si or field (customary of the United States).", envvar="GRANUM_UNITS")] = "") -> None:  # fmt: skip
+    if units:
+        if units not in ("si", "field"):
+            raise typer.BadParameter("choose si or field", param_hint="--units")
+        os.environ["GRANUM_UNITS"] = units
     if lang:
         if lang not in ("en", "fr"):
             raise typer.BadParameter("choose en or fr", param_hint="--lang")
@@ -298,7 +303,13 @@ def _keep_compiled_code() -> None:
     """The second run of a line skips the compiler: what JAX compiles stays in the user's cache folder, oldest out beyond 512 MB."""
     from platformdirs import user_cache_path
 
-    os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(user_cache_path("granum") / "compiled"))
+    if "JAX_COMPILATION_CACHE_DIR" in os.environ:
+        return
+    folder = user_cache_path("granum") / "compiled"
+    for entry in folder.glob("*-cache"):
+        if not entry.with_name(entry.name.removesuffix("-cache") + "-atime").exists():  # a run was killed while it wrote this one
+            entry.unlink(missing_ok=True)
+    os.environ["JAX_COMPILATION_CACHE_DIR"] = str(folder)
     os.environ.setdefault("JAX_COMPILATION_CACHE_MAX_SIZE", "512_000_000")
     os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.2")
 

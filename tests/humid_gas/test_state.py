@@ -108,8 +108,11 @@ def test_fog_and_impossible_states() -> None:
         {"temperature": 353.15, "wet_bulb_temperature": 283.15},
         {"temperature": 293.15, "dew_point_temperature": 300.0},
     ):
-        result = state.evaluate(**bad)
-        assert np.isnan(result.value.humidity_ratio)
+        for call in (state, state.evaluate):
+            with pytest.raises(ApplicabilityError, match="Change one"):
+                call(**bad)
+        result = state.evaluate(**{name: np.array([value]) for name, value in bad.items()})
+        assert np.isnan(result.value.humidity_ratio[0])
         with pytest.raises(ApplicabilityError):
             result.check()
 

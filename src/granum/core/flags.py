@@ -108,6 +108,16 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
         record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
 
 
+def impossible(mask: Any, value: Any, name: str, low: float = -np.inf, high: float = np.inf, reason: str = "") -> None:
+    """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
+
+    Of several records the first one is what a reader is told; ``reason`` as for ``limit_active``.
+    """
+    formula = _current.get()
+    if formula is not None:
+        record(OUTSIDE_DOMAIN, mask, value, name, formula.key, low, high, formula.source, reason)
+
+
 def limit_active(mask: Any, value: Any, name: str, reason: str = "") -> None:
     """Inside a formula body: record where a physical limit cut the result.
 

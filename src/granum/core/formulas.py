@@ -46,8 +46,8 @@ def _floats(value: Any) -> Any:
 class Formula:
     """A declared formula. Call it for the bare value, ``evaluate`` it for value, flags and card.
 
-    Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise;
-    elements of arrays outside them give NaN.
+    Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise, and so do
+    single values that contradict one another; elements of arrays that do give NaN.
     """
 
     def __init__(self, function: Callable[..., Any], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
@@ -229,22 +229,30 @@ class Formula:
         if not args and _steps.get() is None:
             quick = self._quick(kwargs)
             if quick is not _DYNAMIC:
-                return quick
+                return self._told(quick, kwargs)
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             return self._body(values)
         if _steps.get() is not None:
             return self._evaluate(values).value
         key, dynamic = self._split(values)
-        out = self._compile(key, "masked" if batched else "bare")(*dynamic)
-        return out if batched else _floats(out)
+        if batched:
+            return self._compile(key, "masked")(*dynamic)
+        return self._told(_floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
+
+    def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
+        """What single inputs gave, unless they contradict one another: that raises."""
+        if any(type(x) is float and x != x for x in (out if isinstance(out, tuple) else (out,))):
+            self.evaluate(*args, **kwargs)
+        return out
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its flags and card."""
-        values, traced, _batched = self._collect_values(args, kwargs)
+        values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             raise InputError(_("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(key=self.key))
-        return self._evaluate(values)
+        result = self._evaluate(values)
+        return result if batched else result.possible()
 
     def _evaluate(self, values: list[Any]) -> Result:
         key, dynamic = self._split(values)

@@ -80,6 +80,10 @@ class Parameter:
         usual = (found.unit,) if found and found.unit and fits else ()
         return usual + tuple(u for u in self.kind.units if u not in usual)
 
+    def display_unit(self, values: Any) -> str:
+        """The unit in which SI values of this quantity are shown; empty for what is no quantity."""
+        return units.display_unit(values, self.kind, self.term.unit if self.term else None) if self.kind else ""
+
     def ordinary(self) -> tuple[float, float]:
         """The range tests and forms draw from: declared, else the glossary's, cut to the fitted range and the bounds."""
         low, high = self.typical or (self.term.typical if self.term else (0.1, 1.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,8 +10,10 @@ import numpy as np
 
 from granum.core.cards import Card
 from granum.core.errors import ApplicabilityError
+from granum.core.flags import OUTSIDE_DOMAIN, WORDS
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, default_as_json
+from granum.core.units import show
 
 
 def plain(value: Any) -> Any:
@@ -54,6 +57,23 @@ class Result:
         if len(self.card.outputs) == 1 and not hasattr(self.value, "_fields"):
             return {self.card.outputs[0].name: self.value}
         return dict(zip((p.name for p in self.card.outputs), self.value, strict=True))
+
+    def possible(self) -> Result:
+        """The result itself; raises, with the first cause alone, when no element of it has a value."""
+        none = all(np.all(np.isnan(np.asarray(x, dtype=float))) for x in self.outputs.values())
+        if none or np.all(self.flags & np.int32(OUTSIDE_DOMAIN)):
+            ranked = sorted(self.notices, key=lambda n: n["flag"] != WORDS[OUTSIDE_DOMAIN])
+            cause = ranked[0]["message"] if ranked else _("{card} gave no finite value.").format(card=self.card.key)
+            given = ", ".join(self._given())
+            raise ApplicabilityError(f"{cause} " + _("Given: {given}. Change one of these.").format(given=given))
+        return self
+
+    def _given(self) -> Iterator[str]:
+        """The single numbers that are not defaults, as a reader would write them."""
+        for p in self.card.parameters:
+            value = self.inputs[p.name]
+            if p.kind is not None and np.ndim(value) == 0 and value is not None and value is not p.default:
+                yield f"{p.label} = {show(float(value), p.kind)}"
 
     def check(self) -> Any:
         """The bare value; raises when any element is impossible, not finite or not converged."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import threading
 from contextvars import ContextVar
@@ -198,7 +199,7 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 
 _PRETTY = {"um": "µm", "degC": "°C", "degF": "°F", "percent": "%", "dimensionless": "", "delta_degC": "K", "kelvin": "K",
-           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t", "delta_degF": "°F", "inch": "in", "gallon": "gal"}  # fmt: skip
+           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t", "delta_degF": "°F", "inch": "in", "gallon": "gal", "short_ton": "short ton"}  # fmt: skip
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -216,14 +217,14 @@ CUSTOMARY = frozenset(
 
 
 FIELD: dict[str, tuple[str, ...]] = {
-    "m": ("inch", "ft", "um"), "m^2": ("ft^2", "inch^2"), "m^3": ("gallon", "ft^3", "inch^3"), "kg": ("lb", "oz"), "kg/s": ("lb/hour", "lb/s"),
+    "m": ("inch", "ft", "um"), "m^2": ("ft^2", "inch^2"), "m^3": ("gallon", "ft^3", "inch^3"), "kg": ("lb", "oz"), "kg/s": ("lb/hour", "short_ton/hour"),
     "m^3/s": ("gallon/min", "ft^3/s"), "m/s": ("ft/s", "ft/min", "inch/s"), "kg/m^3": ("lb/ft^3",), "Pa": ("psi", "inH2O"),
     "K": ("degF",), "J": ("Btu",), "W": ("hp", "Btu/hour"), "J/kg": ("Btu/lb",), "J/(kg*K)": ("Btu/(lb*delta_degF)",), "kg/(m^2*s)": ("lb/(ft^2*hour)",),
     "W/(m^2*K)": ("Btu/(hour*ft^2*delta_degF)",), "W/(m*K)": ("Btu/(hour*ft*delta_degF)",), "N": ("lbf",), "Pa*s": ("cP",), "W/kg": ("hp/lb",),
 }  # fmt: skip
 """Customary units of the United States by SI unit; particle sizes stay in micrometers, viscosities in centipoise."""
 SYSTEMS = ("si", "field")
-_system: ContextVar[str] = ContextVar("granum_units", default="si")
+_system: ContextVar[str | None] = ContextVar("granum_units", default=None)
 
 
 def set_unit_system(code: str) -> None:
@@ -234,8 +235,8 @@ def set_unit_system(code: str) -> None:
 
 
 def unit_system() -> str:
-    """The units of displayed values: ``si`` or ``field``."""
-    return _system.get()
+    """The units of displayed values: ``si`` or ``field`` (from ``set_unit_system``, else GRANUM_UNITS)."""
+    return _system.get() or ("field" if os.environ.get("GRANUM_UNITS") == "field" else "si")
 
 
 def field_units(kind: Kind) -> tuple[str, ...]:
@@ -245,7 +246,7 @@ def field_units(kind: Kind) -> tuple[str, ...]:
     >>> field_units(KINDS["Pressure"])
     ()
     """
-    return FIELD.get(kind.unit, ()) if _system.get() == "field" else ()
+    return FIELD.get(kind.unit, ()) if unit_system() == "field" else ()
 
 
 def best_unit(value: float, kind: Kind) -> str:
@@ -264,6 +265,28 @@ def best_unit(value: float, kind: Kind) -> str:
             if low <= sizes[unit] < high:
                 return unit
     return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+
+
+def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
+    """The one unit in which a value, or a column of values, is shown everywhere: terminal, page, report, chart, study.
+
+    The unit people usually write (a glossary entry names it) while the middle of the values suits it, else the best one.
+
+    >>> from granum.core.kinds import KINDS
+    >>> display_unit([2e-6, 85e-6, 0.0], KINDS["Length"]), display_unit(0.4, KINDS["Length"], usual="cm")
+    ('um', 'cm')
+    """
+    array = np.abs(np.atleast_1d(np.asarray(values, dtype=float)))
+    good = array[np.isfinite(array) & (array > 0.0)]
+    middle = float(np.median(good)) if good.size else 0.0
+    if (
+        usual
+        and not field_units(kind)
+        and same_dimension(usual, kind.unit)
+        and (not middle or 0.05 <= abs(from_si(middle, usual, kind)) < 1e4)
+    ):
+        return usual
+    return best_unit(middle, kind)
 
 
 def format_number(value: float, digits: int = 4) -> str:

@@ -188,7 +188,7 @@ def _finished(v: Values, activity: Any) -> DryerBalance:
     for name, low, high in _LIMITS:
         x = values[name]
         inside = (x >= low - 1e-9) & (x <= high + 1e-9)
-        flags.record(flags.OUTSIDE_DOMAIN, ~inside, x, name, "drying.dryer_balance", low, high)
+        flags.impossible(~inside, x, name, low, high)
         possible = possible & inside
     return DryerBalance(*(jnp.where(possible, values[name], jnp.nan) for name in DryerBalance._fields))
 

@@ -99,7 +99,7 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
     """All properties of a solved state; the given ones are repeated exactly, an impossible state is NaN and flagged."""
     possible = possible & jnp.isfinite(gas.T) & jnp.isfinite(gas.y)
     name, value = list(given.items())[-1]
-    flags.record(flags.OUTSIDE_DOMAIN, ~possible, value, name, "humid_gas.state")
+    flags.impossible(~possible, value, name)
     T = jnp.where(possible, gas.T, 300.0)
     y = jnp.where(possible, gas.y, 0.0)
     fog = jnp.where(possible, gas.fog, 0.0)
