@@ -15,7 +15,7 @@ from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.parameters import Parameter, convert
-from granum.core.units import best_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show
+from granum.core.units import field_units, format_number, from_si, parse_unit, pretty_unit, show
 from granum.reports.mathml import mathml
 
 
@@ -42,15 +42,6 @@ def _units_of(kind: Kind, rows: list[dict[str, str]]) -> list[dict[str, str]]:
     return wanted + [u for u in rows if same_dimension(u["unit"], kind) and u not in wanted]
 
 
-def usual_unit(p: Parameter, value: float) -> str:
-    """The unit a value of a parameter is written in: the glossary's when it suits the size, else the best one."""
-    assert p.kind is not None
-    usual = p.term.unit if p.term and not field_units(p.kind) else None
-    if usual and same_dimension(usual, p.kind) and (value == 0.0 or 0.05 <= abs(from_si(value, usual, p.kind)) < 1e4):
-        return usual
-    return best_unit(value, p.kind)
-
-
 def same_dimension(unit: str, kind: Kind) -> bool:
     """Whether a kind can be written in a unit; a word of the glossary may be used with another kind than its usual one."""
     return parse_unit(unit).dimensionality == parse_unit(kind.unit).dimensionality
@@ -67,7 +58,7 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
     if isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):  # each with its own unit
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
-    unit = usual_unit(p, float(np.median(np.abs(array))) if array.size else 0.0)
+    unit = p.display_unit(array)
     shown = (f"{float(x):.6g}" for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
 
@@ -80,7 +71,7 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
         return None
     low, high = p.ordinary()
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
-    unit = usual_unit(p, middle)
+    unit = p.display_unit(middle)
     number = float(from_si(middle, unit, p.kind))
     return {"number": f"{float(f'{number:.2g}'):.6g}", "unit": "" if unit == "dimensionless" else unit}
 

@@ -8,7 +8,7 @@ from granum.app.forms import law_label, options
 from granum.core import registry
 from granum.core.errors import GranumError
 from granum.core.results import Result
-from granum.reports.terminal import value_text
+from granum.reports.quantities import value_text
 
 MOST = 40
 

@@ -12,8 +12,8 @@ from granum.app.case_forms import read_line
 from granum.app.texts import plain_data
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
-from granum.core.units import best_unit, format_number, from_si, pretty_unit
-from granum.reports.terminal import value_text
+from granum.core.units import format_number, from_si, pretty_unit
+from granum.reports.quantities import value_text
 
 MOST_CASES = 20_000
 SHOWN_CASES = 2_000
@@ -60,7 +60,7 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
     except (GranumError, TypeError, ValueError):
         return None  # a list, a choice, or without a value: not for a form
     kind = v.parameter.kind
-    unit = (v.parameter.units or (kind.unit,))[0] if not np.isfinite(value) or value == 0.0 else best_unit(value, kind)
+    unit = (v.parameter.units or (kind.unit,))[0] if not np.isfinite(value) or value == 0.0 else v.parameter.display_unit(value)
     number = f"{float(from_si(value, unit, kind)):.5g}" if np.isfinite(value) else ""
     return {
         "name": path,

@@ -12,12 +12,12 @@ from typing import Any
 from granum.app import studies
 from granum.app.case_forms import read_line
 from granum.app.spread import spread
-from granum.app.texts import described, label_of, plain_data
+from granum.app.texts import described, plain_data
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
-from granum.core.units import pretty_unit
+from granum.reports.quantities import check_row, estimate_rows, statistics_text, stream_figures, stream_table, value_text
 
 Tell = Callable[[float], None]
 
@@ -107,9 +107,14 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
     source.name = payload["name"]
     test = test_type.read(source, **inputs_for(test_type.card, conditions))
     data = test.fit().as_json()
-    for name, row in (*data["parameters"].items(), *data["derived"].items()):
-        row["label"], row["unit_shown"] = label_of(name), pretty_unit(row["unit"])
-    return packed(data | {"chart": json.loads(test.chart().to_json())})
+    return packed(
+        data
+        | {
+            "shown": [row._asdict() for row in estimate_rows(data)],
+            "statistics_shown": statistics_text(data),
+            "chart": json.loads(test.chart().to_json()),
+        }
+    )
 
 
 @lru_cache(maxsize=4)
@@ -125,7 +130,6 @@ def _outcome(payload: dict[str, Any]) -> Any:
 def run(payload: dict[str, Any], _tell: Tell) -> bytes:
     """Solve the text of a case file."""
     from granum.flowsheet.drawing import draw
-    from granum.reports.terminal import value_text
 
     outcome = _outcome(payload)
     data = outcome.as_json()
@@ -133,7 +137,12 @@ def run(payload: dict[str, Any], _tell: Tell) -> bytes:
         data["units"][name]["title"] = report.model.card.title
         for p, value in report.figures():
             data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
-    return packed(data | {"diagram": draw(outcome.sheet, outcome.streams), "stream_rows": outcome.stream_rows()})
+        data["units"][name]["checks"] = [
+            row | check_row(c)._asdict() for row, c in zip(data["units"][name]["checks"], report.checks, strict=True)
+        ]
+    for name, stream in outcome.streams.items():
+        data["streams"][name]["shown"] = stream_figures(stream)
+    return packed(data | {"diagram": draw(outcome.sheet, outcome.streams), "stream_table": stream_table(outcome)})
 
 
 def report(payload: dict[str, Any], _tell: Tell) -> bytes:

@@ -10,12 +10,11 @@ import numpy as np
 
 from granum.app.forms import law_label
 from granum.core.cards import Card
-from granum.core.glossary import quantity_in, term
 from granum.core.i18n import _
 from granum.core.parameters import default_as_json
 from granum.core.results import Result
 from granum.reports.html import note_step
-from granum.reports.terminal import value_text
+from granum.reports.quantities import value_text
 
 
 def plain_data(value: Any) -> Any:
@@ -33,12 +32,6 @@ def plain_data(value: Any) -> Any:
     if hasattr(value, "__array__"):
         return plain_data(np.asarray(value).tolist())
     return default_as_json(value)
-
-
-def label_of(name: str) -> str:
-    """The glossary's label of a result that is no declared output."""
-    word = quantity_in(name)
-    return " ".join((term(word).label, *name[len(word) :].split("_"))).strip() if word else name.replace("_", " ")
 
 
 def python_line(card: Card, given: dict[str, Any]) -> str:

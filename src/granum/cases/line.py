@@ -250,21 +250,6 @@ class Run:
             raise InputError(_("'{path}' is not a result of this line.").format(path=path), path=path)
         return float(getattr(self.units[unit].values, name))
 
-    def stream_rows(self) -> dict[str, dict[str, float | None]]:
-        """The stream table in kg/h, °C and µm."""
-        rows: dict[str, dict[str, float | None]] = {}
-        for name, s in self.streams.items():
-            rows[name] = {
-                "solid": float(s.solid_flow) * 3600,
-                "liquid": float(s.liquid_flow) * 3600,
-                "gas": float(s.gas_flow) * 3600,
-                "temperature": float(s.temperature) - 273.15,
-                "median": median_size(s),
-            }
-            if rows[name]["median"] is not None:
-                rows[name]["median"] = float(rows[name]["median"] or 0.0) * 1e6
-        return rows
-
     def as_json(self) -> dict[str, Any]:
         """The stable ``run`` shape."""
         return {

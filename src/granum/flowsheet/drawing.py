@@ -8,6 +8,8 @@ from typing import Any
 
 import networkx as nx
 
+from granum.core.kinds import KINDS
+from granum.core.units import show
 from granum.flowsheet.plan import Link
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.symbols import symbol_of
@@ -96,7 +98,7 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
         stream = streams.get(k.name) if streams else None
         color = PHASE_COLORS[main_phase(stream) if stream is not None else ""]
         tip = (
-            f"{k.name}: {float(stream.mass_flow) * 3600:.4g} kg/h, {float(stream.temperature) - 273.15:.1f} °C"
+            f"{k.name}: {show(float(stream.mass_flow), KINDS['MassFlow'])}, {show(float(stream.temperature), KINDS['Temperature'])}"
             if stream is not None
             else k.name
         )

@@ -15,10 +15,10 @@ from granum.core.i18n import _, current_language
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.sources import cite
-from granum.core.units import format_number, pretty_unit
+from granum.core.units import format_number
 from granum.flowsheet.drawing import draw, main_phase
 from granum.reports.mathml import mathml
-from granum.reports.terminal import value_text
+from granum.reports.quantities import check_row, stream_table, value_text
 
 
 def _row(p: Parameter, value: Any) -> dict[str, str]:
@@ -48,22 +48,13 @@ def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
 
 def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
     report = run.units[name]
-    checks = []
-    for c in report.checks:
-        low = "" if c.low == -np.inf else f"{format_number(c.low)} ≤ "
-        high = "" if c.high == np.inf else f"≤ {format_number(c.high)}"
-        unit = pretty_unit(c.unit)
-        checks.append({
-            "name": _(c.name), "ok": c.ok, "value": f"{format_number(float(c.value))} {unit}".strip(),
-            "allowed": f"{low}… {high} {unit}".strip(), "source": cite(c.source),
-        })  # fmt: skip
     return {
         "name": name,
         "title": report.model.card.title,
         "summary": report.model.card.summary,
         "parameters": [_row(p, value) for p, value in report.parameters()],
         "figures": [_row(p, value) for p, value in report.figures()],
-        "checks": checks,
+        "checks": [check_row(c)._asdict() | {"source": cite(c.source)} for c in report.checks],
         "steps": note_steps(run.notes[name]),
     }
 
@@ -103,16 +94,14 @@ def line_report(run: Any) -> str:
     environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     audit = run.audit
     numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
-    heads = (_("solid kg/h"), _("liquid kg/h"), _("gas kg/h"), _("T °C"), _("d50 µm"))
     return environment.get_template("line.html.j2").render(
         _=_, lang=current_language(), run=run, description=case.description if case else "",
         title_block=[(label, value) for label, value in block if value], units=units,
         checks=sum(len(u["checks"]) for u in units),
-        failed=[(u["name"], f"{c['name']}: {c['value']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
+        failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
         flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
         audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
-        diagram=draw(run.sheet, run.streams), stream_heads=heads,
-        stream_rows=[(name, [format_number(v) if v is not None else "" for v in row.values()]) for name, row in run.stream_rows().items()],
+        diagram=draw(run.sheet, run.streams), streams=stream_table(run),
         charts=[sizes.to_html(full_html=False, include_plotlyjs=True, config={"displaylogo": False})] if sizes else [],
         sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,
     )  # fmt: skip

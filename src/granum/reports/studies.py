@@ -14,7 +14,6 @@ import granum
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number, from_si, pretty_unit
 from granum.reports.terminal import CAUTION, OK, OUT, _console, _table
-from granum.studies.charts import usual_unit
 from granum.studies.outcome import Outcome
 from granum.studies.subjects import Variable
 
@@ -33,7 +32,7 @@ class Rows(NamedTuple):
 def _cell(v: Variable, value: Any, unit: str | None = None) -> str:
     if value is None or not np.isfinite(value):
         return "—"
-    unit = usual_unit(v.parameter, value) if unit is None else unit
+    unit = v.parameter.display_unit(value) if unit is None else unit
     number = float(value) if v.parameter.kind is None else float(from_si(value, unit, v.parameter.kind))
     return format_number(number)
 
@@ -41,7 +40,7 @@ def _cell(v: Variable, value: Any, unit: str | None = None) -> str:
 def _with_unit(v: Variable, value: Any) -> str:
     if value is None or not np.isfinite(value):
         return "—"
-    unit = usual_unit(v.parameter, value)
+    unit = v.parameter.display_unit(value)
     return f"{_cell(v, value, unit)} {pretty_unit(unit)}".strip()
 
 
@@ -58,7 +57,7 @@ def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
     cells = []
     for v in outcome.outputs:
         row = found["statistics"][v.path]
-        unit = usual_unit(v.parameter, row["p50"] if row["p50"] is not None else 0.0)
+        unit = v.parameter.display_unit(row["p50"] if row["p50"] is not None else 0.0)
         cells.append([v.path, *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")), pretty_unit(unit)])
     return Rows(_("Figures"), heads, cells)
 
@@ -125,7 +124,7 @@ def _columns(outcome: Any, rows: Sequence[int], names: Sequence[str] = ()) -> Ro
     heads, columns = ([(_("case"), "left")], [list(names)]) if names else ([], [])
     for v in (*outcome.inputs, *(v for v in outcome.outputs if v.path not in outcome.cases.inputs)):
         values = outcome.column(v.path)
-        unit = usual_unit(v.parameter, values)
+        unit = v.parameter.display_unit(values)
         label = pretty_unit(unit)
         heads.append((f"{v.path} [{label}]" if label else v.path, "right"))
         columns.append([_cell(v, values[i], unit) for i in rows])
@@ -151,7 +150,7 @@ def _price(price: float, goal: Variable, found: dict[str, Any], v: Variable, lim
     """What one unit more of a limit does to the objective, both in the units people use."""
     shown = []
     for variable, value in ((goal, found["objective"]["value"]), (v, limit)):
-        unit = usual_unit(variable.parameter, value)
+        unit = variable.parameter.display_unit(value)
         kind = variable.parameter.kind
         size = 1.0 if kind is None else float(from_si(1.0, unit, kind) - from_si(0.0, unit, kind))
         label = "K" if unit in ("degC", "degF") else pretty_unit(unit)

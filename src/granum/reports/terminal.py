@@ -14,11 +14,11 @@ from rich.text import Text
 
 from granum.core.cards import Card
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
-from granum.core.parameters import Parameter, default_as_json
+from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.symbols import text_symbol
-from granum.core.units import best_unit, field_units, format_number, from_si, pretty_unit, show
+from granum.core.units import format_number, pretty_unit, show
+from granum.reports.quantities import check_row, estimate_rows, figure_named, label_of, statistics_text, stream_table, value_text
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 
@@ -32,24 +32,6 @@ def _table(*columns: tuple[str, str]) -> Table:
     for title, justify in columns:
         table.add_column(title, justify=justify, overflow="fold")  # type: ignore[arg-type]
     return table
-
-
-def value_text(value: Any, parameter: Parameter) -> str:
-    """One value with its unit; a short list for vectors; words for choices."""
-    if value is None:
-        return "—"
-    if parameter.kind is None:
-        return str(default_as_json(value))
-    array = np.asarray(value, dtype=float)
-    if array.ndim == 0:
-        preferred = parameter.units[0] if parameter.term and parameter.term.unit and not field_units(parameter.kind) else None
-        number = float(array)
-        if preferred and number and 0.05 <= abs(from_si(number, preferred, parameter.kind)) < 1e4:
-            return show(number, parameter.kind, preferred)
-        return show(number, parameter.kind)
-    unit = best_unit(float(np.nanmedian(np.abs(array))) if array.size else 0.0, parameter.kind)
-    items = [format_number(float(x)) for x in np.ravel(from_si(array, unit, parameter.kind))[:8]]
-    return "; ".join(items) + (" …" if array.size > 8 else "") + (f" {pretty_unit(unit)}" if pretty_unit(unit) else "")
 
 
 def _notices(console: Console, notices: Iterable[dict[str, Any]]) -> None:
@@ -78,19 +60,6 @@ def print_result(result: Result) -> None:
     _notices(console, result.notices)
 
 
-def _friendly(row: dict[str, Any]) -> tuple[list[str], str]:
-    """Value, standard error and interval of an estimate in the unit people would choose."""
-    numbers = [row["value"], row["standard_error"], *row["interval_95"]]
-    kinds = {k for k in KINDS.values() if k.unit == row["unit"]}
-    kind = kinds.pop() if len(kinds) == 1 else None  # 1/m may be a surface per volume or a medium resistance: left alone
-    unit = row["unit"]
-    if kind is not None and row["value"] is not None:
-        unit = best_unit(row["value"], kind)
-        zero = from_si(0.0, unit, kind)
-        numbers = [None if x is None else from_si(x, unit, kind) - (zero if i == 1 else 0.0) for i, x in enumerate(numbers)]
-    return [format_number(x) if x is not None else "—" for x in numbers], pretty_unit(unit)
-
-
 def print_fit(found: Any, saved: Path | None = None) -> None:
     """The outcome of ``granum fit``: parameters ± standard error with 95 % interval."""
     console, data = _console(), found.as_json()
@@ -98,16 +67,10 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
     table = _table(
         (_("parameter"), "left"), (_("value"), "right"), (_("standard error"), "right"), (_("95 % interval"), "right"), (_("unit"), "left")
     )
-    for name, row in data["parameters"].items():
-        numbers, unit = _friendly(row)
-        table.add_row(_(name.replace("_", " ")), numbers[0], numbers[1], f"{numbers[2]} … {numbers[3]}", unit)
-    for name, row in data.get("derived", {}).items():
-        numbers, unit = _friendly(row)
-        table.add_row(_(name.replace("_", " ")), numbers[0], "", "", unit, style="dim")
+    for row in estimate_rows(data):
+        table.add_row(row.label, row.value, row.error, row.interval, row.unit, style="dim" if row.derived else None)
     console.print(table)
-    console.print(
-        Text("   ".join(f"{k} = {format_number(v)}" for k, v in data["statistics"].items() if isinstance(v, (int, float))), style="dim")
-    )
+    console.print(Text(statistics_text(data), style="dim"))
     for flag in data["flags"]:
         console.print(Text("! " + (flag["message"] if isinstance(flag, dict) else str(flag)), style=CAUTION))
     if saved:
@@ -116,7 +79,7 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
 
 def print_next(told: dict[str, Any]) -> None:
     """Where the next measurement tells most."""
-    place = "; ".join(f"{name} = {format_number(row['value'])} {pretty_unit(row['unit'])}".strip() for name, row in told["at"].items())
+    place = "; ".join(f"{label_of(name)} = {value_text(row['value'], figure_named(name, row['unit']))}" for name, row in told["at"].items())
     errors = "; ".join(f"{name} ± {format_number(value, 3)}" for name, value in told["standard_errors"].items())
     console = _console()
     console.print(_("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
@@ -172,28 +135,19 @@ def print_run(outcome: Any, saved: Sequence[Path] = ()) -> None:
     """The outcome of ``granum run``: streams, units with results and checks, audit, flags."""
     console = _console()
     console.print(Text(outcome.title, style="bold"))
-    table = _table(
-        (_("stream"), "left"),
-        (_("solid kg/h"), "right"),
-        (_("liquid kg/h"), "right"),
-        (_("gas kg/h"), "right"),
-        (_("T °C"), "right"),
-        (_("d50 µm"), "right"),
-    )
-    for name, row in outcome.stream_rows().items():
-        table.add_row(
-            name, *(format_number(row[k]) if row[k] is not None else "" for k in ("solid", "liquid", "gas", "temperature", "median"))
-        )
+    streams = stream_table(outcome)
+    table = _table((_("stream"), "left"), *((head, "right") for head in streams.heads))
+    for name, cells in streams.rows:
+        table.add_row(name, *cells)
     console.print(table)
     table = _table((_("unit"), "left"), (_("result"), "left"), (_("value"), "right"))
     for unit, report in outcome.units.items():
         for i, (p, value) in enumerate(report.figures()):
             table.add_row(Text(unit, style="bold") if i == 0 else "", p.label, value_text(value, p))
         for check in report.checks:
-            mark = Text("✓ ", style=OK) if check.ok else Text("✗ ", style=OUT)
-            low = "" if check.low == -np.inf else f"{format_number(check.low)} ≤ "
-            high = "" if check.high == np.inf else f" ≤ {format_number(check.high)}"
-            table.add_row("", mark + Text(_(check.name)), f"{low}{format_number(float(check.value))}{high} {pretty_unit(check.unit)}")
+            row = check_row(check)
+            mark = Text("✓ ", style=OK) if row.ok else Text("✗ ", style=OUT)
+            table.add_row("", mark + Text(row.name), f"{row.text} ({row.allowed})")
     console.print(table)
     audit = outcome.audit
     closes = audit["mass_closure"] <= 1e-9 and audit["energy_closure"] <= 1e-9

@@ -11,7 +11,7 @@ from granum.core import charts
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.symbols import html_symbol
-from granum.core.units import best_unit, format_number, from_si, pretty_unit
+from granum.core.units import format_number, from_si, pretty_unit
 from granum.studies.ensembles import Ensemble, Sensitivity
 from granum.studies.fronts import Front
 from granum.studies.grids import Map, Sweep
@@ -21,19 +21,6 @@ from granum.studies.subjects import Variable
 
 SHOWN = 12
 """Most figures and most bars that are drawn."""
-
-
-def usual_unit(p: Parameter, values: Any) -> str:
-    """The unit in which people write values of this size; empty for a figure without a kind."""
-    if p.kind is None:
-        return ""
-    array = np.asarray(values, dtype=float)
-    good = array[np.isfinite(array)]
-    middle = float(np.median(np.abs(good))) if good.size else 0.0
-    preferred = p.term.unit if p.term else None
-    if preferred and preferred in p.units and middle and 0.05 <= abs(from_si(middle, preferred, p.kind)) < 1e4:
-        return preferred
-    return best_unit(middle, p.kind)
 
 
 def shown(p: Parameter, values: Any, unit: str) -> np.ndarray:
@@ -50,7 +37,7 @@ def _axis(v: Variable, unit: str) -> str:
 
 
 def _scaled(v: Variable, values: Any) -> tuple[np.ndarray, str]:
-    unit = usual_unit(v.parameter, values)
+    unit = v.parameter.display_unit(values)
     return shown(v.parameter, values, unit), _axis(v, unit)
 
 
@@ -59,7 +46,7 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
     values = outcome.column(v.path)
     good = values[np.isfinite(values)]
     x, title = _scaled(v, good)
-    unit = usual_unit(v.parameter, good)
+    unit = v.parameter.display_unit(good)
     figure = charts.figure(title, _("share of cases / %"), title=v.label)
     counts, edges = np.histogram(x, bins=min(60, max(8, int(np.sqrt(len(x))))))
     figure.add_bar(
@@ -184,7 +171,7 @@ def _forbid(figure: go.Figure, outcome: Map, path: str, limit: tuple[float | Non
     for bound, operation, sign in zip(limit, (">=", "<="), ("≥", "≤"), strict=True):
         if bound is None or not np.any(~meets(values, limit) & np.isfinite(values)):
             continue
-        unit = usual_unit(v.parameter, bound)
+        unit = v.parameter.display_unit(bound)
         edge = float(shown(v.parameter, bound, unit))
         figure.add_contour(
             x=x, y=y, z=shown(v.parameter, values, unit), showscale=False, hoverinfo="skip", showlegend=True,
@@ -202,7 +189,7 @@ def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
     figure.add_bar(y=names, x=[100.0] * len(names), orientation="h", marker_color=charts.GRID, hoverinfo="skip", showlegend=False)
     texts = []
     for v in outcome.inputs:
-        unit = usual_unit(v.parameter, outcome.values[v.path])
+        unit = v.parameter.display_unit(outcome.values[v.path])
         texts.append(f"{format_number(float(shown(v.parameter, outcome.values[v.path], unit)))} {pretty_unit(unit)}")
     figure.add_scatter(y=names, x=places, mode="markers+text", text=texts, textposition="top center", name=_("optimum"),
                        marker={"color": charts.ACCENT, "size": 12}, showlegend=False)  # fmt: skip

@@ -1,5 +1,5 @@
 // Lab data: drop a table, give the conditions, read parameters with intervals.
-import { html, t, ask, link, number, useAnswer, useState, settings, replaceLink, useEffect, Plot } from './core.js';
+import { html, t, ask, link, useAnswer, useState, settings, replaceLink, useEffect, Plot } from './core.js';
 import { Field, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 
@@ -51,10 +51,9 @@ function Fitted({ data }) {
     URL.revokeObjectURL(place);
   };
   return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th><th scope="col">${t('unit')}</th></tr></thead>
-    <tbody>${Object.entries(data.parameters).map(([name, row]) => html`<tr data-parameter=${name}><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n"><strong>${number(row.value)}</strong></td><td class="n">${number(row.standard_error, 3)}</td><td class="n">${number(row.interval_95[0])} … ${number(row.interval_95[1])}</td><td>${row.unit_shown}</td></tr>`)}
-    ${Object.entries(data.derived || {}).map(([name, row]) => html`<tr class="dim"><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n">${number(row.value)}</td><td /><td /><td>${row.unit_shown}</td></tr>`)}</tbody></table></div>
+    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}</td><td class="n">${row.derived ? row.value : html`<strong>${row.value}</strong>`}</td><td class="n">${row.error}</td><td class="n">${row.interval}</td><td>${row.unit}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
-    <p class="small dim">${Object.entries(data.statistics).filter(([, v]) => typeof v === 'number').map(([name, v]) => `${name.replaceAll('_', ' ')} = ${number(v)}`).join(' · ')}</p>
+    <p class="small dim">${data.statistics_shown}</p>
     <button class="button" onClick=${save}>${t('Download the result')}</button>`;
 }

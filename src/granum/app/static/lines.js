@@ -129,8 +129,8 @@ function Outcome({ data, kept, form, edit, tools, clear }) {
       ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} edit=${edit} spot="panel" /></div>`}</div>`}</div>
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
     ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
-    <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th><th class="n" scope="col">${t('solid')} kg/h</th><th class="n" scope="col">${t('liquid')} kg/h</th><th class="n" scope="col">${t('gas')} kg/h</th><th class="n" scope="col"><i>T</i> °C</th><th class="n" scope="col"><i>d</i><sub>50</sub> µm</th></tr></thead>
-      <tbody>${Object.entries(data.stream_rows).map(([name, row]) => html`<tr><td>${name}</td>${['solid', 'liquid', 'gas', 'temperature', 'median'].map((k) => html`<td class="n">${row[k] === null ? '' : number(row[k])}</td>`)}</tr>`)}</tbody></table></div>
+    <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
+      <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
     <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div>`;
 }
 
@@ -162,15 +162,13 @@ function put(rows, key, label, index, value) {
 function UnitPanel({ name, unit, cases }) {
   return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide"><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
     ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? number(c.units[name]?.results[figure]?.value)}</td>`)}</tr>`)}
-    ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.low !== null ? `${number(c.low)} ≤ ` : ''}${number(c.value)}${c.high !== null ? ` ≤ ${number(c.high)}` : ''} ${c.unit === 'dimensionless' ? '' : c.unit}</td></tr>`)}</tbody></table></div>`;
+    ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.text} <span class="dim">(${c.allowed})</span></td></tr>`)}</tbody></table></div>`;
 }
 
 function StreamPanel({ stream: s }) {
-  const phases = ['solid', 'liquid', 'gas'].flatMap((phase) => Object.entries(s[phase]).filter(([, flow]) => flow > 0).map(([name, flow]) => [phase, name, flow]));
   const figure = s.size && s.size.median !== null && {
     data: [{ type: 'scatter', mode: 'lines', line: { shape: 'hv', color: '#b7791f' }, x: s.size.boundaries.map((x) => x * 1e6), y: [...s.size.mass_fractions, 0].map((y) => y * 100) }],
     layout: { height: 260, margin: { l: 55, r: 15, t: 10, b: 45 }, xaxis: { type: 'log', dtick: 1, title: { text: t('particle diameter') + ' / µm' } }, yaxis: { title: { text: '% ' + t('by mass') } } },
   };
-  return html`<div class="columns"><table><tbody><tr><td>${t('temperature')}</td><td class="n">${number(s.temperature.value - 273.15)} °C</td></tr><tr><td>${t('pressure')}</td><td class="n">${number(s.pressure.value / 1e5)} bar</td></tr>
-    ${phases.map(([phase, name, flow]) => html`<tr><td>${t(phase)}: ${name}</td><td class="n">${number(flow * 3600)} kg/h</td></tr>`)}</tbody></table>${figure && html`<${Plot} figure=${figure} label=${t('Particle sizes')} />`}</div>`;
+  return html`<div class="columns"><table><tbody>${s.shown.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table>${figure && html`<${Plot} figure=${figure} label=${t('Particle sizes')} />`}</div>`;
 }

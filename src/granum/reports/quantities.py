@@ -1,0 +1,178 @@
+"""Numbers as people read them, once for terminal, page and report: values, estimates, checks, the stream table."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from granum.core.glossary import quantity_in, term
+from granum.core.i18n import _
+from granum.core.kinds import KINDS, Kind, kind_of
+from granum.core.parameters import Parameter, default_as_json
+from granum.core.units import format_number, from_si, pretty_unit, show
+
+AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
+MOST_SHOWN = 8
+
+
+def value_text(value: Any, parameter: Parameter) -> str:
+    """One value with its unit; a short list for vectors; words for choices."""
+    if value is None:
+        return "—"
+    if parameter.kind is None:
+        return _("yes") if value is True else _("no") if value is False else str(default_as_json(value))
+    array = np.asarray(value, dtype=float)
+    unit = parameter.display_unit(array)
+    if array.ndim == 0:
+        return show(float(array), parameter.kind, unit)
+    items = [format_number(float(x)) for x in np.ravel(from_si(array, unit, parameter.kind))[:MOST_SHOWN]]
+    return f"{'; '.join(items)}{' …' if array.size > MOST_SHOWN else ''} {pretty_unit(unit)}".strip()
+
+
+@cache
+def _kind_in(unit: str) -> Kind | None:
+    """What is measured in an SI unit, with the units of every kind that is; None when that says too little."""
+    found = [k for k in KINDS.values() if k.unit == unit]
+    if not found or unit in AMBIGUOUS:
+        return None
+    return replace(found[0], display=tuple(dict.fromkeys(u for k in found for u in k.display)))
+
+
+def figure_named(name: str, unit: str, card: str = "") -> Parameter:
+    """A figure of which the name and the SI unit are known, such as an estimate of a card."""
+    from granum.core import registry
+
+    thing = registry.everything().get(card)
+    declared = {p.name: p.kind for p in (*thing.card.parameters, *thing.card.outputs)} if thing else {}
+    kinds = {n: kind_of(a) for n, a in getattr(thing, "estimates", {}).items()} | declared
+    kind = kinds.get(name)
+    return Parameter(name, kind if kind is not None and kind.unit == unit else _kind_in(unit) or Kind(unit, unit))
+
+
+def label_of(name: str) -> str:
+    """The glossary's label of a result that is no declared output."""
+    word = quantity_in(name)
+    rest = name[len(word or "") :].strip("_").replace("_", " ")
+    if not word:
+        return _(rest)
+    return f"{term(word).label} ({_(rest)})" if rest else term(word).label
+
+
+def statistics_text(data: dict[str, Any]) -> str:
+    """The statistics of the JSON of a fit in one line."""
+    labels = {"rmse": _("root mean square of the residuals"), "r_squared": "R²", "aicc": "AICc", "degrees_of_freedom": _("degrees of freedom"),
+              "points": _("points"), "points_excluded": _("points excluded"), "residual_standard_deviation": _("residual standard deviation"),
+              "condition": _("condition of the normal equations")}  # fmt: skip
+    numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
+    return " · ".join(f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers)
+
+
+class EstimateRow(NamedTuple):
+    """An estimate in its display unit, each number to the second figure of the standard error."""
+
+    name: str
+    label: str
+    value: str
+    error: str
+    interval: str
+    unit: str
+    derived: bool
+
+
+def estimate_rows(data: dict[str, Any]) -> list[EstimateRow]:
+    """The estimates of the JSON of a fit."""
+    groups = [(data["parameters"], False), (data.get("derived", {}), True)]
+    return [_estimate(data["card"], name, row, derived) for rows, derived in groups for name, row in rows.items()]
+
+
+def _estimate(card: str, name: str, row: dict[str, Any], derived: bool) -> EstimateRow:
+    figure = figure_named(name, row["unit"], card)
+    numbers = [row["value"], row["standard_error"], *row["interval_95"]]
+    unit = row["unit"]
+    if figure.kind is not None and row["value"] is not None:
+        unit = figure.display_unit(row["value"])
+        zero = from_si(0.0, unit, figure.kind)
+        numbers = [None if x is None else float(from_si(x, unit, figure.kind) - (zero if i == 1 else 0.0)) for i, x in enumerate(numbers)]
+    value, error, low, high = (_to_figure_of(x, numbers[1]) for x in numbers)
+    interval = "" if numbers[2] is None and numbers[3] is None else f"{low} … {high}"
+    return EstimateRow(name, label_of(name), value, error, interval, pretty_unit(unit), derived)
+
+
+def _to_figure_of(value: float | None, error: float | None) -> str:
+    """A number printed to the second figure of its standard error; four figures where there is none."""
+    if value is None:
+        return "—"
+    if not error or not value or not math.isfinite(error):
+        return format_number(value)
+    digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 2
+    return format_number(value, min(max(digits, 2), 7))
+
+
+class CheckRow(NamedTuple):
+    """A check of a unit: its value and what is allowed, in one unit."""
+
+    name: str
+    ok: bool
+    text: str
+    allowed: str
+
+
+def check_row(check: Any) -> CheckRow:
+    """A check as people read it."""
+    kind = _kind_in(check.unit)
+    value, low, high = float(check.value), float(check.low), float(check.high)
+    unit = check.unit
+    if kind is not None:
+        unit = Parameter("", kind).display_unit(value or next((x for x in (high, low) if math.isfinite(x)), 0.0))
+        value, low, high = (float(from_si(x, unit, kind)) for x in (value, low, high))
+    tail = f" {pretty_unit(unit)}".rstrip()
+    if not math.isfinite(low) or not math.isfinite(high):
+        allowed = f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
+    else:
+        allowed = f"{format_number(low)} … {format_number(high)}"
+    return CheckRow(_(check.name), check.ok, format_number(value) + tail, allowed + tail)
+
+
+def stream_figures(stream: Any) -> list[tuple[str, str]]:
+    """Temperature, pressure and the flow of every species that a stream carries: labels and texts."""
+    figures = [
+        (_("temperature"), show(float(stream.temperature), KINDS["Temperature"])),
+        (_("pressure"), show(float(stream.pressure), KINDS["Pressure"])),
+    ]
+    m = stream.mixture
+    phases = (("solid", m.solids, stream.solid_by_species), ("liquid", m.liquids, stream.liquid), ("gas", m.gases, stream.gas))
+    for phase, species, flows in phases:
+        for one, flow in zip(species, np.asarray(flows), strict=True):
+            if flow > 0.0:
+                figures.append((f"{_(phase)}: {one.name}", show(float(flow), KINDS["MassFlow"])))
+    return figures
+
+
+class StreamTable(NamedTuple):
+    """Streams, one a row: heads of the columns with their unit, then name and cells."""
+
+    heads: tuple[str, ...]
+    rows: list[tuple[str, list[str]]]
+
+
+def stream_table(run: Any) -> StreamTable:
+    """Flows of the phases, temperature and median size of every stream, a unit a column."""
+    from granum.cases.line import median_size
+
+    flow, length, degrees = (KINDS[name] for name in ("MassFlow", "Length", "Temperature"))
+    streams = run.streams
+    phases = {_("solid"): "solid_flow", _("liquid"): "liquid_flow", _("gas"): "gas_flow"}
+    columns = [(label, flow, [float(getattr(s, name)) for s in streams.values()]) for label, name in phases.items()]
+    columns.append(("T", degrees, [float(s.temperature) for s in streams.values()]))
+    columns.append(("d50", length, [np.nan if (d := median_size(s)) is None else float(d) for s in streams.values()]))
+    shared = Parameter("mass_flow", flow).display_unit([x for _label, kind, column in columns if kind is flow for x in column])
+    heads, cells = [], []
+    for label, kind, values in columns:
+        unit = shared if kind is flow else Parameter("", kind).display_unit(values)
+        heads.append(f"{label} {pretty_unit(unit)}")
+        cells.append(["" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values])
+    return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
