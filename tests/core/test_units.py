@@ -63,10 +63,20 @@ def test_what_is_not_a_number_is_refused(text: str) -> None:
         ("[2; 4; 8] um", [2, 4, 8]),
         ("2,4,8 um", [2, 4, 8]),
         ("2,5 4,5 8 um", [2.5, 4.5, 8]),
+        ("2um 4um 8um", [2, 4, 8]),
+        ("2 um, 4 um, 8 um", [2, 4, 8]),
+        ("2um,4um,8um", [2, 4, 8]),
+        ("0.002mm,4um", [2, 4]),
+        ("2 4 um 0.008 mm", [2, 4, 8]),
     ],
 )
 def test_lists(text: str, expected: list[float]) -> None:
     np.testing.assert_allclose(units.read_series(text, KINDS["Length"]), np.array(expected) * 1e-6, rtol=1e-12)
+
+
+def test_a_list_whose_last_value_lacks_the_unit_is_refused() -> None:
+    with pytest.raises(InputError, match="last one has none"):
+        units.read_series("2 um 4", KINDS["Length"], "class_sizes")
 
 
 @given(st.sampled_from(sorted(KINDS)), st.floats(-1e9, 1e9))

@@ -171,21 +171,34 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
 
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
-    """SI values of a list in one string: ``"2 4 8 um"`` or ``"[1.5; 2.5] bar"``, unit last and shared."""
-    cleaned = text.replace("[", " ").replace("]", " ").replace(";", " ")
-    cleaned = re.sub(r",(?=\s)", " ", cleaned)
+    """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value without a unit takes the next one's."""
+    cleaned = re.sub(r"[\[\];]", " ", text)
+    cleaned = re.sub(r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned)  # before a blank or after a unit the comma separates
     numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
     if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
         cleaned = cleaned.replace(",", " ")  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
-    words = cleaned.split()
-    unit = ""
-    while words and not _NUMBER.match(words[-1]):
-        unit = words.pop() + unit
-    if words and (tail := _NUMBER.match(words[-1])) and tail.group(2):
-        words[-1], unit = tail.group(1), tail.group(2) + unit
-    values = [read_quantity(word, kind, name) for word in words]
+    values: list[float] = []
+    units: list[str] = []
+    for word in cleaned.split():
+        found = _NUMBER.match(word)
+        if values and (found is None or re.match(r"1/[A-Za-z(]", word)):
+            units[-1] = f"{units[-1]} {word}".strip()
+            continue
+        values.append(read_quantity(found.group(1) if found else word, kind, name))
+        units.append(found.group(2) if found else "")
+    if any(units) and not units[-1]:
+        raise InputError(
+            _(
+                "'{name}' = '{text}': some values have a unit and the last one has none. Write the unit once at the end, or after each value."
+            ).format(name=name or kind.name, text=text),
+            name=name or kind.name,
+        )
+    for i in range(len(units) - 2, -1, -1):
+        units[i] = units[i] or units[i + 1]
     array = np.asarray(values, dtype=float)
-    return array if not unit else np.asarray(to_si(array, unit, kind, name))
+    if len(set(units)) <= 1:
+        return array if not any(units) else np.asarray(to_si(array, units[0], kind, name))
+    return np.asarray([to_si(value, unit, kind, name) for value, unit in zip(values, units, strict=True)])
 
 
 def is_quantity(value: Any) -> bool:
