@@ -88,13 +88,13 @@ def print_next(told: dict[str, Any]) -> None:
 
 
 def print_list(cards: Sequence[Card]) -> None:
-    """The outcome of ``granum list``."""
+    """The outcome of ``granum list``: one line a card, whole where the output goes to a file or another program."""
     console = _console()
-    table = _table((_("card"), "left"), (_("sort"), "left"), (_("title"), "left"))
-    table.columns[0].no_wrap = True  # a key is copied from here
+    width = max((len(card.key) for card in cards), default=0)
     for card in cards:
-        table.add_row(card.key, _(card.sort), card.title)
-    console.print(table)
+        sort = "" if card.sort == "formula" else f" ({_(card.sort)})"
+        line = Text.assemble((card.key.ljust(width), "bold"), "  ", card.title, (sort, "dim"))
+        console.print(line, no_wrap=True, overflow="ellipsis" if console.is_terminal else "ignore", crop=console.is_terminal)
     console.print(_("{count} cards").format(count=len(cards)))
 
 
@@ -103,17 +103,17 @@ def print_card(card: Card) -> None:
     console = _console()
     console.print(Text(card.title, style="bold"), Text(f"  {card.key} · {_(card.sort)}", style="dim"))
     console.print(card.summary)
-    table = _table((_("input"), "left"), (_("quantity"), "left"), (_("units"), "left"), (_("allowed"), "left"), (_("default"), "left"))
+    table = _table((_("input"), "left"), (_("quantity, units, allowed values, default"), "left"))
     table.columns[0].no_wrap = True
     for p in card.parameters:
         allowed = ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
-        default = _("required") if p.required else ("—" if p.default is None else value_text(p.default, p))
-        table.add_row(p.name, p.label, ", ".join(map(pretty_unit, p.units[:3])), allowed, default)
+        default = _("required") if p.required else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
+        table.add_row(p.name, " · ".join(filter(None, (p.label, ", ".join(map(pretty_unit, p.units[:3])), allowed, default))))
     console.print(table)
     if card.outputs:
-        table = _table((_("output"), "left"), (_("quantity"), "left"), (_("unit"), "left"))
+        table = _table((_("output"), "left"), (_("quantity, unit"), "left"))
         for p in card.outputs:
-            table.add_row(p.name, p.label, pretty_unit(p.kind.unit) if p.kind else "")
+            table.add_row(p.name, " · ".join(filter(None, (p.label, pretty_unit(p.kind.unit) if p.kind else ""))))
         console.print(table)
     if card.equation:
         console.print(Text(card.equation, style="cyan"))
