@@ -45,7 +45,7 @@ def test_mothes_loffler_solves_its_balance() -> None:
     shape, Q, D_t = StandardCyclone()(0.3), 0.1, 0.0125
     H, S = shape.height, shape.finder_length
     R, r_i, length = 0.15, shape.outlet_diameter / 2, H - S
-    velocity = mothes.swirl(Q, 0.3, shape.inlet_height, shape.inlet_width, shape.cylinder_height, H, shape.dust_outlet_diameter, 0.0075)
+    velocity = mothes.swirl(Q, shape, 0.0075)
     cone = np.pi * (H - shape.cylinder_height) / 3 * (R**2 + (shape.dust_outlet_diameter / 2) ** 2 + R * shape.dust_outlet_diameter / 2)
     r_a = np.sqrt((np.pi * R**2 * shape.cylinder_height + cone) / (np.pi * H))
     for x in (0.4e-6, 1.2e-6, 4e-6):

@@ -241,8 +241,9 @@ class Formula:
         return self._told(_floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
 
     def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
-        """What single inputs gave, unless they contradict one another: that raises."""
-        if any(type(x) is float and x != x for x in (out if isinstance(out, tuple) else (out,))):
+        """What single inputs gave, unless they contradict one another: that raises. No number in, as from a failed root, gives none out."""
+        lost = any(type(x) is float and x != x for x in (out if isinstance(out, tuple) else (out,)))
+        if lost and not any(hasattr(value, "at") and bool(jnp.isnan(value).any()) for value in (*args, *kwargs.values())):
             self.evaluate(*args, **kwargs)
         return out
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
-from functools import cache
+import inspect
+from collections.abc import Callable
+from functools import cache, wraps
 from importlib.resources import files
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_type_hints
 
 import equinox as eqx
 
@@ -26,7 +28,7 @@ STANDARDS = Literal[
 
 
 class Dimensions(NamedTuple):
-    """Lengths of a cyclone, in the order that the efficiency and pressure-drop laws take them."""
+    """Lengths of a cyclone: the one argument ``cyclone`` of the efficiency and pressure-drop laws."""
 
     diameter: Length
     inlet_height: Length
@@ -36,6 +38,25 @@ class Dimensions(NamedTuple):
     cylinder_height: Length
     height: Length
     dust_outlet_diameter: Length
+
+
+def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a law written with one argument ``cyclone``, its ``Dimensions``, be declared and called with each length by its name."""
+    hints = get_type_hints(function, include_extras=True)
+    lengths = get_type_hints(Dimensions, include_extras=True)
+    signature = inspect.signature(function)
+    taken = list(signature.parameters.values())
+    start = next(i for i, p in enumerate(taken) if p.name == "cyclone")
+    stop = start + len(lengths)
+    apart = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in lengths]
+
+    @wraps(function)
+    def flat(*values: Any) -> Any:
+        return function(*values[:start], Dimensions(*values[start:stop]), *values[stop:])
+
+    flat.__signature__ = signature.replace(parameters=[*taken[:start], *apart, *taken[start + 1 :]])  # type: ignore[attr-defined]
+    flat.__annotations__ = {name: hint for name, hint in hints.items() if name != "cyclone"} | lengths
+    return flat
 
 
 @cache

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, limit_active
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Fraction, Length, MassRatio, PositiveNumber, Ratio, Speed, Temperature, VolumeFlow
+from granum.cyclones.geometry import Dimensions, takes_lengths
 
 TYPICAL = {
     "particle_diameter": (1e-6, 2e-5), "volume_flow": (1.0, 2.0), "fluid_density": (0.6, 1.3), "dynamic_viscosity": (1.7e-5, 3e-5),
@@ -90,20 +91,14 @@ def cut_size_turns(
 
 
 @formula(source="lapple1951", family="cyclone_efficiency", equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^2}", typical=TYPICAL)
+@takes_lengths
 def cyclone_efficiency_lapple(
     particle_diameter: Length,
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
 ) -> Fraction:
     """Grade efficiency of a gas cyclone by Lapple.
 
@@ -115,22 +110,16 @@ def cyclone_efficiency_lapple(
     ...                                 dynamic_viscosity=1.8e-5, **d) < 0.9
     True
     """
-    v = volume_flow / (inlet_height * inlet_width)
-    turns = turn_number_lapple(inlet_height, cylinder_height, height)
-    cut = cut_size_lapple(v, inlet_width, particle_density, fluid_density, dynamic_viscosity, turns)
+    v = volume_flow / (cyclone.inlet_height * cyclone.inlet_width)
+    turns = turn_number_lapple(cyclone.inlet_height, cyclone.cylinder_height, cyclone.height)
+    cut = cut_size_lapple(v, cyclone.inlet_width, particle_density, fluid_density, dynamic_viscosity, turns)
     return smooth_grade(particle_diameter, cut, 2.0)
 
 
 @formula(source="leith1972; leith1973", equation=r"G = \frac{8 K_c}{K_a^2 K_b^2}", output="configuration_number", typical=TYPICAL)
+@takes_lengths
 def configuration_number_leith_licht(
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
 ) -> PositiveNumber:
     """Configuration number of a cyclone for Leith and Licht's efficiency, from its lengths.
 
@@ -140,8 +129,7 @@ def configuration_number_leith_licht(
     ...                                        cylinder_height=1.5, height=4.0, dust_outlet_diameter=0.375))
     551
     """
-    D, a, b, De, S = diameter, inlet_height, inlet_width, outlet_diameter, finder_length
-    h, H, B = cylinder_height, height, dust_outlet_diameter
+    D, a, b, De, S, h, H, B = cyclone
     natural = jnp.minimum(2.3 * De * (D**2 / (a * b)) ** (1.0 / 3.0), H - S)  # length of the vortex below the finder
     above = jnp.pi * (S - a / 2.0) * (D**2 - De**2) / 4.0
     end = D - (D - B) * (S + natural - h) / (H - h)
@@ -163,20 +151,14 @@ def vortex_exponent_alexander(diameter: Length, temperature: Temperature = 293.1
 
 @formula(source="leith1972", family="cyclone_efficiency",
          equation=r"\eta = 1 - \exp\left\{-2\left[\frac{G\tau Q(n+1)}{D^3}\right]^{1/(2n+2)}\right\},\ \tau = \frac{\rho_p d_p^2}{18\eta}", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def cyclone_efficiency_leith_licht(
     particle_diameter: Length,
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     temperature: Temperature = 293.15,
 ) -> Fraction:
     """Grade efficiency of a gas cyclone by Leith and Licht, with the dust mixed over the radius.
@@ -187,15 +169,15 @@ def cyclone_efficiency_leith_licht(
     ...                                      dynamic_viscosity=1.8e-5, **d) < 0.95
     True
     """
-    G = configuration_number_leith_licht(diameter, inlet_height, inlet_width, outlet_diameter, finder_length, cylinder_height, height,
-                                         dust_outlet_diameter)  # fmt: skip
-    n = vortex_exponent_alexander(diameter, temperature)
+    G = configuration_number_leith_licht(*cyclone)
+    n = vortex_exponent_alexander(cyclone.diameter, temperature)
     relaxation = heavier(particle_density, fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
-    return -jnp.expm1(-2.0 * (G * relaxation * volume_flow * (n + 1.0) / diameter**3) ** (0.5 / (n + 1.0)))
+    return -jnp.expm1(-2.0 * (G * relaxation * volume_flow * (n + 1.0) / cyclone.diameter**3) ** (0.5 / (n + 1.0)))
 
 
-def core_height(D: Any, De: Any, S: Any, h: Any, H: Any, B: Any) -> Any:
+def core_height(cyclone: Dimensions) -> Any:
     """Height of the cylinder that continues the vortex finder down to the bottom or to the wall of the cone."""
+    D, _a, _b, De, S, h, H, B = cyclone
     narrow = (D - De) / jnp.where(D > B, D - B, 1.0) * (H - h) + h - S
     return jnp.where(De > B, narrow, H - S)
 
@@ -203,19 +185,13 @@ def core_height(D: Any, De: Any, S: Any, h: Any, H: Any, B: Any) -> Any:
 @formula(source="barth1956; hoffmann2008",
          equation=r"\frac{v_\theta}{v_x} = \left(\frac{\alpha a b}{\pi R_x R_i} + \frac{\lambda H_c}{R_x}\right)^{-1},\ d_{50} = \sqrt{\frac{9\eta Q}{\pi H_c (\rho_p - \rho_g) v_\theta^2}}",
          output="cut_size", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def cut_size_barth(
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     wall_friction: Ratio = 0.005,
 ) -> Length:
     """Cut size of a gas cyclone by Barth: the particle that circles under the edge of the vortex finder.
@@ -225,34 +201,28 @@ def cut_size_barth(
     >>> 1e-6 < cut_size_barth(volume_flow=1.5, particle_density=2000, fluid_density=1.2, dynamic_viscosity=1.8e-5, **d) < 5e-6
     True
     """
-    v, H_c, _v_x = core_flow(volume_flow, diameter, inlet_height, inlet_width, outlet_diameter, finder_length, cylinder_height, height,
-                             dust_outlet_diameter, wall_friction)  # fmt: skip
+    v, H_c, _v_x = core_flow(volume_flow, cyclone, wall_friction)
     return jnp.sqrt(9.0 * dynamic_viscosity * volume_flow / (jnp.pi * H_c * heavier(particle_density, fluid_density) * v**2))
 
 
-def core_flow(Q: Any, D: Any, a: Any, b: Any, De: Any, S: Any, h: Any, H: Any, B: Any, friction: Any) -> tuple[Any, Any, Any]:
+def core_flow(Q: Any, cyclone: Dimensions, friction: Any) -> tuple[Any, Any, Any]:
     """Barth's swirl velocity at the core, height of the core, velocity in the vortex finder."""
+    D, a, b, De = cyclone[:4]
     constriction = 1.0 - 0.4 * jnp.sqrt(2.0 * b / D)
-    H_c, R_x, R_in = core_height(D, De, S, h, H, B), De / 2.0, (D - b) / 2.0
+    H_c, R_x, R_in = core_height(cyclone), De / 2.0, (D - b) / 2.0
     v_x = Q / (jnp.pi * R_x**2)
     return v_x / (constriction * a * b / (jnp.pi * R_x * R_in) + friction * H_c / R_x), H_c, v_x
 
 
 @formula(source="barth1956; hoffmann2008", family="cyclone_efficiency", equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^m}", typical=TYPICAL)
+@takes_lengths
 def cyclone_efficiency_barth(
     particle_diameter: Length,
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     wall_friction: Ratio = 0.005,
     grade_exponent: PositiveNumber = ORDER,
 ) -> Fraction:
@@ -264,22 +234,27 @@ def cyclone_efficiency_barth(
     ...                          dynamic_viscosity=1.8e-5, **d) > 0.99
     True
     """
-    cut = cut_size_barth(volume_flow, particle_density, fluid_density, dynamic_viscosity, diameter, inlet_height, inlet_width,
-                         outlet_diameter, finder_length, cylinder_height, height, dust_outlet_diameter, wall_friction)  # fmt: skip
+    cut = cut_size_barth(volume_flow, particle_density, fluid_density, dynamic_viscosity, *cyclone, wall_friction)
     return smooth_grade(particle_diameter, cut, grade_exponent)
 
 
-def muschelknautz_flow(Q: Any, rho: Any, rho_p: Any, loading: Any, D: Any, a: Any, b: Any, De: Any, S: Any, h: Any, H: Any, B: Any,
-                       friction: Any) -> tuple[Any, Any, Any, Any, Any]:  # fmt: skip
+def wall_area(cyclone: Dimensions) -> Any:
+    """Inner surface that the gas rubs: roof, cylinder, cone and outside of the vortex finder."""
+    D, _a, _b, De, S, h, H, B = cyclone
+    slant = jnp.sqrt((H - h) ** 2 + ((D - B) / 2.0) ** 2)
+    return jnp.pi * ((D**2 - De**2) / 4.0 + D * h + (D + B) / 2.0 * slant + De * S)
+
+
+def muschelknautz_flow(Q: Any, rho: Any, rho_p: Any, loading: Any, cyclone: Dimensions, friction: Any) -> tuple[Any, Any, Any, Any, Any]:
     """Velocity at the wall and at the core, in the vortex finder, total friction factor, wall area."""
+    D, a, b, De = cyclone[:4]
     R, R_x = D / 2.0, De / 2.0
     x = b / R
     inner = jnp.sqrt(jnp.maximum(1.0 - (1.0 - x**2) * (2.0 * x - x**2) / (1.0 + loading), 1e-12))
     constriction = (1.0 - jnp.sqrt(jnp.maximum(1.0 + 4.0 * ((x / 2.0) ** 2 - x / 2.0) * inner, 1e-12))) / x
     v_in, v_x = Q / (a * b), Q / (jnp.pi * R_x**2)
     wall = v_in * (R - b / 2.0) / (constriction * R)
-    slant = jnp.sqrt((H - h) ** 2 + ((D - B) / 2.0) ** 2)
-    area = jnp.pi * ((D**2 - De**2) / 4.0 + D * h + (D + B) / 2.0 * slant + De * S)
+    area = wall_area(cyclone)
     froude = v_x / jnp.sqrt(2.0 * STANDARD_GRAVITY * R_x)
     strand = 0.4 * rho_p  # density of the dust layer that slides along the wall
     total = friction + 0.25 * (R / R_x) ** -0.625 * jnp.sqrt(jnp.maximum(0.9 * loading * froude * rho / strand, 1e-30))
@@ -290,19 +265,13 @@ def muschelknautz_flow(Q: Any, rho: Any, rho_p: Any, loading: Any, D: Any, a: An
 @formula(source="muschelknautz1972; hoffmann2008, ch. 6",
          equation=r"v_{\theta} = \frac{v_w R/R_x}{1 + f A_R v_w\sqrt{R/R_x}/(2Q)},\ d_{50} = \sqrt{\frac{18\eta\,0.9 Q}{2\pi(\rho_p-\rho_g)v_\theta^2(H-S)}}",
          output="cut_size", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def cut_size_muschelknautz(
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     dust_loading: MassRatio = 0.0,
     gas_friction: Ratio = 0.005,
 ) -> Length:
@@ -315,10 +284,9 @@ def cut_size_muschelknautz(
     >>> 1e-6 < cut_size_muschelknautz(volume_flow=1.5, particle_density=2000, fluid_density=1.2, dynamic_viscosity=1.8e-5, **d) < 5e-6
     True
     """
-    _w, core, *_rest = muschelknautz_flow(volume_flow, fluid_density, particle_density, dust_loading, diameter, inlet_height, inlet_width,
-                                          outlet_diameter, finder_length, cylinder_height, height, dust_outlet_diameter, gas_friction)  # fmt: skip
+    _w, core, *_rest = muschelknautz_flow(volume_flow, fluid_density, particle_density, dust_loading, cyclone, gas_friction)
     return jnp.sqrt(18.0 * dynamic_viscosity * 0.9 * volume_flow
-                    / (2.0 * jnp.pi * heavier(particle_density, fluid_density) * core**2 * (height - finder_length)))  # fmt: skip
+                    / (2.0 * jnp.pi * heavier(particle_density, fluid_density) * core**2 * (cyclone.height - cyclone.finder_length)))  # fmt: skip
 
 
 @formula(
@@ -327,20 +295,14 @@ def cut_size_muschelknautz(
     equation=r"\eta = \frac{1}{1 + (d_{50}/d_p)^m}",
     typical=TYPICAL,
 )
+@takes_lengths
 def cyclone_efficiency_muschelknautz(
     particle_diameter: Length,
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     dust_loading: MassRatio = 0.0,
     gas_friction: Ratio = 0.005,
     grade_exponent: PositiveNumber = ORDER,
@@ -353,8 +315,7 @@ def cyclone_efficiency_muschelknautz(
     ...                                  dynamic_viscosity=1.8e-5, **d) > 0.99
     True
     """
-    cut = cut_size_muschelknautz(volume_flow, particle_density, fluid_density, dynamic_viscosity, diameter, inlet_height, inlet_width,
-                                 outlet_diameter, finder_length, cylinder_height, height, dust_outlet_diameter, dust_loading, gas_friction)  # fmt: skip
+    cut = cut_size_muschelknautz(volume_flow, particle_density, fluid_density, dynamic_viscosity, *cyclone, dust_loading, gas_friction)
     return smooth_grade(particle_diameter, cut, grade_exponent)
 
 

@@ -9,12 +9,14 @@ import jax.numpy as jnp
 from granum.core import formula
 from granum.core.kinds import Density, Diffusivity, DynamicViscosity, Fraction, Length, Ratio, VolumeFlow
 from granum.cyclones.formulas.efficiency import TYPICAL, heavier
+from granum.cyclones.geometry import Dimensions, takes_lengths
 
 LEAST = 1e-12
 
 
-def swirl(Q: Any, D: Any, a: Any, b: Any, h: Any, H: Any, B: Any, friction: Any) -> Any:
+def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
     """Meissner and Löffler's tangential velocity as a function of the radius; friction on cylinder, roof and cone."""
+    D, a, b, _De, _S, h, H, B = cyclone
     R = D / 2.0
     v_z = Q / (jnp.pi * R**2)
     entry = Q / (a * b * (0.889 - 0.204 * b / R))  # of the contracted jet
@@ -33,20 +35,14 @@ def swirl(Q: Any, D: Any, a: Any, b: Any, h: Any, H: Any, B: Any, friction: Any)
 @formula(source="mothes1988; meissner1978", family="cyclone_efficiency",
          equation=r"\eta = 1 - \frac{m - a}{b}\,e^{-A(S - a_e/2)},\quad m = \frac{a+d}{2} + \sqrt{\left(\frac{a-d}{2}\right)^2 + bc}",
          typical={**TYPICAL, "diffusivity": (0.01, 0.015), "wall_friction": (0.006, 0.009)})  # fmt: skip
+@takes_lengths
 def cyclone_efficiency_mothes_loffler(
     particle_diameter: Length,
     volume_flow: VolumeFlow,
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
-    diameter: Length,
-    inlet_height: Length,
-    inlet_width: Length,
-    outlet_diameter: Length,
-    finder_length: Length,
-    cylinder_height: Length,
-    height: Length,
-    dust_outlet_diameter: Length,
+    cyclone: Dimensions,
     diffusivity: Diffusivity = 0.0125,
     wall_friction: Ratio = 0.0075,
 ) -> Fraction:
@@ -63,9 +59,9 @@ def cyclone_efficiency_mothes_loffler(
     ...                                         dynamic_viscosity=1.8e-5, **d) < 1.0
     True
     """
-    Q, R, r_i, H, S = volume_flow, diameter / 2.0, outlet_diameter / 2.0, height, finder_length
-    h, B, length = cylinder_height, dust_outlet_diameter, height - finder_length
-    velocity = swirl(Q, diameter, inlet_height, inlet_width, h, H, B, wall_friction)
+    D, inlet_height, _width, De, S, h, H, B = cyclone
+    Q, R, r_i, length = volume_flow, D / 2.0, De / 2.0, H - S
+    velocity = swirl(Q, cyclone, wall_friction)
     volume = jnp.pi * (R**2 * h + (H - h) / 3.0 * (R**2 + (B / 2.0) ** 2 + R * B / 2.0))
     r_a = jnp.sqrt(volume / (jnp.pi * H))
     fall = heavier(particle_density, fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 
 from granum.core import formula
@@ -18,14 +20,18 @@ from granum.core.kinds import (
     Speed,
     VolumeFlow,
 )
-from granum.cyclones.formulas.efficiency import TYPICAL, core_flow, heavier, muschelknautz_flow
+from granum.cyclones.formulas.efficiency import TYPICAL, core_flow, heavier, muschelknautz_flow, wall_area
+from granum.cyclones.geometry import Dimensions, takes_lengths
+
+
+def inlet_over_outlet(cyclone: Dimensions) -> Any:
+    """Area of the inlet over the square of the outlet's diameter."""
+    return cyclone.inlet_height * cyclone.inlet_width / cyclone.outlet_diameter**2
 
 
 @formula(source="shepherd1939; cooper2011", equation=r"N_H = 16\,\frac{ab}{D_e^2}", family="inlet_heads", typical=TYPICAL)
-def inlet_heads_shepherd_lapple(
-    diameter: Length, inlet_height: Length, inlet_width: Length, outlet_diameter: Length, finder_length: Length, cylinder_height: Length,
-    height: Length, dust_outlet_diameter: Length,
-) -> PositiveNumber:  # fmt: skip
+@takes_lengths
+def inlet_heads_shepherd_lapple(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Shepherd and Lapple.
 
     Lapple's own design has 8:
@@ -33,44 +39,40 @@ def inlet_heads_shepherd_lapple(
     >>> inlet_heads_shepherd_lapple(1.0, 0.5, 0.25, 0.5, 0.625, 2.0, 4.0, 0.25)
     8.0
     """
-    return 16.0 * inlet_height * inlet_width / outlet_diameter**2
+    return 16.0 * inlet_over_outlet(cyclone)
 
 
 @formula(source="casal1983", equation=r"N_H = 11.3\left(\frac{ab}{D_e^2}\right)^2 + 3.33", family="inlet_heads", typical=TYPICAL)
-def inlet_heads_casal_martinez(
-    diameter: Length, inlet_height: Length, inlet_width: Length, outlet_diameter: Length, finder_length: Length, cylinder_height: Length,
-    height: Length, dust_outlet_diameter: Length,
-) -> PositiveNumber:  # fmt: skip
+@takes_lengths
+def inlet_heads_casal_martinez(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Casal and Martínez-Benet.
 
     >>> round(inlet_heads_casal_martinez(1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375), 3)
     5.138
     """
-    return 11.3 * (inlet_height * inlet_width / outlet_diameter**2) ** 2 + 3.33
+    return 11.3 * inlet_over_outlet(cyclone) ** 2 + 3.33
 
 
 @formula(source="ramachandran1991", equation=r"N_H = 20\,\frac{ab}{D_e^2}\left[\frac{S/D}{(H/D)(h/D)(B/D)}\right]^{1/3}", family="inlet_heads",
          typical=TYPICAL)  # fmt: skip
-def inlet_heads_ramachandran(
-    diameter: Length, inlet_height: Length, inlet_width: Length, outlet_diameter: Length, finder_length: Length, cylinder_height: Length,
-    height: Length, dust_outlet_diameter: Length,
-) -> PositiveNumber:  # fmt: skip
+@takes_lengths
+def inlet_heads_ramachandran(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Ramachandran and others, from 98 designs.
 
     >>> round(inlet_heads_ramachandran(1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375), 3)
     4.846
     """
-    D = diameter
-    shape = finder_length * D**2 / (height * cylinder_height * dust_outlet_diameter)
-    return 20.0 * inlet_height * inlet_width / outlet_diameter**2 * shape ** (1.0 / 3.0)
+    D, *_inlet, S, h, H, B = cyclone
+    return 20.0 * inlet_over_outlet(cyclone) * (S * D**2 / (H * h * B)) ** (1.0 / 3.0)
 
 
 @formula(source="stairmand1949; hoffmann2008",
          equation=r"N_H = 1 + 2q^2\left[\frac{2(D-b)}{D_e} - 1\right] + 2\left(\frac{4ab}{\pi D_e^2}\right)^2", family="inlet_heads", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def inlet_heads_stairmand(
-    diameter: Length, inlet_height: Length, inlet_width: Length, outlet_diameter: Length, finder_length: Length, cylinder_height: Length,
-    height: Length, dust_outlet_diameter: Length, wall_friction: PositiveNumber = 0.005,
-) -> PositiveNumber:  # fmt: skip
+    cyclone: Dimensions,
+    wall_friction: PositiveNumber = 0.005,
+) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Stairmand, from wall friction and the losses at both ends.
 
     Stairmand's high-efficiency design loses between 5 and 6:
@@ -78,11 +80,8 @@ def inlet_heads_stairmand(
     >>> 5.0 < inlet_heads_stairmand(1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375) < 6.0
     True
     """
-    D, a, b, De, S, h, H, B = (diameter, inlet_height, inlet_width, outlet_diameter, finder_length, cylinder_height, height,
-                               dust_outlet_diameter)  # fmt: skip
-    slant = jnp.sqrt((H - h) ** 2 + ((D - B) / 2.0) ** 2)
-    A = jnp.pi * ((D**2 - De**2) / 4.0 + D * h + De * S + (D + B) / 2.0 * slant)
-    drag, ratio = wall_friction * A / (a * b), De / (2.0 * (D - b))
+    D, a, b, De = cyclone[:4]
+    drag, ratio = wall_friction * wall_area(cyclone) / (a * b), De / (2.0 * (D - b))
     q = (jnp.sqrt(ratio + 4.0 * drag) - jnp.sqrt(ratio)) / (2.0 * drag)
     return 1.0 + 2.0 * q**2 * (1.0 / ratio - 1.0) + 2.0 * (4.0 * a * b / (jnp.pi * De**2)) ** 2
 
@@ -90,11 +89,14 @@ def inlet_heads_stairmand(
 @formula(source="barth1956; hoffmann2008",
          equation=r"\Delta p = \frac{\rho v_x^2}{2}\left\{\frac{D_e}{D}\left[\frac{1}{(v_x/v_\theta - 2\lambda(H-S)/D_e)^2} - \frac{v_\theta^2}{v_x^2}\right] + K\left(\frac{v_\theta}{v_x}\right)^{4/3} + \left(\frac{v_\theta}{v_x}\right)^2\right\}",
          output="pressure_drop", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def pressure_drop_barth(
-    volume_flow: VolumeFlow, fluid_density: Density, diameter: Length, inlet_height: Length, inlet_width: Length, outlet_diameter: Length,
-    finder_length: Length, cylinder_height: Length, height: Length, dust_outlet_diameter: Length, wall_friction: Ratio = 0.005,
+    volume_flow: VolumeFlow,
+    fluid_density: Density,
+    cyclone: Dimensions,
+    wall_friction: Ratio = 0.005,
     finder_loss: PositiveNumber = 4.4,
-) -> PressureDrop:  # fmt: skip
+) -> PressureDrop:
     """Pressure drop of a gas cyclone by Barth: body and vortex finder.
 
     The loss factor of the finder is 4.4 for a sharp edge and 3.41 for a rounded one.
@@ -102,30 +104,32 @@ def pressure_drop_barth(
     >>> 300 < pressure_drop_barth(1.5, 1.2, 1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375) < 2000
     True
     """
-    swirl, H_c, v_x = core_flow(volume_flow, diameter, inlet_height, inlet_width, outlet_diameter, finder_length, cylinder_height, height,
-                                dust_outlet_diameter, wall_friction)  # fmt: skip
+    swirl, H_c, v_x = core_flow(volume_flow, cyclone, wall_friction)
     u = swirl / v_x
-    free = 1.0 / u - wall_friction * H_c / (outlet_diameter / 2.0)
-    body = outlet_diameter / diameter * (1.0 / free**2 - u**2)
+    De = cyclone.outlet_diameter
+    free = 1.0 / u - wall_friction * H_c / (De / 2.0)
+    body = De / cyclone.diameter * (1.0 / free**2 - u**2)
     return 0.5 * fluid_density * v_x**2 * (body + finder_loss * u ** (4.0 / 3.0) + u**2)
 
 
 @formula(source="muschelknautz1972; hoffmann2008, ch. 6",
          equation=r"\Delta p = \frac{f A_R\rho(v_w v_\theta)^{1.5}}{2\cdot 0.9 Q} + \frac{\rho v_x^2}{2}\left[2 + \left(\frac{v_\theta}{v_x}\right)^2 + 3\left(\frac{v_\theta}{v_x}\right)^{4/3}\right]",
          output="pressure_drop", typical=TYPICAL)  # fmt: skip
+@takes_lengths
 def pressure_drop_muschelknautz(
-    volume_flow: VolumeFlow, particle_density: Density, fluid_density: Density, diameter: Length, inlet_height: Length, inlet_width: Length,
-    outlet_diameter: Length, finder_length: Length, cylinder_height: Length, height: Length, dust_outlet_diameter: Length,
-    dust_loading: MassRatio = 0.0, gas_friction: Ratio = 0.005,
-) -> PressureDrop:  # fmt: skip
+    volume_flow: VolumeFlow,
+    particle_density: Density,
+    fluid_density: Density,
+    cyclone: Dimensions,
+    dust_loading: MassRatio = 0.0,
+    gas_friction: Ratio = 0.005,
+) -> PressureDrop:
     """Pressure drop of a gas cyclone by Muschelknautz: wall friction and core; little dust lowers it, for it brakes the swirl.
 
     >>> 300 < pressure_drop_muschelknautz(1.5, 2000.0, 1.2, 1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375) < 2000
     True
     """
-    wall, core, v_x, friction, area = muschelknautz_flow(
-        volume_flow, fluid_density, particle_density, dust_loading, diameter, inlet_height, inlet_width, outlet_diameter, finder_length,
-        cylinder_height, height, dust_outlet_diameter, gas_friction)  # fmt: skip
+    wall, core, v_x, friction, area = muschelknautz_flow(volume_flow, fluid_density, particle_density, dust_loading, cyclone, gas_friction)
     u = core / v_x
     body = friction * area * fluid_density * (wall * core) ** 1.5 / (2.0 * 0.9 * volume_flow)
     return body + 0.5 * fluid_density * v_x**2 * (2.0 + u**2 + 3.0 * u ** (4.0 / 3.0))
