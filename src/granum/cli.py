@@ -290,7 +290,7 @@ def show(key: Key, as_json: Json = False) -> None:
 
 @app.command("app")
 @_one_message
-def serve(port: Annotated[int, typer.Option(help="Port; 0 takes a free one.")] = 8765, host: Annotated[str, typer.Option(help="Address; another than loopback demands a token.")] = "127.0.0.1",
+def serve(port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8765, host: Annotated[str, typer.Option(help="Address; another than loopback demands a token.")] = "127.0.0.1",
           browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
           workspace: Annotated[Path | None, typer.Option(help="Folder whose case files may be opened and saved.")] = None) -> None:  # fmt: skip
     """Open the web app."""

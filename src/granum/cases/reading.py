@@ -70,14 +70,14 @@ def validated(shape: type[Shape], raw: Mapping[str, Any], name: str) -> Shape:
     try:
         return shape.model_validate(raw)
     except ValidationError as problem:
-        raise CaseError(_complaint(name, problem)) from None
+        raise CaseError(_complaint(shape, name, problem)) from None
 
 
-def _complaint(name: str, problem: ValidationError) -> str:
+def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
     first = problem.errors()[0]
     place = ".".join(str(part) for part in first["loc"])
     if first["type"] == "extra_forbidden":
-        owner = _fields_at(first["loc"][:-1])
+        owner = _fields_at(shape, first["loc"][:-1])
         if owner:
             return (
                 f"{name}: "
@@ -90,8 +90,8 @@ def _complaint(name: str, problem: ValidationError) -> str:
     return _("{name}: '{place}': {reason}.").format(name=name, place=place, reason=first["msg"])
 
 
-def _fields_at(location: tuple[Any, ...]) -> list[str]:
-    tables = {(): Case, ("mixture",): MixtureTable, ("feeds", "*"): FeedTable, ("streams", "*"): StreamTable}
+def _fields_at(shape: type[Shape], location: tuple[Any, ...]) -> list[str]:
+    tables = {(): shape, ("mixture",): MixtureTable, ("feeds", "*"): FeedTable, ("streams", "*"): StreamTable}
     key = tuple(location[:1]) + ("*",) * (len(location) > 1) if location and location[0] in ("feeds", "streams") else tuple(location[:1])
     model = tables.get(key)
     return [f.alias or n for n, f in model.model_fields.items()] if model else []

@@ -59,7 +59,7 @@ def _model(recipe: Recipe) -> tuple[Subject, Studied, dict[str, Any]]:
     """Model, declarations and shared uncertainties of a file."""
     raw = parsed(recipe.text, recipe.name)
     folder = Path(recipe.folder)
-    if "mixture" in raw:
+    if raw.keys() & {"mixture", "units", "feeds", "streams"}:
         case = validated(Case, raw, recipe.name)
         return _line(case, case, folder, recipe)
     declared = validated(StudyFile, raw, recipe.name)

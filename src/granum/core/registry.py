@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from granum.core.cards import domain_of
-from granum.core.errors import unknown_name
+from granum.core.errors import InputError, nearest, unknown_name
 from granum.core.i18n import _
 
 DOMAINS = ("materials", "particles", "porous", "humid_gas", "streams", "comminution", "settling", "cyclones",
@@ -57,6 +57,11 @@ def find(key: str) -> Any:
         load(domain)
         if key in _declared:
             return _declared[key]
+    if nearest(key, everything()) is None:
+        word = key.rpartition(".")[2] or key
+        raise InputError(
+            _("There is no card '{key}'. 'granum list {word}' shows those that speak of it.").format(key=key, word=word), name=key
+        )
     raise unknown_name(_("Card"), key, everything())
 
 
