@@ -101,3 +101,29 @@ def test_numbers_as_people_print_them() -> None:
     assert units.show(85e-6, KINDS["Length"]) == "85 µm"
     with language("fr"):
         assert units.format_number(1.07e8) == "1,07 × 10⁸"
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "expected"),
+    [
+        ("RotationSpeed", "65 Hz", 408.4),  # Coulson and Richardson, volume 2, example 9.3
+        ("RotationSpeed", "600 1/min", 62.832),
+        ("RotationSpeed", "2 rev/s", 12.566),
+        ("RotationSpeed", "600 tr/min", 62.832),
+        ("RotationSpeed", "400 rad/s", 400.0),
+        ("Frequency", "300 rpm", 5.0),
+        ("Frequency", "5 Hz", 5.0),
+        ("DynamicViscosity", "0.01 g/cm s", 1e-3),
+        ("DynamicViscosity", "1 mPas", 1e-3),
+        ("DynamicViscosity", "1e-3 Ns/m2", 1e-3),
+        ("MassFlux", "3600 kg/m2 h", 1.0),
+        ("PressureDrop", "600 mm Hg", 79993.4),
+        ("PressureDrop", "10 mm WC", 98.0665),
+        ("PressureDrop", "1414 lb/ft2", 67702.5),
+        ("PressureDrop", "2 kg/cm2", 196133.0),
+        ("VolumeFlow", "1000 cfm", 0.471947),
+        ("MassFraction", "15 wt%", 0.15),
+    ],
+)
+def test_how_books_write_units(kind: str, text: str, expected: float) -> None:
+    assert units.read_quantity(text, KINDS[kind]) == pytest.approx(expected, rel=1e-4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import threading
@@ -45,10 +46,13 @@ def _registry() -> Any:
         "lbmol = 453.59237 * mole",
         "btu = Btu",
         "rev = revolution",
+        "tr = revolution",
         "gpm = gallon / minute",
         "gpd = gallon / day",
         "mgd = 1e6 * gallon / day = MGD",
         "cfs = foot ** 3 / second",
+        "cfm = foot ** 3 / minute",
+        "HP = horsepower",
         "tph = tonne / hour",
         "USD = [currency] = dollar",
     ):
@@ -56,8 +60,10 @@ def _registry() -> Any:
     return ureg
 
 
-_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "%": "percent", "µ": "u", "μ": "u", "Ω": "ohm",
-              "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1", "in. H2O": "inH2O", "in H2O": "inH2O", "US gal": "gallon",
+_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "wt%": "%", "wt %": "%", "vol%": "%", "vol %": "%", "mol%": "%",
+              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
+              "in. H2O": "inH2O", "in H2O": "inH2O", "in WC": "inH2O", "mm H2O": "mmH2O", "mm WC": "mmH2O", "mm water": "mmH2O",
+              "in. Hg": "inHg", "in Hg": "inHg", "mm Hg": "mmHg", "US gal": "gallon", "US gpm": "gpm",
               "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
 _DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}  # read so only where a temperature is due
 
@@ -70,6 +76,7 @@ def parse_unit(text: str) -> Any:
         raise UnitError(_("Unit '{unit}…' is too long to be a unit.").format(unit=spelled[:_LONGEST_UNIT]))
     for written, meant in _SPELLINGS.items():
         spelled = spelled.replace(written, meant)
+    spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
     # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
     spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
     try:
@@ -92,21 +99,40 @@ def same_dimension(unit: str, kind_unit: str) -> bool:
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     """(factor, offset) such that SI = factor·value + offset."""
     ureg = registry()
-    source, target = parse_unit(unit), ureg.Unit(kind_unit)
     if not same_dimension(unit, kind_unit):
-        raise UnitError("dimension")
+        above, _over, below = unit.partition("/")
+        # as older books write them: in kg/m s all behind the stroke is below it; lb/ft2 and kg/cm2 of a pressure are forces
+        readings = (f"{above}/({'*'.join(below.split())})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
+        meant = [text for text in readings if below and text != unit and same_dimension(text, kind_unit)]
+        if not meant:
+            raise UnitError("dimension")
+        unit = meant[0]
+    source, target = parse_unit(unit), ureg.Unit(kind_unit)
     zero = ureg.Quantity(0.0, source).to(target).magnitude
     one = ureg.Quantity(1.0, source).to(target).magnitude
     return one - zero, zero
 
 
+@cache
+def _angles(unit: str) -> bool:
+    """Whether a unit counts angles or turns by name."""
+    return bool(re.search("radian|degree|rev|turn|cycle|\\btr\\b", str(parse_unit(unit))))
+
+
 def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
-    """(factor, offset) for a kind: differences of temperature and of pressure drop the zero of the scale (°F, barg)."""
+    """(factor, offset) for a kind: differences of temperature and of pressure drop the zero of the scale (°F, barg).
+
+    A frequency given for a rotation counts turns (65 Hz, 1000 1/min), and so does a rotation given for a frequency (300 rpm).
+    """
     if kind.unit in ("K", "delta_degC"):
         unit = _DEGREES.get(unit.strip(), unit)
     if kind.unit == "delta_degC":
         return _affine(unit, "K")[0], 0.0
     factor, offset = _affine(unit, kind.unit)
+    if kind.unit == "radian/s" and not _angles(unit):
+        factor *= math.tau
+    elif kind.unit == "1/s" and _angles(unit):
+        factor /= math.tau
     return factor, 0.0 if kind.unit == "Pa" and kind.name != "absolute pressure" else offset
 
 
