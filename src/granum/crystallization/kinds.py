@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
-from granum.core.kinds import TemperatureRate
+from typing import Annotated, Any
+
+from granum.core.kinds import Kind, TemperatureRate
 
 CoolingRate = TemperatureRate
+ProductionRate = Annotated[Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))]

@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
 )
+from granum.materials.library import solute
 from granum.numerics.smooth import safe_divide, safe_log
 
 
@@ -156,6 +157,55 @@ def vacuum_crystallizer_balance(
     V = jnp.where(some, V, sensible / L)
     crystals = jnp.maximum(raw, 0.0)
     return FlashBalance(V, crystals, A - V - crystals, safe_divide(crystals * x, A * solute_mass_fraction))
+
+
+class KnownSoluteBalance(NamedTuple):
+    """Flows and duty of a crystallizer whose solute is in the library."""
+
+    crystal_flow: MassFlow
+    mother_liquor_flow: MassFlow
+    yield_fraction: Ratio
+    solubility_per_solvent: MassRatio
+    crystal_per_solute: Ratio
+    heat_duty: Power
+
+
+@formula(
+    source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
+    equation=r"\dot Q = \sum \dot m h|_{out} - \sum \dot m h|_{in}",
+    title="Crystallizer at equilibrium for a solute of the library",
+    typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.3, 0.4), "temperature": (280.0, 300.0), "temperature_inlet": (330.0, 350.0),
+             "evaporation": (0.0, 0.05)},
+)  # fmt: skip
+def crystallizer_balance_library(
+    mass_flow: MassFlow,
+    solute_mass_fraction: MassFraction,
+    temperature: Temperature,
+    temperature_inlet: Temperature,
+    evaporation: MassFlow = 0.0,
+    system: str = "sodium sulfate",
+) -> KnownSoluteBalance:
+    """Crystals, mother liquor, yield and heat duty from the solute's name: solubility, hydrate and heats come from the library.
+
+    The feed is a solution of the given mass fraction of anhydrous solute; heat is supplied where the duty is positive, and the vapor leaves at the
+    temperature of the crystallizer. The duty is missing where the library has no heat of solution.
+
+    >>> out = crystallizer_balance_library(mass_flow=3000, solute_mass_fraction=1 / 6, temperature=283.15, temperature_inlet=333.15, evaporation=50)
+    >>> round(out.crystal_flow / 722, 2)
+    0.99
+    """
+    s = solute(system)
+    A, w, T, hot = mass_flow, solute_mass_fraction, temperature, temperature_inlet
+    R = s.hydrate_ratio(T)
+    ratio = s.solubility(T)
+    found = crystallizer_balance.function(A, w, ratio, 1.0 / R, evaporation)
+    if all(b.heat_given for b in s.branches):
+        water, salt = s.solvent.liquid_enthalpy, s.solute_enthalpy
+        sensible = A * (w * (salt(T) - salt(hot)) + (1.0 - w) * (water(T) - water(hot)))
+        duty = sensible - found.crystal_flow / R * s.heat_of_crystallization(T) + evaporation * s.solvent.heat_of_vaporization(T)
+    else:
+        duty = jnp.nan + 0.0 * found.crystal_flow
+    return KnownSoluteBalance(*found, ratio, R, duty)
 
 
 @formula(source="kern1950, ch. 5", equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",

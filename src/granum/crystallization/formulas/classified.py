@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Distance, GrowthRate, Length, PopulationDensity, PositiveNumber, Time
+from granum.core.kinds import Concentration, Density, Distance, GrowthRate, Length, NucleationRate, PopulationDensity, PositiveNumber, Time
+from granum.crystallization.kinds import ProductionRate
 
 
 @formula(
@@ -65,3 +68,36 @@ def population_density_second_stage(
     gap = jnp.where(near, a, a - b)
     apart = a * (jnp.exp(-L / a) - jnp.exp(-L / b)) / gap
     return nuclei_population_density * jnp.where(near, L / a * jnp.exp(-L / a), apart)
+
+
+class ClassifyingProduction(NamedTuple):
+    """What an ideal product-classifying crystallizer makes and needs."""
+
+    production_per_volume: ProductionRate
+    nucleation_rate: NucleationRate
+
+
+@formula(
+    source="mccabe2005, ch. 27",
+    equation=r"\dot P = \frac{4 G M_T}{L_p},\quad B_0 = \frac{\dot P}{k_v \rho_c L_p^3}",
+    title="Ideal product-classifying crystallizer",
+    typical={"growth_rate": (2e-8, 2e-7)},
+)
+def production_classifying(
+    growth_rate: GrowthRate,
+    product_size: Length,
+    magma_density: Concentration,
+    crystal_density: Density,
+    volume_shape_factor: PositiveNumber = 1.0,
+) -> ClassifyingProduction:
+    """Production and births of a crystallizer in which every crystal leaves when it has reached the product size, and none before.
+
+    Per volume of what the magma density refers to. Copper sulfate pentahydrate of McCabe: 1.4 mm at 0.2 µm/s, 0.35 m³ of crystals of 2300 kg/m³ per m³
+    of mother liquor and shape factor 0.2 give 1656 kg/(m³ h).
+
+    >>> out = production_classifying(growth_rate="0.2 um/s", product_size="1.4 mm", magma_density=0.35 * 2300, crystal_density=2300, volume_shape_factor=0.2)
+    >>> round(out.production_per_volume * 3600), round(out.nucleation_rate * 3600 / 1e9, 2)
+    (1656, 1.31)
+    """
+    made = 4.0 * growth_rate * magma_density / product_size
+    return ClassifyingProduction(made, made / (volume_shape_factor * crystal_density * product_size**3))

@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Density, GrowthRate, Length, Mass, PositiveNumber, Ratio, SpecificSurfaceMass, Time
+from granum.core.kinds import (
+    Density,
+    Distance,
+    Fraction,
+    GrowthRate,
+    Length,
+    Mass,
+    PositiveNumber,
+    Ratio,
+    Series,
+    SpecificSurfaceMass,
+    Time,
+)
+from granum.numerics import find_root
 
 
 @formula(
@@ -98,3 +113,45 @@ def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: Gr
     4000
     """
     return (product_size - seed_size) / growth_rate
+
+
+class GrownSeed(NamedTuple):
+    """Seed classes after growth: what each has gained in size, its size and its share of the product."""
+
+    size_increase: Distance
+    class_sizes_product: Annotated[Distance, Series("classes")]
+    class_fractions_product: Annotated[Fraction, Series("classes")]
+
+
+@formula(
+    source="mccabe1929; mccabe2005, ch. 27",
+    equation=r"\frac{M_p}{M_s} = \sum_i w_i\left(1 + \frac{\Delta L}{L_i}\right)^3",
+    title="Product of a seed with a size distribution (ΔL law)",
+    typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
+)
+def grown_seed(
+    class_sizes: Annotated[Length, Series("classes")],
+    class_fractions: Annotated[Fraction, Series("classes")],
+    seed_mass: Mass,
+    product_mass: Mass,
+) -> GrownSeed:
+    """Size gained by all seed crystals alike, and the product's distribution by mass, after McCabe's ΔL law: no nuclei, growth the same at any size.
+
+    Fractions of the seed are by mass; they need not add up to one. The product must weigh no less than the seed.
+
+    >>> out = grown_seed(class_sizes=[100e-6, 200e-6], class_fractions=[0.5, 0.5], seed_mass=1.0, product_mass=17.5)
+    >>> round(out.size_increase * 1e6, 6), [round(float(w), 4) for w in out.class_fractions_product]
+    (200.0, [0.7714, 0.2286])
+    """
+    L, raw = jnp.asarray(class_sizes), jnp.asarray(class_fractions)
+    w = raw / jnp.sum(raw, axis=-1, keepdims=True)
+    R = jnp.asarray(product_mass / seed_mass)
+    grows = R >= 1.0
+    R = jnp.where(grows, R, 1.0)
+
+    def excess(gain, ratio):
+        return jnp.sum(w * (1.0 + gain[..., None] / L) ** 3, axis=-1) / ratio - 1.0
+
+    gain = find_root(excess, 0.0 * R, (R ** (1.0 / 3.0) - 1.0) * jnp.max(L) * (1.0 + 1e-9), R).value
+    gain = jnp.where(grows, gain, jnp.nan)
+    return GrownSeed(gain, L + gain[..., None], w * (1.0 + gain[..., None] / L) ** 3 / R[..., None])

@@ -1,0 +1,66 @@
+"""Critical nuclei, the ΔL law, the product-classifying crystallizer and balances by the name of the solute, against textbooks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from granum.core.errors import ApplicabilityError
+from granum.crystallization.formulas.balances import crystallizer_balance_library
+from granum.crystallization.formulas.classified import production_classifying
+from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt
+from granum.crystallization.formulas.nucleation import critical_radius, nucleation_barrier
+from granum.crystallization.formulas.seeding import grown_seed, product_size_from_seed
+
+
+def test_gold_of_callister():
+    """Callister, Materials Science and Engineering, example 10.1: 1.32 nm, 9.64e-19 J; 137 cells of 0.413 nm with four atoms each."""
+    gold = critical_nucleus_melt(230.0, 0.132, 1.16e9 * 196.97e-3 / 19300, 1337.0, 19300.0, 196.97e-3)
+    assert gold.critical_radius == pytest.approx(1.32e-9, rel=3e-3)
+    assert gold.nucleation_energy == pytest.approx(9.64e-19, rel=5e-3)
+    assert gold.molecules_in_nucleus == pytest.approx(137 * 4, rel=0.05)
+    deeper = critical_nucleus_melt(460.0, 0.132, 1.16e9 * 196.97e-3 / 19300, 1337.0, 19300.0, 196.97e-3)
+    assert deeper.nucleation_energy == pytest.approx(gold.nucleation_energy / 4)
+
+
+def test_nucleus_in_solution_agrees_with_the_barrier_over_kt():
+    found = critical_nucleus(4.0, 0.01, 2000.0, 0.120443, 298.15)
+    assert found.critical_radius == pytest.approx(float(critical_radius(4.0, 0.01, 2000.0, 0.120443, 298.15)))
+    assert found.nucleation_energy / (1.380649e-23 * 298.15) == pytest.approx(float(nucleation_barrier(4.0, 0.01, 2000.0, 0.120443)))
+    with pytest.raises(ApplicabilityError):
+        critical_nucleus(0.9, 0.01, 2000.0, 0.120443)
+
+
+def test_delta_l_law():
+    """One size gives the cube root of the masses; two sizes the real root of the cubic, by the roots of its polynomial."""
+    one = grown_seed([100e-6], [1.0], 1.0, 125.0)
+    assert one.size_increase + 100e-6 == pytest.approx(float(product_size_from_seed(100e-6, 1.0, 125.0)))
+    sizes, share, ratio = np.array([0.2e-3, 0.5e-3, 0.8e-3]), np.array([0.3, 0.5, 0.2]), 9.0
+    cubic = [np.sum(share / sizes**3), 3 * np.sum(share / sizes**2), 3 * np.sum(share / sizes), 1.0 - ratio]
+    gain = next(r.real for r in np.roots(cubic) if abs(r.imag) < 1e-12 and r.real > 0)
+    found = grown_seed(sizes, share, 2.0, 2.0 * ratio)
+    assert found.size_increase == pytest.approx(gain, rel=1e-9)
+    assert float(np.sum(found.class_fractions_product)) == pytest.approx(1.0)
+    assert np.all(np.diff(found.class_sizes_product) == pytest.approx(np.diff(sizes)))
+    with pytest.raises(ApplicabilityError, match="mass of product"):
+        grown_seed(sizes, share, 2.0, 1.0)
+
+
+def test_classifying_crystallizer_of_mccabe():
+    """McCabe, Smith and Harriott, ch. 27: copper sulfate pentahydrate of 1.4 mm at 0.2 µm/s; by hand n = B0/G is constant up to the product size."""
+    out = production_classifying(0.2e-6, 1.4e-3, 0.35 * 2300.0, 2300.0, 0.2)
+    assert out.production_per_volume * 3600 == pytest.approx(4 * 0.2e-6 * 3600 * 0.35 * 2300 / 1.4e-3)
+    magma = 0.2 * 2300.0 * out.nucleation_rate / 0.2e-6 * 1.4e-3**4 / 4
+    assert magma == pytest.approx(0.35 * 2300.0)
+
+
+def test_balance_by_the_name_of_the_solute():
+    """Coulson and Richardson vol. 2, ch. 15: 500 kg of Na2SO4 in 2500 kg of water, 333 to 283 K, 2 % evaporates: 722 kg of decahydrate and 596 MJ
+    without the vessel, with 8.9 kg per 100 kg of water and a heat of solution of 78.5 MJ/kmol. Geankoplis: 6370 kg of soda with 21.5 kg per 100 kg."""
+    salt = crystallizer_balance_library(3000.0, 500 / 3000, 283.0, 333.0, 50.0, system="sodium sulfate decahydrate")
+    assert salt.crystal_flow == pytest.approx(722, rel=0.015)
+    assert salt.heat_duty / 1e6 == pytest.approx(-(540 + 722 * 78.5 / 322 - 50 * 2.395), rel=0.03)
+    assert salt.crystal_per_solute == pytest.approx(322.2 / 142.04, rel=1e-3)
+    soda = crystallizer_balance_library(10000.0, 0.30, 293.15, 293.15, system="Na2CO3·10H2O")
+    assert soda.crystal_flow == pytest.approx(6370, rel=0.02)
+    assert np.isnan(crystallizer_balance_library(1.0, 0.2, 283.15, 300.0, system="sodium oxalate").heat_duty)
