@@ -10,7 +10,7 @@ from typing import Any
 import httpx
 import pytest
 
-from granum.app import jobs, tasks
+from granum.app import jobs, tasks, wear
 from granum.app.jobs import Crew, Jobs, Refused
 from granum.app.limits import Busy, Familiar
 from granum.app.server import create_app
@@ -109,7 +109,7 @@ def test_time_and_queue_are_bounded(crew: Crew) -> None:
     with pytest.raises(Busy, match="given up"):
         slow.future.result(timeout=100)
     assert json.loads(second.future.result(timeout=100))["outputs"]["terminal_velocity"]["value"] == pytest.approx(5.28e-3, rel=1e-2)
-    with pytest.raises(Refused, match="not known"):
+    with pytest.raises(Refused, match="no.such"):
         crew.submit("chart", {"key": "no.such", "inputs": {}}).future.result(timeout=100)
 
 
@@ -121,6 +121,34 @@ def test_memory_is_bounded() -> None:
         assert json.loads(small.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}  # the next job finds a new process
     finally:
         small.close()
+
+
+def test_a_worn_process_is_replaced_and_nothing_is_lost(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:
+    ask = {"key": "particles.terminal_velocity_stokes", "inputs": SPHERE}
+    monkeypatch.setattr(jobs, "LOOK", 1)
+    monkeypatch.setattr(jobs, "worn", lambda process: seen.append(process) or len(seen) == 1)
+    seen: list[int] = []
+    answers = [crew.submit("calculate", ask).future.result(timeout=100) for _ in range(3)]
+    assert len(set(answers)) == 1
+    assert seen[0] != seen[1] == seen[2]
+
+
+def test_compiled_code_is_forgotten_when_there_is_much_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    import jax
+
+    assert not wear.worn()
+    assert not wear.worn(2**30)  # no such process
+    monkeypatch.setattr(wear, "MOST_MAPS", 10)
+    assert wear.worn()
+    function = jax.jit(lambda x: x + 1.0)
+    assert function(1.0) == 2.0
+    familiar = Familiar()
+    monkeypatch.setattr(familiar, "look", 2)
+    for name in "ab":
+        familiar.meet(name, {"x": 1}, lambda: None)
+    assert not familiar.knows("a", {"x": 1})
+    assert familiar.knows("b", {"x": 1})
+    assert function(2.0) == 3.0
 
 
 def test_familiar_calculations_are_those_of_one_number_each() -> None:

@@ -17,6 +17,7 @@ from granum.core.kinds import Kind
 from granum.core.parameters import Parameter, convert
 from granum.core.units import field_units, format_number, from_si, parse_unit, pretty_unit, show
 from granum.reports.mathml import mathml
+from granum.reports.quantities import law_label
 
 
 def card_form(key: str) -> dict[str, Any]:
@@ -106,12 +107,6 @@ def options(p: Parameter) -> list[dict[str, str]]:
         return []
     ready = [t.card for t in registry.family(p.law).values() if t.card.sort != "law" or not any(q.required for q in t.card.parameters)]
     return sorted(({"value": c.name, "label": law_label(c)} for c in ready), key=lambda o: o["label"])
-
-
-def law_label(card: Card) -> str:
-    """A law among others of its family: its author alone when the title is the family's name with the author."""
-    _head, bracket, author = card.title.partition(" (")
-    return author.removesuffix(")") if bracket and card.sort == "formula" and card.name.startswith(card.family) else card.title
 
 
 def _edge(value: float, kind: Kind) -> str:

@@ -22,10 +22,12 @@ from typing import Any
 from fastapi import Request
 
 from granum.app.limits import Busy
+from granum.app.wear import worn
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _, current_language, language
 from granum.core.units import unit_system
 
+LOOK = 8  # jobs after which the memory of a process is looked at
 GRACE = 5.0  # seconds in which a cancelled job may still finish: it usually does, and its process stays warm
 
 
@@ -79,6 +81,7 @@ class _Process:
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
         self._answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.known: set[str] = set()
+        self.jobs = 0
         self._reader = threading.Thread(target=self._listen, daemon=True)
         self._reader.start()
 
@@ -90,6 +93,11 @@ class _Process:
             except (EOFError, OSError, pickle.UnpicklingError):
                 self._answers.put(None)
                 return
+
+    @property
+    def id(self) -> int:
+        """Its number in the system."""
+        return self._process.pid
 
     @property
     def alive(self) -> bool:
@@ -206,11 +214,13 @@ class Crew:
         try:
             return self._watch(job, process)
         finally:
-            if process.alive:
+            process.jobs += 1
+            if process.alive and not (process.jobs % LOOK == 0 and worn(process.id)):
                 process.known.add(key)
                 self._give(process)
             else:
                 process.stop()
+                self._give(_Process(self._memory, self._folder.name))  # warm before the next job comes
 
     def _watch(self, job: Job, process: _Process) -> bytes:
         started, left = time.monotonic(), None

@@ -18,6 +18,7 @@ from fastapi.responses import JSONResponse
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from granum.app.wear import forget_when_worn
 from granum.core.errors import GranumError
 from granum.core.i18n import LANGUAGES, _, set_language
 from granum.core.units import set_unit_system
@@ -77,11 +78,12 @@ class Workers:
 class Familiar:
     """Calculations of a form met before and quick then: their code is compiled, so they need not wait behind one that is not."""
 
-    quick, most = 0.03, 20_000  # seconds; forms remembered
+    quick, most, look = 0.03, 20_000, 50  # seconds; forms remembered; new forms after which the memory is looked at
     _number = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*(?:[A-Za-zµμ°℃%Ω][^\s;,\[\]]{0,30})?\s*")
 
     def __init__(self) -> None:
         self._met: set[tuple[Any, ...]] = set()
+        self._new = 0
 
     def _form(self, key: str, inputs: dict[str, Any]) -> tuple[Any, ...] | None:
         """Card, names of the inputs and words chosen; None when an input is more than a number or a word."""
@@ -104,8 +106,12 @@ class Familiar:
         """Run work and remember its form when it was quick; an error is not remembered."""
         start = time.perf_counter()
         found = work()
+        took = time.perf_counter() - start
+        self._new += 1
+        if self._new % self.look == 0 and forget_when_worn():
+            self._met.clear()
         form = self._form(key, inputs)
-        if form is not None and time.perf_counter() - start < self.quick and len(self._met) < self.most:
+        if form is not None and took < self.quick and len(self._met) < self.most:
             self._met.add(form)
         return found
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from granum.app.forms import law_label, options
+from granum.app.forms import options
 from granum.core import registry
 from granum.core.errors import GranumError
 from granum.core.results import Result
-from granum.reports.quantities import value_text
+from granum.reports.quantities import law_label, value_text
 
 MOST = 40
 

@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from granum.app.forms import law_label
 from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.parameters import default_as_json
 from granum.core.results import Result
 from granum.reports.html import note_step
-from granum.reports.quantities import value_text
+from granum.reports.quantities import law_label, value_text
 
 
 def plain_data(value: Any) -> Any:

@@ -14,7 +14,7 @@ from granum.flowsheet.plan import Link
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.symbols import symbol_of
 
-COLUMN, ROW, BOX, LANE, MARGIN = 190, 150, 60, 22, 70
+ROW, BOX, LANE, MARGIN, LETTER, ASIDE = 130, 60, 22, 34, 6.0, 26
 PHASE_COLORS = {"solid": "#b7791f", "liquid": "#2b6cb0", "gas": "#6b7f99", "": "#1c2430"}
 
 
@@ -41,6 +41,29 @@ def _columns(line: Flowsheet) -> dict[str, int]:
     return columns
 
 
+def _label(k: Link) -> str:
+    """The name of a stream as the diagram prints it."""
+    return k.name if len(k.name) <= 18 else k.name.partition(".")[2] or k.name
+
+
+def _places(line: Flowsheet, columns: Mapping[str, int]) -> list[float]:
+    """Left edge of each column of units: the gaps hold the names of what leaves on the left side and of the feeds on the right."""
+    count = max(columns.values()) + 1
+    leaving, feeding = [0.0] * (count + 1), [0.0] * (count + 1)
+    for k in line.links:
+        width = 8 + ASIDE + max(40.0, 14 + LETTER * len(_label(k)))
+        if k.origin:
+            leaving[columns[k.source_unit] + 1] = max(leaving[columns[k.source_unit] + 1], width)
+        else:
+            feeding[columns[k.target_unit]] = max(feeding[columns[k.target_unit]], width)
+    places, x = [], 0.0
+    for column in range(count):
+        x += leaving[column] + max(feeding[column], 40.0) + 30 * (column > 0)
+        places.append(x)
+        x += BOX
+    return [*places, x + leaving[count] + 20]
+
+
 def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
     """SVG of the line. Groups carry ``data-unit`` and ``data-stream`` so that a page can make them clickable.
 
@@ -59,10 +82,14 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
     above = [k.name for k in line.links if spans.get(k.name, 0) > 1]
     below = [k.name for k in line.links if k.name in spans and spans[k.name] <= 0]
     top = MARGIN + LANE * len(above)
-    height = top + ROW * max(used.values()) + LANE * len(below) + MARGIN // 2
-    width = 2 * MARGIN + COLUMN * (max(columns.values()) + 1)
-    corner = {u: (MARGIN + 30 + COLUMN * columns[u], top + ROW * rows[u]) for u in line.order}
-    bottom = top + ROW * max(used.values()) - (ROW - BOX) + 48
+    *places, width = _places(line, columns)
+    corner = {u: (places[columns[u]], top + ROW * rows[u]) for u in line.order}
+    bottom = top + ROW * max(used.values()) - (ROW - BOX) + 34
+    height = bottom + LANE * len(below) + 12
+    detours = {(k.source_unit, "out") for k in line.links if k.name in (*above, *below)}
+    detours |= {
+        (k.target_unit, "in") for k in line.links if k.name in (*above, *below)
+    }  # verticals beside a unit: names keep clear of them
 
     def port(k: Link, end: str) -> tuple[float, float]:
         unit = k.source_unit if end == "origin" else k.target_unit
@@ -78,10 +105,12 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
             continue  # an outlet that carries nothing
         if not k.origin:
             x, y = port(k, "target")
-            path, at = f"M{x - 58} {y} H{x - 3}", (x - 58, y - 5, "start")
+            long = max(40.0, 10 + LETTER * len(_label(k))) + ASIDE * ((k.target_unit, "in") in detours)
+            path, at = f"M{x - long} {y} H{x - 3}", (x - long, y - 5, "start")
         elif not k.target:
             x, y = port(k, "origin")
-            path, at = f"M{x} {y} H{x + 58}", (x + 8, y - 5, "start")
+            clear = ASIDE * ((k.source_unit, "out") in detours)
+            path, at = f"M{x} {y} H{x + clear + max(40.0, 14 + LETTER * len(_label(k)))}", (x + 6 + clear, y - 5, "start")
         else:
             (x1, y1), (x2, y2) = port(k, "origin"), port(k, "target")
             if k.name in above:
@@ -93,8 +122,10 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
             else:
                 gap = columns[k.source_unit]
                 gaps[gap] = gaps.get(gap, 0) + 1
-                middle = x1 + 66 + 9 * (gaps[gap] % 6)
-                path, at = f"M{x1} {y1} H{middle} V{y2} H{x2 - 3}", (x1 + 6, y1 - 5, "start")
+                beside = max(len(_label(m)) for m in line.links if m.origin and m.source_unit == k.source_unit)
+                clear = ASIDE * ((k.source_unit, "out") in detours)
+                middle = x1 + clear + 14 + LETTER * beside + 9 * (gaps[gap] % 6)
+                path, at = f"M{x1} {y1} H{middle} V{y2} H{x2 - 3}", (x1 + 6 + clear, y1 - 5, "start")
         stream = streams.get(k.name) if streams else None
         color = PHASE_COLORS[main_phase(stream) if stream is not None else ""]
         tip = (
@@ -102,11 +133,10 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
             if stream is not None
             else k.name
         )
-        label = k.name if len(k.name) <= 18 else k.name.partition(".")[2] or k.name
         parts.append(
             f'<g class="stream" data-stream="{escape(k.name)}" tabindex="0" role="button"><title>{escape(tip)}</title>'
             f'<path d="{path}" fill="none" stroke="{color}" stroke-width="1.8" marker-end="url(#tip-{color[1:]})"/>'
-            f'<text x="{at[0]}" y="{at[1]}" text-anchor="{at[2]}" font-size="10.5" fill="{color}">{escape(label)}</text></g>'
+            f'<text x="{at[0]}" y="{at[1]}" text-anchor="{at[2]}" font-size="10.5" fill="{color}">{escape(_label(k))}</text></g>'
         )
     for unit, (x, y) in corner.items():
         model = line.units[unit].card  # type: ignore[attr-defined]

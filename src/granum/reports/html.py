@@ -46,13 +46,19 @@ def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
     return list(found.values())
 
 
+def nomenclature(steps: Iterable[Result]) -> list[tuple[str, str]]:
+    """The symbols of a calculation note with what they mean."""
+    words = {p.term for step in steps for p in (*step.card.parameters, *step.card.outputs) if p.term and p.term.symbol}
+    return sorted(((mathml(word.symbol), word.label) for word in words), key=lambda row: row[1])
+
+
 def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
     report = run.units[name]
     return {
         "name": name,
         "title": report.model.card.title,
         "summary": report.model.card.summary,
-        "parameters": [_row(p, value) for p, value in report.parameters()],
+        "parameters": [_row(p, value) for p, value in report.parameters() if value is not None and str(value)],
         "figures": [_row(p, value) for p, value in report.figures()],
         "checks": [check_row(c)._asdict() | {"source": cite(c.source)} for c in report.checks],
         "steps": note_steps(run.notes[name]),
@@ -102,6 +108,7 @@ def line_report(run: Any) -> str:
         flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
         audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
         diagram=draw(run.sheet, run.streams), streams=stream_table(run),
+        symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=[sizes.to_html(full_html=False, include_plotlyjs=True, config={"displaylogo": False})] if sizes else [],
         sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,
     )  # fmt: skip

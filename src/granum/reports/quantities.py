@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from granum.core.cards import Card
 from granum.core.glossary import quantity_in, term
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.parameters import Parameter, default_as_json
-from granum.core.units import format_number, from_si, pretty_unit, show
+from granum.core.units import field_units, format_number, from_si, pretty_unit, show
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -21,16 +22,38 @@ MOST_SHOWN = 8
 
 def value_text(value: Any, parameter: Parameter) -> str:
     """One value with its unit; a short list for vectors; words for choices."""
-    if value is None:
+    if value is None or (isinstance(value, str) and not value):
         return "—"
     if parameter.kind is None:
-        return _("yes") if value is True else _("no") if value is False else str(default_as_json(value))
+        return _word(value, parameter)
     array = np.asarray(value, dtype=float)
     unit = parameter.display_unit(array)
     if array.ndim == 0:
         return show(float(array), parameter.kind, unit)
     items = [format_number(float(x)) for x in np.ravel(from_si(array, unit, parameter.kind))[:MOST_SHOWN]]
     return f"{'; '.join(items)}{' …' if array.size > MOST_SHOWN else ''} {pretty_unit(unit)}".strip()
+
+
+def _word(value: Any, parameter: Parameter) -> str:
+    if isinstance(value, bool):
+        return _("yes") if value else _("no")
+    if hasattr(value, "card"):
+        return law_text(value)
+    text = str(default_as_json(value))
+    return _(text.replace("_", " ")) if value in parameter.choices else text
+
+
+def law_label(card: Card) -> str:
+    """A law among others of its family: its author alone when the title is the family's name with the author."""
+    _head, bracket, author = card.title.partition(" (")
+    return author.removesuffix(")") if bracket and card.sort == "formula" and card.name.startswith(card.family) else card.title
+
+
+def law_text(law: Any) -> str:
+    """A law with the values of its parameters."""
+    known = ((p, getattr(law, p.name, None)) for p in law.card.parameters) if law.card.sort != "formula" else ()
+    given = "; ".join(f"{p.label} {value_text(value, p)}" for p, value in known if value is not None)
+    return law_label(law.card) + (f" ({given})" if given else "")
 
 
 @cache
@@ -126,8 +149,9 @@ def check_row(check: Any) -> CheckRow:
     kind = _kind_in(check.unit)
     value, low, high = float(check.value), float(check.low), float(check.high)
     unit = check.unit
-    if kind is not None:
-        unit = Parameter("", kind).display_unit(value or next((x for x in (high, low) if math.isfinite(x)), 0.0))
+    sized = value or next((x for x in (high, low) if math.isfinite(x)), 0.0)
+    if kind is not None and (field_units(kind) or not 0.05 <= abs(sized) < 1e4):
+        unit = Parameter("", kind).display_unit(sized)
         value, low, high = (float(from_si(x, unit, kind)) for x in (value, low, high))
     tail = f" {pretty_unit(unit)}".rstrip()
     if not math.isfinite(low) or not math.isfinite(high):
