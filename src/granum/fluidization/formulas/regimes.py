@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Speed
-from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
+from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes, excess
 
 WIDE = {**TYPICAL, "superficial_velocity": (0.02, 2.0)}
 
@@ -127,3 +127,28 @@ def slug_rise_velocity(
     0.5466
     """
     return jnp.maximum(superficial_velocity - minimum_fluidization_velocity, 0.0) + 0.35 * jnp.sqrt(gravity * diameter)
+
+
+@formula(source="romero1962; wilhelm1948",
+         equation=r"N = \frac{U_{mf}^2}{g d_p}\,\frac{\rho_f U_{mf} d_p}{\eta}\,\frac{\rho_p - \rho_f}{\rho_f}\,\frac{H_{mf}}{D}",
+         typical={**TYPICAL, "minimum_fluidization_velocity": (0.01, 0.1), "height": (0.5, 3.0), "diameter": (0.3, 1.0)})  # fmt: skip
+def bubbling_number(
+    minimum_fluidization_velocity: Speed,
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    height: Length,
+    diameter: Length,
+    gravity: Acceleration = STANDARD_GRAVITY,
+) -> Ratio:
+    """Romero and Johanson's product of Froude, Reynolds, density and shape: smooth fluidization below 100, bubbling above.
+
+    Sand in a gas under pressure:
+
+    >>> round(bubbling_number(minimum_fluidization_velocity=0.021, particle_diameter="0.3 mm", particle_density=2600, fluid_density=106.2,
+    ...                       dynamic_viscosity=2.21e-5, height=3.25, diameter=0.95))
+    365
+    """
+    U, d, rho = minimum_fluidization_velocity, particle_diameter, fluid_density
+    return U**2 / (gravity * d) * rho * U * d / dynamic_viscosity * excess(particle_density, rho) / rho * height / diameter

@@ -12,6 +12,7 @@ from granum.core.kinds import (
     Density,
     DynamicViscosity,
     Length,
+    PositiveNumber,
     SpecificSurface,
     SpecificSurfaceMass,
     Speed,
@@ -104,6 +105,21 @@ def equivalent_diameter_stokes(
     d = safe_sqrt(safe_divide(18.0 * dynamic_viscosity * terminal_velocity, difference * gravity, jnp.inf))
     watch(reynolds=fluid_density * terminal_velocity * d / dynamic_viscosity)
     return d
+
+
+@formula(source="hinds1999, chapter 3", equation=r"d_a = d_v\sqrt{\frac{\rho_p}{\rho_0\,\chi}},\quad \rho_0 = 1000\ \mathrm{kg/m^3}",
+         title="Aerodynamic diameter", typical={"shape_factor_dynamic": (1.0, 1.5)})  # fmt: skip
+def equivalent_diameter_aerodynamic(
+    diameter_volume: Length, particle_density: Density, shape_factor_dynamic: PositiveNumber = 1.0
+) -> Length:
+    """Diameter of the sphere of 1000 kg/m³ that falls as fast in a gas in creeping flow; slip left out.
+
+    The dynamic shape factor is the drag over that of the sphere of equal volume.
+
+    >>> round(equivalent_diameter_aerodynamic(diameter_volume="1.4 um", particle_density="2 g/cm^3") * 1e6, 2)
+    1.98
+    """
+    return diameter_volume * jnp.sqrt(particle_density / (1000.0 * shape_factor_dynamic))
 
 
 @formula(source="allen1997", equation=r"a_g = \frac{6}{\psi\,d}", title="Specific surface from a mean diameter", output="specific_surface")
