@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -20,12 +20,13 @@ from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
+from granum.estimation.results import Fit
 from granum.flowsheet import Flowsheet, Solution, closures, solve
 from granum.flowsheet.dynamics import Course, march
 from granum.flowsheet.packing import compiled
 from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.specifications import Designed, Target, design, figure
-from granum.numerics import Anderson
+from granum.numerics import Anderson, Newton
 from granum.streams.stream import Stream
 from granum.streams.units import Check
 
@@ -42,8 +43,14 @@ def _traced(tree: Any) -> Any:
 
 
 @compiled
-def _solved_carefully(sheet: Flowsheet) -> Designed:
-    solution = solve(sheet, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
+def _solved_patiently(sheet: Flowsheet, start: dict[str, Stream]) -> Designed:
+    solution = solve(sheet, start, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
+    return Designed(sheet, solution, {}, solution.converged)
+
+
+@compiled
+def _solved_by_newton(sheet: Flowsheet, start: dict[str, Stream]) -> Designed:
+    solution = solve(sheet, start, sheets=True, method=Newton(), max_steps=50)
     return Designed(sheet, solution, {}, solution.converged)
 
 
@@ -62,6 +69,7 @@ class Line:
     targets: tuple[Target, ...] = ()
     case: Case | None = None
     text: str = ""
+    fits: Mapping[str, tuple[Fit, str]] = field(default_factory=dict)
 
     def solve(self) -> Run:
         """Solve, check and audit. Raises ``ConvergenceError`` (with the last iterate) rather than return an unconverged line."""
@@ -70,8 +78,10 @@ class Line:
         bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
         if bool(found.converged) and not bad:
             return run
-        if not bad and not bool(found.solution.converged) and not self.targets:  # more patience, smaller steps
-            found = _solved_carefully(_traced(self.sheet))
+        for again in (_solved_patiently, _solved_by_newton) if not bad and not bool(found.solution.converged) and not self.targets else ():
+            torn = {n: found.solution.streams[n] for block in self.sheet.blocks for n in block.tears}
+            start = torn if again is _solved_by_newton else {}
+            found = again(_traced(self.sheet), start)
             run = Run(self, found.line, found.solution, {})
             if bool(found.converged):
                 return run
@@ -103,7 +113,7 @@ class Line:
 
     def with_values(self, **values: Any) -> Line:
         """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
-        return Line(self.title, self.sheet.with_values(values), self.targets, self.case, self.text)
+        return Line(self.title, self.sheet.with_values(values), self.targets, self.case, self.text, self.fits)
 
 
 def _place(found: Any, bad: list[str]) -> dict[str, Any]:

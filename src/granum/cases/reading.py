@@ -120,13 +120,14 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
             table = StreamTable.model_validate({"from": table[0], "to": table[1] if len(table) == 2 else ""})
         links[name] = (table.origin, table.target)
     sheet = Flowsheet(units, feeds, links)
-    if case.fits:
-        sheet = sheet.with_values(fitted_values(fits_of(case.fits, folder)))
+    fits = fits_of(case.fits, folder)
+    if fits:
+        sheet = sheet.with_values(fitted_values(fits))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
     _require_independent(case, targets)
     if case.dynamic is not None:
         movement(case, sheet)  # so that a mistake shows at once
-    return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text)
+    return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text, fits=fits)
 
 
 def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:

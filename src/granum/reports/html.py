@@ -13,12 +13,13 @@ import granum
 from granum.core import charts
 from granum.core.i18n import _, current_language
 from granum.core.parameters import Parameter
+from granum.core.registry import find
 from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number
 from granum.flowsheet.drawing import draw, main_phase
 from granum.reports.mathml import mathml
-from granum.reports.quantities import check_row, stream_table, value_text
+from granum.reports.quantities import check_row, estimate_rows, label_of, statistics_text, stream_table, value_text
 
 
 def _row(p: Parameter, value: Any) -> dict[str, str]:
@@ -65,11 +66,24 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
     }
 
 
+def _fit_sheets(run: Any) -> list[dict[str, Any]]:
+    """The lab tests from which parameters of the line were estimated, each once, with what it gave to which unit."""
+    given: dict[int, tuple[Any, list[str]]] = {}
+    for path, (fit, name) in run.line.fits.items():
+        given.setdefault(id(fit), (fit, []))[1].append(f"{path} = {label_of(name)}")
+    sheets = []
+    for fit, paths in given.values():
+        data, card = fit.as_json(), find(fit.card).card
+        sheets.append({
+            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": statistics_text(data),
+            "source": card.citation, "notices": [f["message"] if isinstance(f, dict) else str(f) for f in data["flags"]],
+        })  # fmt: skip
+    return sheets
+
+
 def size_chart(run: Any) -> Any:
     """Cumulative size distributions of the streams that carry solid."""
-    figure = charts.figure(
-        charts.axis_title("particle_diameter", "um"), _("cumulative mass / %"), x_log=True, title=_("Size distributions")
-    )
+    figure = charts.figure(charts.axis_title("particle_diameter", "um"), _("cumulative mass / %"), x_log=True)
     drawn = 0
     for name, stream in run.streams.items():
         if float(stream.solid_flow) > 1e-9 * float(stream.mass_flow) and main_phase(stream) != "gas":
@@ -107,7 +121,7 @@ def line_report(run: Any) -> str:
         failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
         flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
         audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
-        diagram=draw(run.sheet, run.streams), streams=stream_table(run),
+        diagram=draw(run.sheet, run.streams), streams=stream_table(run), fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=[sizes.to_html(full_html=False, include_plotlyjs=True, config={"displaylogo": False})] if sizes else [],
         sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,

@@ -150,9 +150,11 @@ def check_row(check: Any) -> CheckRow:
     value, low, high = float(check.value), float(check.low), float(check.high)
     unit = check.unit
     sized = value or next((x for x in (high, low) if math.isfinite(x)), 0.0)
-    if kind is not None and (field_units(kind) or not 0.05 <= abs(sized) < 1e4):
+    if kind is not None and (kind.unit == "K" or field_units(kind) or not 0.05 <= abs(sized) < 1e4):
         unit = Parameter("", kind).display_unit(sized)
         value, low, high = (float(from_si(x, unit, kind)) for x in (value, low, high))
+    far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
+    low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
     tail = f" {pretty_unit(unit)}".rstrip()
     if not math.isfinite(low) or not math.isfinite(high):
         allowed = f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
@@ -197,6 +199,8 @@ def stream_table(run: Any) -> StreamTable:
     heads, cells = [], []
     for label, kind, values in columns:
         unit = shared if kind is flow else Parameter("", kind).display_unit(values)
+        if all(map(math.isnan, values)):
+            continue  # no solid anywhere
         heads.append(f"{label} {pretty_unit(unit)}")
         cells.append(["" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values])
     return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
