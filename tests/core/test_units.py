@@ -123,6 +123,13 @@ def test_numbers_as_people_print_them() -> None:
         ("PressureDrop", "2 kg/cm2", 196133.0),
         ("VolumeFlow", "1000 cfm", 0.471947),
         ("MassFraction", "15 wt%", 0.15),
+        ("MassRatio", "34.5 g/100 g", 0.345),
+        ("MassRatio", "34.5 kg/100kg water", 0.345),
+        ("HeatCapacity", "0.7 Btu/lb F", 2930.76),
+        ("HeatCapacity", "0.7 Btu/lb-°F", 2930.76),
+        ("HeatTransferCoefficient", "35 Btu/h ft2 F", 198.739),
+        ("HeatTransferCoefficient", "35 Btu/(hr·ft2·°F)", 198.739),
+        ("PopulationDensity", "2 #/(L mm)", 2e6),
     ],
 )
 def test_how_books_write_units(kind: str, text: str, expected: float) -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from granum.core.errors import ApplicabilityError
 from granum.crystallization.formulas.balances import crystallizer_balance_library
+from granum.crystallization.formulas.batch_balances import crystallizer_batch_balance
 from granum.crystallization.formulas.classified import production_classifying
 from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt
 from granum.crystallization.formulas.nucleation import critical_radius, nucleation_barrier
@@ -64,3 +65,12 @@ def test_balance_by_the_name_of_the_solute():
     soda = crystallizer_balance_library(10000.0, 0.30, 293.15, 293.15, system="Na2CO3·10H2O")
     assert soda.crystal_flow == pytest.approx(6370, rel=0.02)
     assert np.isnan(crystallizer_balance_library(1.0, 0.2, 283.15, 300.0, system="sodium oxalate").heat_duty)
+
+
+def test_charges_of_textbooks():
+    """Coulson and Richardson: 1500 kg of potassium chloride saturated at 360 K (53.55 kg per 100 kg) and cooled to 290 K (34.5): 534 kg.
+    McCabe, Smith and Harriott: 30 % magnesium sulfate cooled to 60 °F, 5 % of the water evaporating, liquor of 24.5 %: 0.261 kg per kg."""
+    chloride = crystallizer_batch_balance("4301 kg", 53.55 / 153.55, "34.5 g/100 g water")
+    assert chloride.crystal_mass == pytest.approx(534, rel=2e-3)
+    epsom = crystallizer_batch_balance("1000 kg", 0.30, 0.245 / 0.755, 120.37 / 246.48, "35 kg")
+    assert epsom.crystal_mass == pytest.approx(261, rel=2e-3)

@@ -61,7 +61,7 @@ def _registry() -> Any:
 
 
 _SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "wt%": "%", "wt %": "%", "vol%": "%", "vol %": "%", "mol%": "%",
-              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
+              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "#": "1", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
               "in. H2O": "inH2O", "in H2O": "inH2O", "in WC": "inH2O", "mm H2O": "mmH2O", "mm WC": "mmH2O", "mm water": "mmH2O",
               "in. Hg": "inHg", "in Hg": "inHg", "mm Hg": "mmHg", "US gal": "gallon", "US gpm": "gpm",
               "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
@@ -77,6 +77,7 @@ def parse_unit(text: str) -> Any:
     for written, meant in _SPELLINGS.items():
         spelled = spelled.replace(written, meant)
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    spelled = re.sub(r"/\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?$", r"/\1*percent", spelled)  # g/100 g of water
     # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
     spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
     try:
@@ -95,16 +96,25 @@ def same_dimension(unit: str, kind_unit: str) -> bool:
     return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
 
 
+def _fits(unit: str, kind_unit: str) -> bool:
+    try:
+        return same_dimension(unit, kind_unit)
+    except UnitError:
+        return False
+
+
 @cache
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     """(factor, offset) such that SI = factor·value + offset."""
     ureg = registry()
-    if not same_dimension(unit, kind_unit):
+    if not _fits(unit, kind_unit):
         above, _over, below = unit.partition("/")
-        # as older books write them: in kg/m s all behind the stroke is below it; lb/ft2 and kg/cm2 of a pressure are forces
-        readings = (f"{above}/({'*'.join(below.split())})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
-        meant = [text for text in readings if below and text != unit and same_dimension(text, kind_unit)]
+        # as older books write them: in kg/m s all behind the stroke is below it, F and C there are degrees; lb/ft2 and kg/cm2 of a pressure are forces
+        factors = re.split(r"[\s*.·/()-]+", re.sub("°|deg(?=[CF])", " ", below))
+        readings = (f"{above}/({'*'.join(_DEGREES.get(f, f) for f in factors if f)})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
+        meant = [text for text in readings if below and text != unit and _fits(text, kind_unit)]
         if not meant:
+            parse_unit(unit)  # says so where the unit itself is not known
             raise UnitError("dimension")
         unit = meant[0]
     source, target = parse_unit(unit), ureg.Unit(kind_unit)

@@ -7,4 +7,10 @@ from typing import Annotated, Any
 from granum.core.kinds import Kind, TemperatureRate
 
 CoolingRate = TemperatureRate
+PositiveTemperatureDifference = Annotated[
+    Any, Kind("positive temperature difference", "delta_degC", lower=0.0, open_lower=True, display=("kelvin", "delta_degF"))
+]
+RateCoefficient = Annotated[
+    Any, Kind("growth rate at a driving force of one", "m/s", lower=0.0, display=("m/s", "um/s", "um/min", "mm/hour"))
+]
 ProductionRate = Annotated[Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))]

@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
 )
+from granum.crystallization.kinds import PositiveTemperatureDifference
 from granum.materials.library import solute
 from granum.numerics.smooth import safe_divide, safe_log
 
@@ -61,8 +62,8 @@ def crystallizer_balance(
 ) -> Balance:
     """Crystals, mother liquor and yield of a crystallizer that leaves a saturated solution, hydrates and evaporation included.
 
-    Compositions are of anhydrous solute. No crystals where the feed is not saturated at the final conditions. Masses of a batch may stand
-    for the flows. Sodium carbonate decahydrate, 10 000 kg of 30 % solution cooled to 20 °C (21.5 kg per 100 kg of water), gives 6370 kg in the print.
+    Compositions are of anhydrous solute. No crystals where the feed is not saturated at the final conditions. Sodium carbonate
+    decahydrate, 10 000 kg of 30 % solution cooled to 20 °C (21.5 kg per 100 kg of water), gives 6370 kg in the print.
 
     >>> out = crystallizer_balance(mass_flow=10000, solute_mass_fraction=0.30, solubility_per_solvent=0.215,
     ...                            solute_fraction_of_crystal=106.0 / 286.2)
@@ -211,7 +212,7 @@ def crystallizer_balance_library(
 @formula(source="kern1950, ch. 5", equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",
          typical={"temperature_difference_inlet": (10.0, 30.0), "temperature_difference_outlet": (3.0, 9.0)})  # fmt: skip
 def log_mean_temperature_difference(
-    temperature_difference_inlet: PositiveNumber, temperature_difference_outlet: PositiveNumber
+    temperature_difference_inlet: PositiveTemperatureDifference, temperature_difference_outlet: PositiveTemperatureDifference
 ) -> TemperatureDifference:
     """Logarithmic mean of the temperature differences at both ends of a jacket or cooler.
 
@@ -229,8 +230,8 @@ def log_mean_temperature_difference(
 @formula(source="mullin2001, ch. 8; kern1950, ch. 20", equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}", output="area",
          typical={"heat_duty": (1e4, 1e6)})  # fmt: skip
 def area_jacket(
-    heat_duty: Power, heat_transfer_coefficient: HeatTransferCoefficient, temperature_difference_inlet: PositiveNumber,
-    temperature_difference_outlet: PositiveNumber,
+    heat_duty: Power, heat_transfer_coefficient: HeatTransferCoefficient, temperature_difference_inlet: PositiveTemperatureDifference,
+    temperature_difference_outlet: PositiveTemperatureDifference,
 ) -> Area:  # fmt: skip
     """Cooling surface for a heat duty, by the logarithmic mean temperature difference between suspension and coolant.
 

@@ -15,6 +15,7 @@ from granum.core import formula, law
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import GrowthRate, Law, MassRatio, MolarEnergy, Number, PositiveNumber, Ratio, Temperature
 from granum.crystallization.formulas.driving_forces import RelativeSupersaturation
+from granum.crystallization.kinds import RateCoefficient
 from granum.numerics.smooth import safe_divide, safe_log, safe_power
 
 
@@ -38,7 +39,7 @@ def arrhenius(activation_energy: Any, temperature: Any) -> Any:
 )
 def growth_rate_power(
     relative_supersaturation: Number,
-    growth_coefficient: Ratio,
+    growth_coefficient: RateCoefficient,
     growth_order: PositiveNumber,
     temperature: Temperature = 298.15,
     growth_activation_energy: MolarEnergy = 0.0,
@@ -62,7 +63,7 @@ class PowerLawGrowth(GrowthLaw):
     ``growth_coefficient`` is in m/s per (unit of the driving force)^order.
     """
 
-    growth_coefficient: Ratio
+    growth_coefficient: RateCoefficient
     growth_order: PositiveNumber = 1.0
     growth_activation_energy: MolarEnergy = 0.0
     driving_force: Annotated[Any, Law("driving_force")] = RelativeSupersaturation()
@@ -78,7 +79,7 @@ class PowerLawGrowth(GrowthLaw):
     family="growth_formula",
 )
 def growth_rate_spiral(
-    relative_supersaturation: Ratio, spiral_coefficient: PositiveNumber, spiral_supersaturation: PositiveNumber
+    relative_supersaturation: Ratio, spiral_coefficient: RateCoefficient, spiral_supersaturation: PositiveNumber
 ) -> GrowthRate:
     """Growth rate of size on screw dislocations after Burton, Cabrera and Frank, the coefficient in m/s.
 
@@ -96,7 +97,7 @@ def growth_rate_spiral(
 class SpiralGrowth(GrowthLaw):
     """Growth on screw dislocations: parabolic at low, linear at high supersaturation; the coefficient in m/s."""
 
-    spiral_coefficient: PositiveNumber
+    spiral_coefficient: RateCoefficient
     spiral_supersaturation: PositiveNumber
     growth_activation_energy: MolarEnergy = 0.0
 
@@ -113,7 +114,7 @@ class SpiralGrowth(GrowthLaw):
 )
 def growth_rate_birth_and_spread(
     relative_supersaturation: Ratio,
-    birth_spread_coefficient: PositiveNumber,
+    birth_spread_coefficient: RateCoefficient,
     birth_spread_barrier: PositiveNumber,
     temperature: Temperature = 298.15,
 ) -> GrowthRate:
@@ -136,7 +137,7 @@ def growth_rate_birth_and_spread(
 class BirthAndSpreadGrowth(GrowthLaw):
     """Growth by two-dimensional nuclei that form and spread on smooth faces; the coefficient in m/s."""
 
-    birth_spread_coefficient: PositiveNumber
+    birth_spread_coefficient: RateCoefficient
     birth_spread_barrier: PositiveNumber
     growth_activation_energy: MolarEnergy = 0.0
 
@@ -154,7 +155,7 @@ class PowerLawDissolution(GrowthLaw):
     Positive where the solution is undersaturated, zero elsewhere; the coefficient in m/s per (unit of the driving force)^order.
     """
 
-    dissolution_coefficient: Ratio
+    dissolution_coefficient: RateCoefficient
     dissolution_order: PositiveNumber = 1.0
     growth_activation_energy: MolarEnergy = 0.0
     driving_force: Annotated[Any, Law("driving_force")] = RelativeSupersaturation()

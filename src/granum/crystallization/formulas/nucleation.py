@@ -130,7 +130,7 @@ def nucleation_rate_classical(
     interfacial_energy: SurfaceTension,
     crystal_density: Density,
     molar_mass: MolarMass,
-    nucleation_preexponential: PositiveNumber,
+    nucleation_preexponential: NucleationRate,
     temperature: Temperature = 298.15,
     ions_per_formula: PositiveNumber = 1.0,
     heterogeneous_factor: PositiveNumber = 1.0,
@@ -177,7 +177,7 @@ def interfacial_energy_mersmann(
 )
 def nucleation_rate_secondary(
     relative_supersaturation: Number,
-    nucleation_coefficient: Ratio,
+    nucleation_coefficient: NucleationRate,
     nucleation_order: PositiveNumber,
     magma_density: Concentration,
     magma_order: Ratio = 1.0,
@@ -212,7 +212,7 @@ class PowerLawNucleation(NucleationLaw):
     ``nucleation_coefficient`` is in 1/(m³ s) per (unit of the driving force)^b and (kg/m³)^j.
     """
 
-    nucleation_coefficient: Ratio
+    nucleation_coefficient: NucleationRate
     nucleation_order: PositiveNumber
     magma_order: Ratio = 1.0
     agitation_ratio: PositiveNumber = 1.0
@@ -237,7 +237,7 @@ class ClassicalNucleation(NucleationLaw):
     interfacial_energy: SurfaceTension
     crystal_density: Density
     molar_mass: MolarMass
-    nucleation_preexponential: PositiveNumber
+    nucleation_preexponential: NucleationRate
     ions_per_formula: PositiveNumber = 1.0
     heterogeneous_factor: PositiveNumber = 1.0
 

@@ -31,9 +31,7 @@ from granum.estimation import Fit, LabTest
     output="undercooling",
     typical={"cooling_rate": (1e-4, 1e-2), "nyvlt_constant": (1e-6, 1e-4), "nyvlt_order": (2.0, 5.0)},
 )
-def undercooling_metastable(
-    cooling_rate: CoolingRate, nyvlt_constant: PositiveNumber, nyvlt_order: PositiveNumber
-) -> TemperatureDifference:
+def undercooling_metastable(cooling_rate: CoolingRate, nyvlt_constant: CoolingRate, nyvlt_order: PositiveNumber) -> TemperatureDifference:
     """Metastable zone width at a cooling rate, by Nývlt's line; the constant is the rate that gives one kelvin.
 
     >>> round(undercooling_metastable(cooling_rate=8e-3, nyvlt_constant=1e-3, nyvlt_order=3.0), 6)
@@ -55,7 +53,7 @@ class MetastableZone(LabTest):
     undercooling: Annotated[TemperatureDifference, Series("points")]
     detected_number_density: NumberDensity | None = None
 
-    estimates: ClassVar = {"nyvlt_order": Number, "nyvlt_constant": PositiveNumber}
+    estimates: ClassVar = {"nyvlt_order": Number, "nyvlt_constant": CoolingRate}
     axes: ClassVar = {"cooling_rate": CoolingRate, "undercooling": TemperatureDifference}
 
     def fit(self) -> Fit:
