@@ -44,6 +44,7 @@ class Record:
     high: float = field(metadata={"static": True})
     source: str = field(metadata={"static": True})
     reason: str = field(default="", metadata={"static": True})
+    computed: tuple[Any, Any] | None = None  # limits that depend on the other inputs, in place of low and high
 
 
 class _Collector:
@@ -70,6 +71,12 @@ def collect() -> Iterator[list[Record]]:
         _active.reset(token)
 
 
+def listening() -> bool:
+    """Whether a record made now would be kept: limits that cost much to compute are worth it only then."""
+    collector = _active.get()
+    return collector is not None and collector.accepts()
+
+
 @contextmanager
 def inside(formula: Any) -> Iterator[None]:
     """Marks which formula is running, so that ``watch`` knows whose ranges apply."""
@@ -81,11 +88,14 @@ def inside(formula: Any) -> Iterator[None]:
 
 
 def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "",
-           reason: str = "") -> None:  # fmt: skip
+           reason: str = "", computed: tuple[Any, Any] | None = None) -> None:  # fmt: skip
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
-    if collector is not None and collector.accepts():
-        collector.records.append(Record(jnp.asarray(mask), jnp.asarray(value), bit, name, card, low, high, source, reason))
+    if collector is not None and listening():
+        mask = jnp.asarray(mask)
+        if computed is not None:
+            computed = (jnp.broadcast_to(computed[0], mask.shape), jnp.broadcast_to(computed[1], mask.shape))
+        collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed))
 
 
 def watch(**values: Any) -> None:
@@ -108,14 +118,15 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
         record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
 
 
-def impossible(mask: Any, value: Any, name: str, low: float = -np.inf, high: float = np.inf, reason: str = "") -> None:
+def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
     """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
 
-    Of several records the first one is what a reader is told; ``reason`` as for ``limit_active``.
+    Of several records the first one is what a reader is told; ``reason`` as for ``limit_active``, after the limits where there are
+    any. These may be computed: they are told for the element that lies farthest out.
     """
     formula = _current.get()
     if formula is not None:
-        record(OUTSIDE_DOMAIN, mask, value, name, formula.key, low, high, formula.source, reason)
+        record(OUTSIDE_DOMAIN, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
 
 
 def limit_active(mask: Any, value: Any, name: str, reason: str = "") -> None:
@@ -147,11 +158,12 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         mask = np.asarray(found.mask)
         if not mask.any():
             continue
-        values = np.broadcast_to(np.asarray(found.value, dtype=float), mask.shape)[mask]
-        finite = values[np.isfinite(values)]
-        key = (found.bit, found.name, found.card, found.low, found.high, found.reason)
-        beyond = np.maximum(found.low - finite, finite - found.high) if finite.size else finite
-        worst = float(finite[int(np.argmax(beyond))]) if finite.size else float("nan")
+        limits = found.computed or (found.low, found.high)
+        values, lows, highs = (np.broadcast_to(np.asarray(x, dtype=float), mask.shape)[mask] for x in (found.value, *limits))
+        beyond = np.where(np.isfinite(values), np.fmax(lows - values, values - highs), -np.inf)
+        at = int(np.argmax(beyond))
+        worst, low, high = (float(x[at]) for x in (values, lows, highs))
+        key = (found.bit, found.name, found.card, low, high, found.reason)
         row = rows.setdefault(
             key,
             {
@@ -160,14 +172,16 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
                 "card": found.card,
                 "count": 0,
                 "worst": None,
-                "low": None if found.low == -np.inf else found.low,
-                "high": None if found.high == np.inf else found.high,
+                "low": low if np.isfinite(low) else None,
+                "high": high if np.isfinite(high) else None,
                 "source": found.source,
             },
         )
         row["count"] += int(mask.sum())
         row["worst"] = worst if np.isfinite(worst) else None
-        row["message"] = _(found.reason) if found.reason else sentence(row)
+        limited = found.bit == OUTSIDE_DOMAIN and (row["low"] is not None or row["high"] is not None)
+        told = ([sentence(row)] if limited or not found.reason else []) + ([_(found.reason)] if found.reason else [])
+        row["message"] = " ".join(told)
     return list(rows.values())
 
 

@@ -14,10 +14,29 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
+from granum.numerics.quick_roots import falling_root
 from granum.numerics.roots import find_root
 
 SAMPLES = 49
+ROUNDING = 1e-9
 TWO_STATES = "Two states have these values; the colder and moister one is given."
+NEARLY_PARALLEL = (
+    "Lines of constant wet bulb and of constant enthalpy are nearly parallel: a change of 0.1 kJ/kg moves the temperature by more "
+    "than 1 K. Give the temperature or the humidity in place of one of them."
+)
+PARALLEL_SHARE = 0.1  # enthalpy of the evaporating liquid over its latent heat: below this the temperature moves by more than 1 K
+OVER_SATURATION = "The vapor would be more than saturates the gas at this temperature."
+ABOVE_TOTAL = "The vapor pressure cannot be above the total pressure, nor the dew point above the boiling point."
+BETWEEN_WET = "The limits are the wet bulb of dry gas at this temperature, and the dry bulb or the boiling point."
+BETWEEN_DRY_AND_SATURATED = "The limits are those of dry and of saturated gas at this temperature."
+OVER_DRY = "The limits are those of dry gas at this temperature and, below freezing, of saturated gas."
+OVER_DEW = "The limit is that of the gas saturated, at its dew point."
+FROM_DEW = "The limits are the dew point and the boiling point."
+BELOW_BOILING = "The limit is the boiling point."
+ALONG_WET = "The limits are those of saturated and of dry gas with this wet bulb."
+ALONG_VOLUME = "The limits are those of dry and of saturated gas of this volume."
+DRY = "Dry gas has the relative humidity 0 at every temperature: give its temperature."
+NO_TEMPERATURE = "No temperature of this gas–vapor pair's range has these values."
 MOISTURE = ("humidity_ratio", "vapor_pressure", "dew_point_temperature")
 WET = ("wet_bulb_temperature", "adiabatic_saturation_temperature")
 NAMES = ("temperature", *MOISTURE, "relative_humidity", *WET, "enthalpy", "specific_volume")
@@ -60,152 +79,270 @@ class Solver:
     def solve(self) -> tuple[Gas, Any]:
         """The state, and where it is possible."""
         check_pair_of_inputs(self.given)
-        wet = next((name for name in WET if name in self.given), None)
-        moisture = next((name for name in MOISTURE if name in self.given), None)
-        if "temperature" in self.given:
-            return self._with_temperature(wet)
-        if moisture is not None:
-            return self._with_moisture(self._fraction(moisture), wet, moisture == "humidity_ratio")
-        if wet is not None:
-            return self._with_wet_surface(wet)
-        return self._without_any()
+        names = sorted(self.given, key=NAMES.index)
+        roles = ["moisture" if n in MOISTURE else "wet_bulb" if n in WET else n for n in names]
+        gas, possible = getattr(self, "_" + "_and_".join(roles))(*names)
+        possible = possible & jnp.isfinite(gas.T) & jnp.isfinite(gas.y)
+        flags.impossible(~possible, self.given[names[1]], names[1], reason=NO_TEMPERATURE)
+        return gas, possible
 
-    def _fraction(self, name: str) -> Any:
+    def _fraction(self, name: str) -> tuple[Any, Any]:
+        """Vapor fraction of a given moisture, and whether there can be so much."""
         value = self.given[name]
         if name == "humidity_ratio":
-            return self.pair.fraction(value)
-        return value / self.P if name == "vapor_pressure" else rel.saturated_fraction(self.pair, value, self.P)
+            return self.pair.fraction(value), jnp.asarray(True)
+        pressure = name == "vapor_pressure"
+        y = value / self.P if pressure else rel.saturated_fraction(self.pair, value, self.P)
+        possible = y <= 1.0 + ROUNDING
+        self._tell(~possible, name, lambda: (0.0, self.P) if pressure else (-jnp.inf, self.pair.boiling_temperature(self.P)), ABOVE_TOTAL)
+        return jnp.clip(y, 0.0, 1.0), possible
 
     def _ys(self, T: Any) -> Any:
         return rel.saturated_fraction(self.pair, T, self.P)
 
-    def _bounded(self, T: Any, y: Any) -> tuple[Gas, Any]:
+    def _per_gas(self, value: Any, y: Any) -> Any:
+        """What is given per mass of dry gas, per mole of mixture."""
+        return value * self.pair.gas_molar_mass * (1.0 - y)
+
+    def _tell(self, wrong: Any, name: str, limits: Callable[[], tuple[Any, Any]], reason: str) -> None:
+        """Where no state exists: the given value, what it may be beside the other one, and why."""
+        if flags.listening():
+            low, high = limits()
+            flags.impossible(wrong, self.given[name], name, low, high, reason)
+
+    def _bounded(self, T: Any, y: Any, name: str, limits: Callable[[], tuple[Any, Any]], reason: str) -> tuple[Gas, Any]:
         """An unsaturated state, possible where the fraction lies between dry and saturated."""
-        ys = self._ys(T)
-        possible = (y >= -1e-9) & (y <= ys * (1 + 1e-9)) & (y <= 1 + 1e-12)
-        return Gas(T, jnp.clip(y, 0.0, jnp.minimum(ys, 1.0)), jnp.zeros_like(y)), possible
+        ys = jnp.minimum(self._ys(T), 1.0)
+        possible = (y >= -ROUNDING) & (y <= ys * (1 + ROUNDING))
+        self._tell(~possible & jnp.isfinite(T), name, limits, reason)
+        return Gas(T, jnp.clip(y, 0.0, ys), jnp.zeros_like(T * y)), possible
 
-    def _with_temperature(self, wet: str | None) -> tuple[Gas, Any]:
-        pair, P, T = self.pair, self.P, self.given["temperature"]
-        name = next(n for n in self.given if n != "temperature")
-        value = self.given[name]
+    def _specific(self, quantity: str, T: Any, y: Any) -> Any:
+        """Enthalpy or volume of the gas per mass of dry gas."""
+        gas = Gas(T, y, jnp.zeros_like(T * y))
+        return rel.enthalpy(self.pair, gas, self.P) if quantity == "enthalpy" else rel.specific_volume(self.pair, gas, self.P)
+
+    def _molar(self, quantity: str) -> Callable[..., Any]:
+        return self.pair.molar_enthalpy if quantity == "enthalpy" else self.pair.molar_volume
+
+    def _falling(self, balance: Callable[[Any], Any], lower: Any, upper: Any, start: Any = None) -> Any:
+        """The temperature at which a falling balance is zero; NaN where it is not zero between the ends."""
+        T = falling_root(balance, lower * (1 - SLACK), upper * (1 + SLACK), start=start)
+        return jnp.where((lower * (1 - 0.5 * SLACK) < T) & (upper * (1 + 0.5 * SLACK) > T), T, jnp.nan)
+
+    # --- temperature and another
+
+    def _temperature_and_moisture(self, _T: str, name: str) -> tuple[Gas, Any]:
+        T = self.given["temperature"]
+        y, possible = self._fraction(name)
         if name == "humidity_ratio":
-            return rel.settled(pair, T, P, pair.fraction(value)), jnp.asarray(True)
-        if name in MOISTURE:
-            return self._bounded(T, self._fraction(name))
-        if name == "relative_humidity":
-            return self._bounded(T, value * self._ys(T))
-        if wet is not None:
-            return self._bounded(T, rel.fraction_at_wet_bulb(pair, T, P, value, self.lewis[wet]))
-        if name == "specific_volume":
-            return self._bounded(T, rel.fraction_at_volume(pair, T, P, value))
-        return self._fog_at_enthalpy(T, value)
+            return rel.settled(self.pair, T, self.P, y), possible
 
-    def _fog_at_enthalpy(self, T: Any, h: Any) -> tuple[Gas, Any]:
-        pair, P = self.pair, self.P
+        def limits() -> tuple[Any, Any]:
+            return (0.0, jnp.minimum(self._ys(T), 1.0) * self.P) if name == "vapor_pressure" else (-jnp.inf, T)
+
+        gas, inside = self._bounded(T, y, name, limits, OVER_SATURATION)
+        return gas, possible & inside
+
+    def _temperature_and_relative_humidity(self, _T: str, name: str) -> tuple[Gas, Any]:
+        T = self.given["temperature"]
+        return self._bounded(T, self.given[name] * self._ys(T), name, lambda: (0.0, 1.0 / self._ys(T)), ABOVE_TOTAL)
+
+    def _temperature_and_wet_bulb(self, _T: str, name: str) -> tuple[Gas, Any]:
+        pair, P, T, lewis = self.pair, self.P, self.given["temperature"], self.lewis[name]
+
+        def limits() -> tuple[Any, Any]:
+            return rel.wet_bulb(pair, T, P, jnp.zeros_like(T * P), lewis), jnp.minimum(T, pair.boiling_temperature(P))
+
+        return self._bounded(T, rel.fraction_at_wet_bulb(pair, T, P, self.given[name], lewis), name, limits, BETWEEN_WET)
+
+    def _temperature_and_specific_volume(self, _T: str, name: str) -> tuple[Gas, Any]:
+        T = self.given["temperature"]
+        y = rel.fraction_at_volume(self.pair, T, self.P, self.given[name])
+        return self._bounded(T, y, name, lambda: self._dry_and_saturated(name, T), BETWEEN_DRY_AND_SATURATED)
+
+    def _dry_and_saturated(self, name: str, T: Any) -> tuple[Any, Any]:
+        ys = self._ys(T)
+        below = ys < 1.0
+        saturated = jnp.where(below, self._specific(name, T, jnp.where(below, ys, 0.5)), jnp.inf)
+        return self._specific(name, T, 0.0 * ys), saturated
+
+    def _temperature_and_enthalpy(self, _T: str, name: str) -> tuple[Gas, Any]:
+        pair, P, T, h = self.pair, self.P, self.given["temperature"], self.given["enthalpy"]
         y = rel.fraction_at_enthalpy(pair, T, P, h)
         ys = self._ys(T)
-        gas, possible = self._bounded(T, y)
-        foggy = (y > ys) & (ys < 1) & (pair.freezing_temperature < T)
+        foggy = (y > ys) & (ys < 1) & (pair.freezing_temperature < T)  # ice takes enthalpy away, so such a mixture is not told apart
+        gas, possible = self._bounded(
+            T, jnp.where(foggy, ys, y), name,
+            lambda: (self._specific(name, T, 0.0 * ys), jnp.where(pair.is_frozen(T), self._dry_and_saturated(name, T)[1], jnp.inf)),
+            OVER_DRY,
+        )  # fmt: skip
         saturated = Gas(T, jnp.where(foggy, ys, 0.5), jnp.zeros_like(y))
         liquid = pair.condensate_molar_enthalpy(T, P, False) / pair.gas_molar_mass
         fog = (h - rel.enthalpy(pair, saturated, P)) / jnp.where(foggy, liquid, 1.0)
-        return Gas(T, gas.y, jnp.where(foggy, fog, 0.0)), possible | foggy
+        return Gas(T, gas.y, jnp.where(foggy, fog, 0.0)), possible
 
-    def _with_moisture(self, y: Any, wet: str | None, total: bool) -> tuple[Gas, Any]:
-        pair, P = self.pair, self.P
-        possible = (y >= 0) & (y <= 1)
-        y = jnp.clip(y, 0.0, 1.0)
-        name = next(n for n in self.given if n not in MOISTURE)
-        value = self.given[name]
-        if name == "enthalpy":
-            T = rel.temperature_at_enthalpy(pair, P, y, value)
-            return (rel.settled(pair, T, P, y), possible) if total else self._bounded(T, y)
-        if name == "relative_humidity":
-            T = self._root(lambda T: value * self._ys(T) - y, pair.lowest_temperature, pair.highest_temperature)
-        elif wet is not None:
-            T = self._dry_bulb(value, y, self.lewis[wet])
-        else:
-            T = self._root(
-                lambda T: pair.molar_volume(T, P, y) - value * pair.gas_molar_mass * (1.0 - y),
-                rel.dew_point(pair, P, y) * (1 - SLACK),
-                pair.highest_temperature,
-            )
-        return self._bounded(T, y)
+    # --- moisture and another
 
-    def _dry_bulb(self, Ts: Any, y: Any, lewis: Any) -> Any:
-        frozen = self.pair.is_frozen(Ts)
-        return self._root(
-            lambda T: rel.wet_bulb_balance(self.pair, Ts, self.pair.molar_enthalpy(T, self.P, y), self.P, y, frozen, lewis),
-            Ts * (1 - SLACK),
-            self.pair.highest_temperature,
-        )
+    def _moisture_and_relative_humidity(self, moisture: str, name: str) -> tuple[Gas, Any]:
+        (y, possible), phi = self._fraction(moisture), self.given[name]
+        ys = y / jnp.where(phi > 0, phi, jnp.nan)
+        T = rel.temperature_of_saturation(self.pair, self.P, ys, self.pair.highest_temperature)
+        possible = possible & (y > 0) & (phi * self._ys(self.pair.highest_temperature) >= y)
+        self._tell((y <= 0) & (phi <= 0), name, lambda: (-jnp.inf, jnp.inf), DRY)
+        return Gas(jnp.where(possible, T, jnp.nan), y + 0.0 * T, jnp.zeros_like(T)), possible
 
-    def _with_wet_surface(self, wet: str) -> tuple[Gas, Any]:
-        pair, P, Ts, lewis = self.pair, self.P, self.given[wet], self.lewis[wet]
-        name = next(n for n in self.given if n not in WET)
-        value = self.given[name]
-        driest = self._dry_bulb(Ts, jnp.zeros_like(Ts * P), lewis)
-        driest = jnp.where(jnp.isnan(driest), pair.highest_temperature, driest)
+    def _moisture_and_wet_bulb(self, moisture: str, name: str) -> tuple[Gas, Any]:
+        y, possible = self._fraction(moisture)
+        gas, inside = self._with_surface(y, name)
+        return gas, possible & inside
 
-        def fraction(T: Any) -> Any:
-            return rel.fraction_at_wet_bulb(pair, T, P, Ts, lewis)
+    def _with_surface(self, y: Any, name: str) -> tuple[Gas, Any]:
+        """Gas of a vapor fraction over a wet surface: its enthalpy is known, hence its temperature."""
+        pair, P, Ts = self.pair, self.P, self.given[name]
+        wet = rel.wet_surface(pair, Ts, P, self.lewis[name])
+        above = y <= wet.ys * (1 + ROUNDING)
 
-        if name == "relative_humidity":
-            T = self._root(lambda T: fraction(T) - value * self._ys(T), Ts * (1 - SLACK), driest * (1 + SLACK))
-        elif name == "enthalpy":
-            T = self._root(
-                lambda T: pair.molar_enthalpy(T, P, fraction(T)) - value * pair.gas_molar_mass * (1.0 - fraction(T)),
-                Ts * (1 - SLACK), driest * (1 + SLACK),
-            )  # fmt: skip
-        else:
-            T = self._coldest_root(
-                lambda T: pair.molar_volume(T, P, fraction(T)) - value * pair.gas_molar_mass * (1.0 - fraction(T)),
-                Ts * (1 - SLACK), driest * (1 + SLACK), value,
-            )  # fmt: skip
-        return self._bounded(T, fraction(T))
+        def limits() -> tuple[Any, Any]:
+            return rel.dew_point(pair, P, y), pair.boiling_temperature(P)
 
-    def _without_any(self) -> tuple[Gas, Any]:
-        """Two of relative humidity, enthalpy and volume."""
-        pair, P, Mg = self.pair, self.P, self.pair.gas_molar_mass
-        h, v = self.given.get("enthalpy"), self.given.get("specific_volume")
-        phi = self.given.get("relative_humidity")
-        low, high = pair.lowest_temperature, pair.highest_temperature
-        if phi is None:
-            assert h is not None
-            T = self._coldest_root(
-                lambda T: pair.molar_enthalpy(T, P, self._at_volume(T)) - h * Mg * (1.0 - self._at_volume(T)), *self._volume_bracket(), v
-            )
-            return self._bounded(T, self._at_volume(T))
+        self._tell(~above | (wet.ys >= 1.0), name, limits, FROM_DEW)
+        y = jnp.minimum(y, wet.ys)
+        h = wet.enthalpy(y)
+        T = self._falling(lambda T: h - pair.molar_enthalpy(T, P, y), Ts + 0.0 * y, pair.highest_temperature, start=Ts)
+        return Gas(T, y + 0.0 * T, jnp.zeros_like(T)), above
+
+    def _moisture_and_enthalpy(self, moisture: str, name: str) -> tuple[Gas, Any]:
+        if moisture != "humidity_ratio":
+            return self._moisture_and_specific(moisture, name)
+        y = self.pair.fraction(self.given[moisture])
+        T = rel.temperature_at_enthalpy(self.pair, self.P, y, self.given[name])
+        return rel.settled(self.pair, T, self.P, y), jnp.asarray(True)
+
+    def _moisture_and_specific_volume(self, moisture: str, name: str) -> tuple[Gas, Any]:
+        return self._moisture_and_specific(moisture, name)
+
+    def _moisture_and_specific(self, moisture: str, name: str) -> tuple[Gas, Any]:
+        """Unsaturated gas of a vapor fraction and an enthalpy or volume, which rise with temperature from the dew point on."""
+        y, possible = self._fraction(moisture)
+        dew = self.given[moisture] if moisture == "dew_point_temperature" else rel.dew_point(self.pair, self.P, y)
+        goal, of = self._per_gas(self.given[name], y), self._molar(name)
+        T = self._falling(lambda T: goal - of(T, self.P, y), dew + 0.0 * goal, self.pair.highest_temperature)
+        self._tell(goal < of(dew, self.P, y) * (1 - SLACK), name, lambda: (self._specific(name, dew, y), jnp.inf), OVER_DEW)
+        return Gas(T, y + 0.0 * T, jnp.zeros_like(T)), possible
+
+    # --- wet bulb and another
+
+    def _relative_humidity_and_wet_bulb(self, other: str, name: str) -> tuple[Gas, Any]:
+        pair, P, Ts, phi, lewis = self.pair, self.P, self.given[name], self.given[other], self.lewis[name]
+        frozen = pair.is_frozen(Ts)
 
         def fraction(T: Any) -> Any:
             return jnp.minimum(phi * self._ys(T), 1.0)
 
-        if h is not None:
-            T = self._root(lambda T: pair.molar_enthalpy(T, P, fraction(T)) - h * Mg * (1.0 - fraction(T)), low, high)
-        else:
-            assert v is not None
-            T = self._root(lambda T: pair.molar_volume(T, P, fraction(T)) - v * Mg * (1.0 - fraction(T)), low, high)
-        return self._bounded(T, phi * self._ys(T))
+        def balance(T: Any) -> Any:
+            y = fraction(T)
+            return -rel.wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis)
 
-    def _at_volume(self, T: Any) -> Any:
-        return rel.fraction_at_volume(self.pair, T, self.P, self.given["specific_volume"])
+        boiling = pair.boiling_temperature(P)
+        self._tell(Ts >= boiling, name, lambda: (-jnp.inf, boiling), BELOW_BOILING)
+        T = self._falling(balance, Ts + 0.0 * phi * P, pair.highest_temperature)
+        return Gas(T, fraction(T), jnp.zeros_like(T)), boiling > Ts
 
-    def _volume_bracket(self) -> tuple[Any, Any]:
-        """From saturated gas to dry gas of the given volume."""
-        pair, P, v = self.pair, self.P, self.given["specific_volume"]
-        low, high = pair.lowest_temperature, pair.highest_temperature
-        dry = self._root(lambda T: pair.molar_volume(T, P, jnp.zeros_like(T)) - v * pair.gas_molar_mass, low, high)
-        dry = jnp.where(jnp.isnan(dry), high, dry)
-        saturated = self._root(lambda T: self._at_volume(T) - self._ys(T), low, jnp.minimum(dry, pair.boiling_temperature(P)))
-        return saturated * (1 - SLACK), dry * (1 + SLACK)
+    def _wet_bulb_and_enthalpy(self, wet: str, name: str) -> tuple[Gas, Any]:
+        pair, P, h = self.pair, self.P, self.given[name]
+        surface = rel.wet_surface(pair, self.given[wet], P, self.lewis[wet])
+        y = surface.fraction(h * pair.gas_molar_mass)
+        flags.limit_active(abs(surface.taken) < PARALLEL_SHARE * surface.latent, h, name, NEARLY_PARALLEL)
+        possible = (y >= -ROUNDING) & (y <= surface.ys * (1 + ROUNDING))
+        self._tell(~possible, name, lambda: self._between(surface), ALONG_WET)
+        gas, inside = self._with_surface(jnp.clip(y, 0.0, surface.ys), wet)
+        return gas, possible & inside
 
-    def _root(self, balance: Callable[[Any], Any], lower: Any, upper: Any) -> Any:
-        return find_root(balance, lower, upper, tolerance=1e-13).value
+    def _between(self, surface: rel.WetSurface) -> tuple[Any, Any]:
+        """Least and greatest enthalpy along a line of constant wet bulb."""
+        ends = [surface.enthalpy(y) / (1.0 - y) / self.pair.gas_molar_mass for y in (0.0, surface.ys)]
+        return jnp.minimum(*ends), jnp.maximum(*ends)
 
-    def _coldest_root(self, balance: Callable[[Any], Any], lower: Any, upper: Any, volume: Any) -> Any:
-        """The coldest of the roots of a balance that may turn round: heavy solvents have two states of one wet bulb and volume."""
-        lower, upper = jnp.broadcast_arrays(lower, upper)
+    def _wet_bulb_and_specific_volume(self, wet: str, name: str) -> tuple[Gas, Any]:
+        pair, P, Ts, lewis = self.pair, self.P, self.given[wet], self.lewis[wet]
+        v = self.given[name]
+        driest = self._with_surface(jnp.zeros_like(Ts * P * v), wet)[0].T
+        ends = Ts + 0.0 * P * v, jnp.where(jnp.isnan(driest), pair.highest_temperature, driest)
+
+        def fraction(T: Any) -> Any:
+            return rel.fraction_at_wet_bulb(pair, T, P, Ts, lewis)
+
+        def balance(T: Any) -> Any:
+            y = fraction(T)
+            return self._per_gas(v, y) - pair.molar_volume(T, P, y)
+
+        T = self._coldest(balance, *ends, v)
+
+        def limits() -> tuple[Any, Any]:
+            saturated, dry = (self._specific(name, T, jnp.clip(fraction(T), 0.0, 1 - SLACK)) for T in ends)
+            return jnp.minimum(saturated, dry), jnp.maximum(saturated, dry)
+
+        self._tell(jnp.isnan(T), name, limits, ALONG_WET)
+        y = jnp.clip(fraction(T), 0.0, 1.0)
+        return Gas(T, jnp.minimum(y, self._ys(T)), jnp.zeros_like(T)), jnp.asarray(True)
+
+    # --- two of relative humidity, enthalpy and volume
+
+    def _relative_humidity_and_enthalpy(self, other: str, name: str) -> tuple[Gas, Any]:
+        phi, of = self.given[other], self._molar(name)
+
+        def fraction(T: Any) -> Any:
+            return jnp.minimum(phi * self._ys(T), 1.0)
+
+        def balance(T: Any) -> Any:
+            return self._per_gas(self.given[name], fraction(T)) - of(T, self.P, fraction(T))
+
+        low, high = self.pair.lowest_temperature, self.pair.highest_temperature
+        T = self._falling(balance, low + 0.0 * phi * self.P * self.given[name], high)
+        return Gas(T, fraction(T), jnp.zeros_like(T)), jnp.asarray(True)
+
+    _relative_humidity_and_specific_volume = _relative_humidity_and_enthalpy
+
+    def _enthalpy_and_specific_volume(self, other: str, name: str) -> tuple[Gas, Any]:
+        pair, P = self.pair, self.P
+        h, v = self.given[other], self.given[name]
+        cold, dry = self._saturated_and_dry(v * pair.gas_molar_mass)
+
+        def fraction(T: Any) -> Any:
+            return rel.fraction_at_volume(pair, T, P, v)
+
+        def balance(T: Any) -> Any:
+            y = fraction(T)
+            return pair.molar_enthalpy(T, P, y) - self._per_gas(h, y)
+
+        T = self._coldest(balance, cold + 0.0 * h, dry + 0.0 * h, v)
+
+        def limits() -> tuple[Any, Any]:
+            least, most = (self._specific("enthalpy", T, jnp.clip(fraction(T), 0.0, 1 - SLACK)) for T in (dry, cold))
+            return least, most
+
+        self._tell(jnp.isnan(T), other, limits, ALONG_VOLUME)
+        y = fraction(T)
+        return Gas(T, jnp.clip(y, 0.0, 1.0), jnp.zeros_like(T)), (y >= -ROUNDING) & (y <= self._ys(T) * (1 + ROUNDING))
+
+    def _saturated_and_dry(self, v: Any) -> tuple[Any, Any]:
+        """Temperatures of saturated and of dry gas whose volume per mole of dry gas is given."""
+        pair, P = self.pair, self.P
+        low, high = pair.lowest_temperature + 0.0 * v * P, pair.highest_temperature
+        dry = falling_root(lambda T: v - pair.molar_volume(T, P, jnp.zeros_like(T)), low, high)
+
+        def saturated(T: Any) -> Any:
+            ys = jnp.minimum(self._ys(T), 1.0)
+            return v * (1.0 - ys) - pair.molar_volume(T, P, ys)
+
+        return falling_root(saturated, low, jnp.minimum(dry, pair.boiling_temperature(P)) * (1 + SLACK)), dry
+
+    def _coldest(self, balance: Callable[[Any], Any], lower: Any, upper: Any, volume: Any) -> Any:
+        """The coldest root of a balance that falls, or that may turn round: heavy solvents have two states of one volume."""
+        if not self.pair.heavy_vapor:
+            return self._falling(balance, lower, upper)
+        lower, upper = jnp.broadcast_arrays(lower * (1 - SLACK), upper * (1 + SLACK))
         share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2  # states lie close near saturation
         T = lower + share * (upper - lower)
         sign = jnp.sign(jax.lax.map(balance, T))
@@ -214,4 +351,4 @@ class Solver:
         low, high = (jnp.take_along_axis(ends, first, axis=0)[0] for ends in (T[:-1], T[1:]))
         flags.limit_active(jnp.sum(change, axis=0) > 1, volume, "specific_volume", TWO_STATES)
         any_change = jnp.any(change, axis=0)
-        return self._root(balance, jnp.where(any_change, low, lower), jnp.where(any_change, high, upper))
+        return find_root(balance, jnp.where(any_change, low, lower), jnp.where(any_change, high, upper), tolerance=1e-13).value

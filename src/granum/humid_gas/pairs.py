@@ -28,6 +28,7 @@ class AbstractPair(eqx.Module):
     freezing_temperature: ClassVar[float]
     lowest_temperature: ClassVar[float]
     highest_temperature: ClassVar[float]
+    heavy_vapor: ClassVar[bool] = False  # whether evaporation can shrink the gas, so that two states share a volume
 
     @abstractmethod
     def lewis_factor(self) -> Any:

@@ -13,8 +13,9 @@ import jax.numpy as jnp
 
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.numerics.blocks import blockwise
-from granum.numerics.quick_roots import falling_root
+from granum.numerics.quick_roots import falling_root, newton_root
 
+NEARLY_LINEAR = 8  # Newton steps at most on functions that are nearly linear
 LARGE = 1000  # elements from which a second, ice-free copy of the search is worth compiling
 
 
@@ -79,6 +80,18 @@ def wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     if lewis is None:
         return blockwise(lambda T, P, y: _wet_bulb(pair, T, P, y, None), T, P, y)
     return blockwise(lambda T, P, y, lewis: _wet_bulb(pair, T, P, y, lewis), T, P, y, lewis)
+
+
+def polished_wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
+    """The wet bulb to the last digit, by one more Newton step: beside an enthalpy it fixes the state a million times less sharply."""
+    Ts = wet_bulb(pair, T, P, y, lewis)
+    h = pair.molar_enthalpy(T, P, y)
+    value, slope = jax.jvp(
+        lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, jax.lax.stop_gradient(pair.is_frozen(Ts)), lewis), (Ts,), (jnp.ones_like(Ts),)
+    )
+    slope = jax.lax.stop_gradient(slope)
+    step = jnp.where(slope < 0, value / jnp.where(slope < 0, slope, -1.0), 0.0)
+    return Ts - jnp.where(abs(step) < 1e-9 * Ts, step, 0.0)
 
 
 def wet_bulb_of_total(pair: AbstractPair, T: Any, P: Any, w: Any, lewis: Any) -> Any:
@@ -171,31 +184,53 @@ def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any
     """Vapor fraction of gas at T whose wet bulb is Ts; negative where even dry gas is wetter than that. Nearly linear in y."""
     frozen = pair.is_frozen(Ts)
     ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
-    y = ys
-    for _pass in range(4):
-        value, slope = jax.jvp(
-            lambda y: wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis), (y,), (jnp.ones_like(y),)
-        )
-        y = y - value / jnp.where(slope == 0, 1.0, slope)
-    return y
+
+    def balance(y: Any) -> Any:
+        return wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis)
+
+    return newton_root(balance, ys + 0.0 * T, NEARLY_LINEAR)
+
+
+class WetSurface(NamedTuple):
+    """What a wet surface of known temperature asks of the gas, all molar: h (1 − ys) + (ys − y) taken = (1 − y) saturated."""
+
+    ys: Any
+    saturated: Any
+    taken: Any
+    latent: Any
+
+    def enthalpy(self, y: Any) -> Any:
+        """Molar enthalpy of the gas of vapor fraction y with this wet surface."""
+        dry = 1.0 - self.ys
+        return ((1.0 - y) * self.saturated - (self.ys - y) * self.taken) / jnp.where(dry > 0, dry, jnp.nan)
+
+    def fraction(self, h: Any) -> Any:
+        """Vapor fraction of the gas with this wet surface and an enthalpy of h per mole of dry gas."""
+        excess = (1.0 - self.ys) * h - self.saturated
+        below = excess + self.taken
+        return (excess + self.ys * self.taken) / jnp.where(below == 0, jnp.nan, below)
+
+
+def wet_surface(pair: AbstractPair, Ts: Any, P: Any, lewis: Any) -> WetSurface:
+    """The wet surface at Ts: the enthalpy of its evaporating liquid, raised by the latent heat where the Lewis factor is not one."""
+    frozen = pair.is_frozen(Ts)
+    ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
+    condensate = pair.condensate_molar_enthalpy(Ts, P, frozen)
+    latent = pair.vapor_partial_enthalpy(Ts, P, ys) - condensate
+    taken = condensate if lewis is None else condensate + (1.0 - 1.0 / lewis) * latent
+    return WetSurface(ys, pair.molar_enthalpy(Ts, P, ys), taken, latent)
 
 
 def fraction_at_volume(pair: AbstractPair, T: Any, P: Any, v: Any) -> Any:
     """Vapor fraction of unsaturated gas of a specific volume."""
-    y = jnp.zeros_like(T * P * v)
-    for _pass in range(4):
-        value, slope = jax.jvp(lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),))
-        y = y - value / slope
-    return y
+    first = jnp.zeros_like(T * P * v)
+    return newton_root(lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR)
 
 
 def fraction_at_enthalpy(pair: AbstractPair, T: Any, P: Any, h: Any) -> Any:
     """Vapor fraction of unsaturated gas of an enthalpy per kg dry gas."""
-    y = jnp.zeros_like(T * P * h)
-    for _pass in range(5):
-        value, slope = jax.jvp(lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), (y,), (jnp.ones_like(y),))
-        y = y - value / slope
-    return y
+    first = jnp.zeros_like(T * P * h)
+    return newton_root(lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR)
 
 
 def dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
@@ -204,17 +239,22 @@ def dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
 
 
 def _dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
+    return temperature_of_saturation(pair, P, y, pair.boiling_temperature(P))
+
+
+def temperature_of_saturation(pair: AbstractPair, P: Any, ys: Any, upper: Any) -> Any:
+    """Temperature, at most ``upper``, at which the saturated fraction has a value; the lowest of the pair where it would lie below."""
     Tf = pair.freezing_temperature
-    frozen = jax.lax.stop_gradient(y < pair.saturated_fraction(Tf, P, False))
+    frozen = jax.lax.stop_gradient(ys < pair.saturated_fraction(Tf, P, False))
     lowest = pair.lowest_temperature
     lower = jnp.where(frozen, lowest, Tf)
-    upper = jnp.where(frozen, Tf, pair.boiling_temperature(P)) * (1 + SLACK)
-    y = jnp.maximum(y, pair.saturated_fraction(lowest, P, True) * (1 + SLACK))
+    upper = jnp.where(frozen, Tf, upper) * (1 + SLACK)
+    ys = jnp.maximum(ys, pair.saturated_fraction(lowest, P, True) * (1 + SLACK))
 
-    def balance(x: Any, P: Any, y: Any) -> Any:
-        return jnp.log(pair.saturated_fraction(1.0 / x, P, frozen)) - jnp.log(y)
+    def balance(x: Any, P: Any, ys: Any) -> Any:
+        return jnp.log(pair.saturated_fraction(1.0 / x, P, frozen)) - jnp.log(ys)
 
-    return 1.0 / falling_root(balance, 1.0 / upper, 1.0 / (lower * (1 - SLACK)), P, y)
+    return 1.0 / falling_root(balance, 1.0 / upper, 1.0 / (lower * (1 - SLACK)), P, ys)
 
 
 def temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:

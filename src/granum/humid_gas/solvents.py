@@ -40,12 +40,15 @@ class _Tables:
         if getattr(law.form, "__name__", "") == "correlation_dippr101":
             c = [float(x) for x in np.asarray(law.coefficients)]
             self.dippr = (*c[:4], int(c[4]) if c[4] == int(c[4]) else c[4], float(law.factor))
-        self.slope = float(np.log(float(law.value(self.high)) / float(law.value(0.98 * self.high))) / (1 / 0.98 - 1))
+        top, nearly = float(law.value(self.high)), float(law.value(0.98 * self.high))
+        bottom, above = float(law.value(self.low)), float(law.value(1.02 * self.low))
+        self.top_pressure = top
+        self.slopes = (float(np.log(above / bottom) / (1 - 1 / 1.02)), float(np.log(top / nearly) / (1 / 0.98 - 1)))
         both = gas_vapor(vapor, gas)
         self.lewis_number = float(both.lewis_number(298.15))
 
     def saturation_pressure(self, T: Any) -> Any:
-        """Fitted law inside its range, beyond the critical point its last slope in 1/T."""
+        """Fitted law inside its range, beyond either end straight on in 1/T."""
         inside = jnp.where(self.low > T, self.low, jnp.where(self.high < T, self.high, T))
         if self.dippr is not None:
             a, b, c, d, e, factor = self.dippr
@@ -53,7 +56,7 @@ class _Tables:
             pressure = jnp.exp(logarithm) * factor
         else:
             pressure = self.pressure.value(inside)
-        return pressure * jnp.exp(self.slope * (inside / self.high) * (1.0 - inside / T))
+        return pressure * jnp.exp(jnp.where(self.low > T, self.slopes[0], self.slopes[1]) * (1.0 - inside / T))
 
 
 _drawn: dict[tuple[str, str], _Tables] = {}
@@ -70,6 +73,7 @@ class AbstractFluidPair(AbstractIdealPair):
     """An ideal pair of two fluids of the library. The condensed phase is the liquid at every temperature."""
 
     highest_temperature: ClassVar[float] = 1500.0
+    heavy_vapor: ClassVar[bool] = True
 
     gas: eqx.AbstractVar[str]
     vapor: eqx.AbstractVar[str]
@@ -118,7 +122,8 @@ class AbstractFluidPair(AbstractIdealPair):
         tables = self._of
         goal = jnp.log(jnp.asarray(P, dtype=float))
         root = find_root(lambda x, y: jnp.log(tables.saturation_pressure(1.0 / x)) - y, 1.0 / tables.high, 1.0 / tables.low, goal)
-        return 1.0 / root.value
+        beyond = jnp.maximum(goal - np.log(tables.top_pressure), 0.0) / tables.slopes[1]  # above the critical pressure
+        return jnp.where(beyond > 0, tables.high / jnp.maximum(1.0 - beyond, 0.1), 1.0 / root.value)
 
     def condensate_molar_enthalpy(self, T: Any, P: Any, frozen: Any) -> Any:
         latent = polynomial(self._of.latent, T - ZERO_CELSIUS)

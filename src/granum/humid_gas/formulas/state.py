@@ -26,6 +26,7 @@ from granum.humid_gas.inputs import Solver
 from granum.humid_gas.pairs import AIR_WATER
 
 GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
+NO_DEW_POINT = "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given instead."
 RANGE = {"temperature": (213.15, 623.15), "pressure": (1e3, 1e7)}
 
 
@@ -74,7 +75,10 @@ def state(
     Temperatures below the triple point are over ice. A humidity ratio or enthalpy beyond saturation gives fog: saturated gas with
     ``condensate_ratio`` kg of drops per kg of dry gas, to which humidity ratio and enthalpy then belong too. The dew point of perfectly
     dry gas does not exist; the coldest temperature of the pair is given instead. A relative humidity above the boiling point is
-    vapor pressure over saturation pressure.
+    vapor pressure over saturation pressure. Wet bulb and enthalpy lie nearly on one line and fix the state badly: that is flagged.
+
+    Air and water are ideal gases by default, as in most textbooks. The tables of ASHRAE, and pressures above a few bar, are of the real
+    mixture: ``pair="air_water_real"``. Solvents: ``pair="nitrogen_ethanol"``, ``"air_acetone"`` and others, or ``GasAndVapor`` of any two.
 
     The notes' reading at 22.2 °C dry and 17 °C wet: 60 %, 47.8 kJ/kg, dew point 14 °C.
 
@@ -97,16 +101,17 @@ def state(
 
 def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: dict[str, Any]) -> HumidGasState:
     """All properties of a solved state; the given ones are repeated exactly, an impossible state is NaN and flagged."""
-    possible = possible & jnp.isfinite(gas.T) & jnp.isfinite(gas.y)
-    name, value = list(given.items())[-1]
-    flags.impossible(~possible, value, name)
     T = jnp.where(possible, gas.T, 300.0)
     y = jnp.where(possible, gas.y, 0.0)
     fog = jnp.where(possible, gas.fog, 0.0)
     gas = rel.Gas(T, y, fog)
     ys = rel.saturated_fraction(pair, T, P)
-    adiabatic = rel.wet_bulb(pair, T, P, y, None)
-    wet = adiabatic if lewis is None else rel.wet_bulb(pair, T, P, y, lewis)
+    adiabatic = rel.polished_wet_bulb(pair, T, P, y, None)
+    wet = adiabatic if lewis is None else rel.polished_wet_bulb(pair, T, P, y, lewis)
+    outside = (T < pair.lowest_temperature) | (T > pair.highest_temperature)
+    flags.record(flags.EXTRAPOLATED, possible & outside, T, "temperature", "humid_gas.state", pair.lowest_temperature, pair.highest_temperature)
+    driest = y < rel.saturated_fraction(pair, jnp.asarray(pair.lowest_temperature), P)
+    flags.limit_active(possible & driest, pair.lowest_temperature, "dew_point_temperature", NO_DEW_POINT)
     values = {
         "temperature": T,
         "humidity_ratio": rel.humidity_ratio(pair, gas),
