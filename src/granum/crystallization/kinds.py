@@ -10,6 +10,7 @@ CoolingRate = TemperatureRate
 PositiveTemperatureDifference = Annotated[
     Any, Kind("positive temperature difference", "delta_degC", lower=0.0, open_lower=True, display=("kelvin", "delta_degF"))
 ]
+SolubilitySlope = Annotated[Any, Kind("slope of a solubility", "1/kelvin", lower=0.0, open_lower=True, display=("1/kelvin",))]
 RateCoefficient = Annotated[
     Any, Kind("growth rate at a driving force of one", "m/s", lower=0.0, display=("m/s", "um/s", "um/min", "mm/hour"))
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from typing import Annotated, Any
 
@@ -18,6 +19,7 @@ from granum.core.kinds import (
     Law,
     Length,
     MassRatio,
+    MolarConcentration,
     MolarEnergy,
     MolarMass,
     NucleationRate,
@@ -26,6 +28,7 @@ from granum.core.kinds import (
     Ratio,
     SurfaceTension,
     Temperature,
+    Within,
 )
 from granum.crystallization.formulas.driving_forces import RelativeSupersaturation
 from granum.crystallization.formulas.growth import arrhenius
@@ -77,7 +80,7 @@ def critical_radius(
 
 
 @formula(source="volmer1939; mullin2001, ch. 5", equation=r"\phi = \tfrac14 (2+\cos\theta)(1-\cos\theta)^2")
-def heterogeneous_factor(contact_angle: Angle) -> Fraction:
+def heterogeneous_factor(contact_angle: Annotated[Angle, Within(0.0, math.pi)]) -> Fraction:
     """Share of the homogeneous nucleation barrier that is left on a foreign surface, for a spherical cap.
 
     >>> round(heterogeneous_factor(contact_angle="90 degree"), 3)
@@ -159,9 +162,9 @@ def nucleation_rate_classical(
     typical={"crystal_molar_density": (5000.0, 40000.0), "solubility_molar": (1.0, 1000.0)},
 )
 def interfacial_energy_mersmann(
-    crystal_molar_density: PositiveNumber, solubility_molar: PositiveNumber, temperature: Temperature = 298.15
+    crystal_molar_density: MolarConcentration, solubility_molar: MolarConcentration, temperature: Temperature = 298.15
 ) -> SurfaceTension:
-    """Crystal–solution interfacial energy from the solubility, after Mersmann, both densities in mol/m³.
+    """Crystal–solution interfacial energy from the solubility, after Mersmann.
 
     >>> round(interfacial_energy_mersmann(crystal_molar_density=19000.0, solubility_molar=0.01) * 1e3, 1)
     125.1

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.kinds import MassFraction, MassRatio, Number, OpenFraction, PositiveNumber, Ratio, TemperatureDifference
+from granum.crystallization.kinds import SolubilitySlope
 from granum.numerics.smooth import safe_log
 
 
@@ -57,7 +58,7 @@ def supersaturation_ratio_solution_basis(solute_per_solvent: MassRatio, solubili
 
 @formula(source="mullin2001, ch. 3", equation=r"\Delta T = \frac{C - C^*}{dC^*/dT}")
 def undercooling(
-    solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio, solubility_slope: PositiveNumber
+    solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio, solubility_slope: SolubilitySlope
 ) -> TemperatureDifference:
     """Undercooling that belongs to an absolute supersaturation, by the slope of the solubility in 1/K.
 

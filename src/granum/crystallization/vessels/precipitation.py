@@ -13,6 +13,7 @@ from granum.core.kinds import (
     Law,
     Length,
     MassRatio,
+    Molality,
     MolarMass,
     PositiveNumber,
     Ratio,
@@ -104,8 +105,8 @@ class PrecipitationCourse(NamedTuple):
 
     time: Annotated[Time, Series("points")]
     supersaturation_ratio: Annotated[Ratio, Series("points")]
-    cation_molality: Annotated[Ratio, Series("points")]
-    anion_molality: Annotated[Ratio, Series("points")]
+    cation_molality: Annotated[Molality, Series("points")]
+    anion_molality: Annotated[Molality, Series("points")]
     crystals_per_solvent: Annotated[MassRatio, Series("points")]
     crystals_number: Annotated[Ratio, Series("points")]
     mean_diameter: Length
@@ -115,8 +116,8 @@ class PrecipitationCourse(NamedTuple):
 
 @procedure(source="mullin2001, ch. 8; davies1962, ch. 3", title="Precipitation by adding a reagent", typical={"duration": (600.0, 3600.0)})
 def precipitation_batch(
-    cation_molality: PositiveNumber,
-    anion_molality: PositiveNumber,
+    cation_molality: Molality,
+    anion_molality: Molality,
     reagent_program: Annotated[Any, Law("program")],
     growth: Annotated[Any, Law("growth_rate")],
     nucleation: Annotated[Any, Law("nucleation_rate")],

@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import ZERO_CELSIUS
-from granum.core.kinds import Fraction, Number, PositiveNumber, Ratio, Series, Temperature
+from granum.core.kinds import Fraction, Molality, Number, PositiveNumber, Series, Temperature
 
 ROOM = 298.15
 
@@ -18,7 +18,7 @@ ROOM = 298.15
     equation=r"\log_{10}\gamma = -A z^2\left(\frac{\sqrt I}{1+\sqrt I} - 0.3\,I\right),\quad A = 1.8246\times10^{6}\,(\epsilon T)^{-3/2}",
     fitted={"ionic_strength": (0.0, 0.5), "temperature": (273.15, 373.15)},
 )
-def activity_coefficient_davies(charge_number: Number, ionic_strength: Ratio, temperature: Temperature = ROOM) -> PositiveNumber:
+def activity_coefficient_davies(charge_number: Number, ionic_strength: Molality, temperature: Temperature = ROOM) -> PositiveNumber:
     """Activity coefficient of an ion in water from its charge and the ionic strength (mol/kg), with water's dielectric constant.
 
     Within a few percent up to 0.1 mol/kg, a first estimate up to 0.5.
@@ -48,7 +48,7 @@ class SaltSaturation(NamedTuple):
     fitted={"ionic_strength": (0.0, 0.5)},
     title="Saturation of a sparingly soluble salt",
 )
-def salt_saturation(cation_molality: PositiveNumber, anion_molality: PositiveNumber, ionic_strength: Ratio,
+def salt_saturation(cation_molality: Molality, anion_molality: Molality, ionic_strength: Molality,
                     salt: str = "barium sulfate") -> SaltSaturation:  # fmt: skip
     """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies activity coefficients.
 
@@ -68,7 +68,7 @@ def salt_saturation(cation_molality: PositiveNumber, anion_molality: PositiveNum
 @formula(source="haynes2014, sec. 5", equation=r"m = \left(\frac{K_{sp}}{p^p q^q}\right)^{1/(p+q)}", title="Molality of a salt saturated in pure water",
          typical={"solubility_product": (1e-12, 1e-4)}, output="salt_molality")  # fmt: skip
 def salt_molality_from_product(solubility_product: PositiveNumber, cation_count: PositiveNumber = 1.0,
-                               anion_count: PositiveNumber = 1.0) -> PositiveNumber:  # fmt: skip
+                               anion_count: PositiveNumber = 1.0) -> Molality:  # fmt: skip
     """Molality of a salt in the pure water it saturates, ideal solution, no hydrolysis: mol of formula units per kg of water.
 
     >>> round(salt_molality_from_product(1.70e-5, 1.0, 2.0), 4)
