@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import jax
 import numpy as np
 import pytest
 
 import granum.humid_gas.relations as rel
 from granum.humid_gas.formulas.state import state
-from granum.humid_gas.inputs import Solver
 from granum.humid_gas.real_air import AIR_WATER_REAL as REAL
 
 # HAPropsSI('W' / 'H' / 'V', 'T', t + 273.15, 'P', P, 'R', 1): pressure, °C, kg/kg, J/kg, from CoolProp 8.0.0
@@ -42,23 +40,3 @@ def test_differs_little_from_ideal_near_one_bar() -> None:
     real, ideal = state(**given, pair=REAL), state(**given)
     for a, b in zip(real, ideal, strict=True):
         assert a == pytest.approx(b, rel=6e-3)
-
-
-@pytest.mark.parametrize(
-    "names",
-    [("temperature", "wet_bulb_temperature"), ("temperature", "enthalpy"), ("humidity_ratio", "enthalpy")],
-)  # fmt: skip
-def test_round_trip(names: tuple[str, str]) -> None:
-    rng = np.random.default_rng(4)
-    T, P = rng.uniform(230.0, 590.0, 60), 10 ** rng.uniform(4.0, 6.3, 60)
-    y = np.minimum(np.asarray(rel.saturated_fraction(REAL, T, P)), 0.9) * rng.uniform(0.02, 0.98, 60)
-    gas = rel.Gas(T, y, np.zeros_like(T))
-    full = {
-        "temperature": T, "humidity_ratio": REAL.humidity_ratio(y), "vapor_pressure": y * P, "enthalpy": rel.enthalpy(REAL, gas, P),
-        "relative_humidity": y / rel.saturated_fraction(REAL, T, P), "specific_volume": rel.specific_volume(REAL, gas, P),
-        "wet_bulb_temperature": rel.wet_bulb(REAL, T, P, y, None),
-    }  # fmt: skip
-    found, possible = jax.jit(lambda given, P: Solver(REAL, P, None, given).solve())({n: full[n] for n in names}, P)
-    assert np.all(possible)
-    np.testing.assert_allclose(found.T, T, rtol=1e-9)
-    np.testing.assert_allclose(found.y, y, rtol=1e-8, atol=1e-9)
