@@ -68,6 +68,27 @@ def test_published_seeded_batch_agrees_with_the_moment_solution():
     assert float(fourth / packets.moments()[3]) == pytest.approx(exact[4] / exact[3], rel=1e-4)  # L43
 
 
+# Crystallizer_Simulator_Batch of mingchunNTU on GitHub (commit 735fcfc), examples/KNO3: moments by SciPy's odeint, cubic cooling given each minute and
+# straight between, 1 mg/L of seed. Minute: concentration g/L, crystals per um3, third moment (seed plus nuclei).
+OTHER_PROGRAM = {
+    70: (451.000685785, 4.71081156e-13 + 1.2005812912729573e-9, 8.135469267098824e-4 + 0.01908726548575129),
+    75: (441.06714452488444, 4.71081156e-13 + 1.4002963290693877e-9, 8.703376416682174e-4 + 0.023738314230783472),
+    80: (429.9160604891147, 4.71081156e-13 + 1.6225426615783383e-9, 9.255361397605218e-4 + 0.028967989683292943),
+}
+
+
+def test_published_batch_agrees_with_another_program():
+    minutes = jnp.arange(81) * 60.0
+    cooling = 305.15 - 4.0 * (minutes / DURATION) ** 3
+    program = Programmed(lambda t: jnp.interp(t, minutes, cooling))
+    found = jax.jit(lambda: march(model(), program, seeds(0.001), START, 1.0, jnp.linspace(0.0, DURATION, 801)))()
+    for minute, (concentration, number, third) in OTHER_PROGRAM.items():
+        m = found.moments[10 * minute]
+        assert float(found.solute_per_solvent[10 * minute]) * 1e3 == pytest.approx(concentration, rel=1e-4)
+        assert float(m[0]) * 1e-15 == pytest.approx(number, rel=1e-4)
+        assert float(m[3]) * 1e3 == pytest.approx(third, rel=1e-4)
+
+
 def test_second_order_and_conservation():
     exact, _ratio = by_scipy()
     errors = [abs(float(published(steps=n).moments[-1, 0]) / exact[0] - 1) for n in (100, 200, 400)]

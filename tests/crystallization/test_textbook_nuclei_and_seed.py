@@ -8,9 +8,10 @@ import pytest
 from granum.core.errors import ApplicabilityError
 from granum.crystallization.formulas.balances import crystallizer_balance_library
 from granum.crystallization.formulas.batch_balances import crystallizer_batch_balance
-from granum.crystallization.formulas.classified import production_classifying
+from granum.crystallization.formulas.classified import population_density_classified, production_classifying
 from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt
-from granum.crystallization.formulas.nucleation import critical_radius, nucleation_barrier
+from granum.crystallization.formulas.msmpr import nucleation_rate_msmpr, nuclei_population_density, population_density
+from granum.crystallization.formulas.nucleation import critical_radius, nucleation_barrier, nucleation_rate_secondary
 from granum.crystallization.formulas.seeding import grown_seed, product_size_from_seed
 
 
@@ -74,3 +75,15 @@ def test_charges_of_textbooks():
     assert chloride.crystal_mass == pytest.approx(534, rel=2e-3)
     epsom = crystallizer_batch_balance("1000 kg", 0.30, 0.245 / 0.755, 120.37 / 246.48, "35 kg")
     assert epsom.crystal_mass == pytest.approx(261, rel=2e-3)
+
+
+def test_ammonium_alum_of_another_program():
+    """Crystallizer_Simulator_RZ of mingchunNTU on GitHub (commit 014722a), examples/ammonium alum: 200 kg/m³, 15 min and B = 9e16 G² M (g/m³)
+    give G = 3.8944423 µm/min and B = 4.55000425e-9 per µm³ and minute."""
+    growth, births = "3.8944423 um/min", 4.55000425e-9 * 1e18 / 60
+    nuclei = nuclei_population_density("200 kg/m3", growth, "15 min", 2450.0, 1.0)
+    assert nucleation_rate_msmpr(nuclei, growth) == pytest.approx(births, rel=1e-6)
+    law = nucleation_rate_secondary(1.0, 9e16 * (3.8944423e-6 / 60) ** 2 * 1e3, 1.0, magma_density=200.0)
+    assert law == pytest.approx(births, rel=1e-6)
+    found = population_density_classified("100 um", nuclei, growth, "15 min", 1.0, "10 um", 1.0, "100 um")
+    assert found == pytest.approx(float(population_density("100 um", nuclei, growth, "15 min")))
