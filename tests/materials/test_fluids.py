@@ -21,6 +21,9 @@ TOLERANCE = {"density": 0.006, "viscosity": 0.035, "heat": 0.025, "surface": 0.0
 LOOSER = {("acetonitrile", "viscosity"): 0.08, ("acetonitrile", "conductivity"): 0.09, ("acetonitrile", "surface"): 0.08,
           ("acetic acid", "viscosity"): 0.06, ("ethylene glycol", "viscosity"): 0.05, ("ethylene glycol", "heat"): 0.06}  # fmt: skip
 
+# Perry's law for dimethylformamide, the only one at hand, boils one kelvin early; for tetrahydrofuran the handbook prints a round 65
+BOILING = {"N,N-dimethylformamide": 1.3, "tetrahydrofuran": 1.0}
+
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda r: r["fluid"])
 def test_liquid_against_haynes(row: dict[str, str]) -> None:
@@ -42,7 +45,22 @@ def test_liquid_against_haynes(row: dict[str, str]) -> None:
             sort = column.split("_")[0]
             tolerance = LOOSER.get((row["fluid"], sort), TOLERANCE[sort])
             assert value() == pytest.approx(float(row[column]), rel=tolerance), column
-    assert boiling - 273.15 == pytest.approx(float(row["boiling_point [degC]"]), abs=1.3)
+    assert boiling - 273.15 == pytest.approx(float(row["boiling_point [degC]"]), abs=BOILING.get(row["fluid"], 0.35))
+
+
+def test_vapor_pressures_away_from_boiling() -> None:
+    """Ambrose and Sprake (1970) as in the NIST WebBook, log10(p/bar) = A − B/(T + C); McGarry's Wagner equations (1983) at 25 and 50 °C."""
+    T = np.array([330.0, 345.0, 362.0])
+    np.testing.assert_allclose(m.fluid("2-propanol").vapor_pressure(T), 1e5 * 10 ** (4.861 - 1357.427 / (T - 75.814)), rtol=3e-3)
+    wagner = {
+        "2-propanol": (-8.16927, -0.0943213, -8.1004, 7.85, 508.3, 4.74244e6),
+        "methyl ethyl ketone": (-7.71476, 1.71061, -3.6877, -0.751692, 536.78, 4.22177e6),
+    }
+    for name, (a, b, c, d, critical, pressure) in wagner.items():
+        for T in (298.15, 323.15):
+            t = 1.0 - T / critical
+            printed = pressure * np.exp((a * t + b * t**1.5 + c * t**3 + d * t**6) / (1 - t))
+            assert float(m.fluid(name).vapor_pressure(T)) == pytest.approx(printed, rel=0.01), name
 
 
 def test_vapor_properties_against_printed_values() -> None:

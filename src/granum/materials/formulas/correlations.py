@@ -124,6 +124,22 @@ def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -
     return A**2 / t + B - 2 * A * C * t - A * D * t**2 - C**2 * t**3 / 3 - C * D * t**4 / 2 - D**2 * t**5 / 5
 
 
+@formula(source="vdi2010, sec. D3.1, table 3", equation=r"y = c_6\exp\frac{c_1\tau + c_2\tau^{1.5} + c_3\tau^{2.5} + c_4\tau^5}{1-\tau},\quad \tau = 1 - T/c_5",
+         title="Wagner form")  # fmt: skip
+def correlation_wagner(temperature: Temperature, coefficients: Coefficients) -> Number:
+    """Wagner's form for the vapor pressure up to the critical point c5, c6.
+
+    2-Propanol boils at 82.3 °C.
+
+    >>> isopropanol = [-8.44737, 1.17402, -6.97876, 0.69248, 508.25, 4.762e6]
+    >>> round(correlation_wagner(temperature="82.3 degC", coefficients=isopropanol) / 101325, 2)
+    1.0
+    """
+    A, B, C, D, Tc, pc = (jnp.asarray(coefficients)[i] for i in range(6))
+    t = jnp.clip(1.0 - temperature / Tc, 1e-12, 1.0 - 1e-3)
+    return pc * jnp.exp((A * t + B * t**1.5 + C * t**2.5 + D * t**5) / (1.0 - t))
+
+
 @formula(source="poling2001, app. A", equation=r"y = 10^{\,c_1 - c_2/(T + c_3)}", title="Antoine form")
 def correlation_antoine(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Antoine's vapor pressure form, decimal logarithm and kelvin.
