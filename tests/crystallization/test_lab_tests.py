@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -14,10 +16,12 @@ from granum.crystallization.lab_tests.batch_kinetics import BatchKinetics
 from granum.crystallization.lab_tests.induction_time import InductionTime
 from granum.crystallization.lab_tests.metastable_zone import MetastableZone, MetastableZoneSangwal
 from granum.crystallization.lab_tests.msmpr_analysis import MsmprAnalysis, population_densities
-from granum.crystallization.lab_tests.solubility import SolubilityApelblat, SolubilityPolynomial, SolubilityVantHoff
+from granum.crystallization.lab_tests.solubility import SolubilityAntisolvent, SolubilityApelblat, SolubilityPolynomial, SolubilityVantHoff
 from granum.crystallization.population.lagrangian import SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 # Urea of Bennett and Van Buren as worked in Perry's Handbook: Tyler meshes 14, 20, 28, 35, 48, 65, 100.
 EDGES = np.array([1.168, 0.833, 0.589, 0.417, 0.295, 0.208, 0.147])[::-1] * 1e-3
@@ -77,6 +81,31 @@ def test_solubility_fits_of_potassium_nitrate():
     heat = SolubilityVantHoff(T, c, 0.101103).fit()["enthalpy_of_dissolution"]
     assert 24e3 < heat.value < 33e3
     assert SolubilityApelblat(T, c, 0.101103).fit()["enthalpy_of_dissolution"].value == pytest.approx(heat.value, rel=0.05)
+
+
+def test_antisolvent_power_of_ethanol_on_sodium_formate():
+    """Heubel and Vandorpe (1962): the fitted law gives the printed mass percentages back; by hand the first and last points bound the mean power."""
+    test = SolubilityAntisolvent.read(EXAMPLES / "antisolvent" / "sodium_formate_heubel1962.csv")
+    law = test.law()
+    np.testing.assert_allclose(law(288.2, np.asarray(test.antisolvent_fraction)), np.asarray(test.solute_per_solvent), rtol=0.025)
+    assert float(law(288.2)) == pytest.approx(42.1 / 57.9, rel=0.02)
+    mean_power = np.log((42.1 / 57.9) / (22.8 / (33.8 + 43.4))) / (33.8 / (33.8 + 43.4))
+    assert law.antisolvent_power < mean_power < law.antisolvent_power + 2 * 0.4378 * law.antisolvent_curvature
+    assert isinstance(test.chart().data, tuple)
+
+
+def test_kubota_counts_what_was_born_since_saturation():
+    """Births of k ΔT^n per volume while cooling at R reach the detected number at the width of Nývlt's line: integrated numerically."""
+    k, n, number = 2e3, 2.5, 1e8
+    rates = np.array([5.0, 10.0, 20.0, 40.0]) / 3600
+    widths = []
+    for R in rates:
+        t = np.linspace(0.0, 60.0 / R, 200001)
+        born = np.concatenate([[0.0], np.cumsum(0.5 * k * ((R * t[1:]) ** n + (R * t[:-1]) ** n) * np.diff(t))])
+        widths.append(R * np.interp(number, born, t))
+    found = MetastableZone(rates, widths, detected_number_density=number).fit()
+    assert found["kubota_order"].value == pytest.approx(n, rel=1e-4)
+    assert found["kubota_coefficient"].value == pytest.approx(k, rel=2e-3)
 
 
 def test_batch_kinetics_finds_the_parameters_that_made_the_data():

@@ -93,6 +93,10 @@ def test_organic_solutes_against_other_measurements() -> None:
         x = np.array(list(rows.values()))
         found = s.solubility(np.array(list(rows)) + 273.15)
         np.testing.assert_allclose(found, x * s.molar_mass / ((1 - x) * 0.0180153), rtol=0.1, err_msg=name)
+    ethanol = m.solute("paracetamol in ethanol")  # Jiménez and Martínez (2006), read in BigSolDB 2.0
+    x = np.array([0.05045, 0.0546, 0.062, 0.067, 0.0705])
+    found = ethanol.solubility(np.array([20.0, 25, 30, 35, 40]) + 273.15)
+    np.testing.assert_allclose(found, x * 0.151163 / ((1 - x) * 0.0460684), rtol=0.1)
     paracetamol = m.solute("paracetamol")
     assert float(paracetamol.solubility("25 degC")) == pytest.approx(1.72e-3 / (1 - 1.72e-3) * 151.16 / 18.015, rel=0.05)
     assert float(m.solute("urea").solubility("20 degC")) == pytest.approx(1.08, rel=0.01)  # 108 g in 100 mL of water, data sheets

@@ -13,7 +13,7 @@ import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, PositiveNumber, Series, Temperature
+from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
 from granum.materials.library import solute as material_solute
 
 
@@ -88,17 +88,19 @@ class VantHoffSolubility(SolubilityLaw):
 
 
 @law("solubility_law", name="antisolvent_solubility", source="yalkowsky1981", title="Solubility in a mixture with an antisolvent (log-linear)",
-     equation=r"\ln C^* = \ln C^*_0(T) - \kappa\,w")  # fmt: skip
+     equation=r"\ln C^* = \ln C^*_0(T) - \kappa\,w - \kappa_2\,w^2")  # fmt: skip
 class AntisolventSolubility(SolubilityLaw):
     """Solubility that falls exponentially with the mass fraction of antisolvent in the solvent mixture, after Yalkowsky's log-linear rule.
 
-    Both solubilities are per kg of the solvent mixture. Used alone, without an antisolvent fraction, it is the law of the pure solvent.
+    The curvature takes up what departs from the rule; with a negative power it describes a mixture that dissolves more than either solvent. Both solubilities are per kg of the solvent mixture. Used alone, without an antisolvent fraction, it is the law of the pure solvent.
     """
 
     pure_solubility: Annotated[Any, Law("solubility_law")]
-    antisolvent_power: PositiveNumber
+    antisolvent_power: Number
+    antisolvent_curvature: Number = 0.0
 
     takes_antisolvent: ClassVar[bool] = True
 
     def __call__(self, temperature: Temperature, antisolvent_fraction: MassFraction = 0.0) -> MassRatio:
-        return self.pure_solubility(temperature) * jnp.exp(-self.antisolvent_power * antisolvent_fraction)
+        w = antisolvent_fraction
+        return self.pure_solubility(temperature) * jnp.exp(-w * (self.antisolvent_power + self.antisolvent_curvature * w))

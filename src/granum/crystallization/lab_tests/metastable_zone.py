@@ -45,8 +45,8 @@ def undercooling_metastable(cooling_rate: CoolingRate, nyvlt_constant: CoolingRa
 class MetastableZone(LabTest):
     """Apparent nucleation order and the rate for one kelvin of zone width, from the first crystals at several cooling rates.
 
-    Kubota reads the same line differently: the crystals counted are all those born since saturation, so that his nucleation order is
-    one less, and with the number density that the detector sees his rate constant follows, in 1/(m³ s K^n).
+    Kubota reads the same line differently: the crystals counted are all those born since saturation, N = ∫ k ΔT^n dt = k ΔT^(n+1) / ((n+1) R), so that his
+    nucleation order is one less, n = m - 1, and with the number density N that the detector sees his rate constant is k = N m K, in 1/(m³ s K^n).
     """
 
     cooling_rate: Annotated[CoolingRate, Series("points")]

@@ -1,4 +1,4 @@
-"""Solubility against temperature: Apelblat, van 't Hoff and polynomial fits, ready to use as laws."""
+"""Solubility against temperature or antisolvent: Apelblat, van 't Hoff, polynomial and log-linear fits, ready to use as laws."""
 
 from __future__ import annotations
 
@@ -10,8 +10,14 @@ import numpy as np
 
 from granum.core import lab_test
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.kinds import MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
-from granum.crystallization.formulas.solubility_laws import ApelblatSolubility, PolynomialSolubility, VantHoffSolubility
+from granum.core.i18n import _
+from granum.core.kinds import MassFraction, MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.crystallization.formulas.solubility_laws import (
+    AntisolventSolubility,
+    ApelblatSolubility,
+    PolynomialSolubility,
+    VantHoffSolubility,
+)
 from granum.estimation import Fit, LabTest
 
 
@@ -31,7 +37,6 @@ class _Solubility(LabTest):
     def chart(self) -> Any:
         """Solubility against temperature with the fitted line."""
         from granum.core.charts import add_line, add_points, axis_title, figure
-        from granum.core.i18n import _
 
         T = np.asarray(self.temperature)
         grid = np.linspace(T.min(), T.max(), 100)
@@ -122,3 +127,47 @@ class SolubilityPolynomial(_Solubility):
 
     def law(self) -> PolynomialSolubility:
         return PolynomialSolubility(list(self.fit().values.values()))
+
+
+@lab_test("solubility_antisolvent", source="yalkowsky1981", title="Solubility fitted against the antisolvent",
+          equation=r"\ln C^* = \ln C^*_0 - \kappa\,w - \kappa_2\,w^2")  # fmt: skip
+class SolubilityAntisolvent(LabTest):
+    """Power and curvature of an antisolvent from the solubility in mixtures of two solvents at one temperature, per mass of the mixture."""
+
+    antisolvent_fraction: Annotated[MassFraction, Series("points")]
+    solute_per_solvent: Annotated[MassRatio, Series("points")]
+
+    least_points: ClassVar[int] = 4
+    estimates: ClassVar = {"solubility_per_solvent": MassRatio, "antisolvent_power": Number, "antisolvent_curvature": Number}
+    axes: ClassVar = {"antisolvent_fraction": MassFraction, "solute_per_solvent": MassRatio}
+
+    def fit(self) -> Fit:
+        """Solubility in the pure solvent, power and curvature with 95 % intervals, fitted on the logarithm."""
+        w, y = np.asarray(self.antisolvent_fraction), np.log(np.asarray(self.solute_per_solvent))
+        c, b, a = np.polyfit(w, y, 2)
+        return self.fitted(
+            lambda p, w: jnp.log(p["solubility_per_solvent"]) - w * (p["antisolvent_power"] + w * p["antisolvent_curvature"]),
+            {"solubility_per_solvent": float(np.exp(a)), "antisolvent_power": float(-b), "antisolvent_curvature": float(-c)}, w, y,
+            bounds={"solubility_per_solvent": (0.0, np.inf)},
+        )  # fmt: skip
+
+    def law(self) -> AntisolventSolubility:
+        """The fitted solubility as a law for simulations, at the temperature of the test."""
+        pure, power, curvature = self.fit().values.values()
+        return AntisolventSolubility(PolynomialSolubility([pure]), power, curvature)
+
+    def chart(self) -> Any:
+        """Solubility against the mass fraction of antisolvent, with the fitted curve."""
+        from granum.core.charts import add_line, add_points, axis_title, figure
+
+        w, c = np.asarray(self.antisolvent_fraction), np.asarray(self.solute_per_solvent)
+        grid = np.linspace(w.min(), w.max(), 100)
+        drawing = figure(
+            axis_title("antisolvent_fraction", "percent"),
+            axis_title("solute_per_solvent", "kg/kg"),
+            title=type(self).card.title,
+            y_log=True,
+        )
+        add_line(drawing, 100 * grid, np.exp(self.fit().predict(grid).value), _("model"))
+        add_points(drawing, 100 * w, c, _("data"))
+        return drawing
