@@ -1,10 +1,11 @@
 """Two dynamic flowsheets of the simulator Dyssol 1.1.1 (TUHH, BSD-3), solved here and, where the program is installed, there.
 
-    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/ --materials FILE] [--span 60]
+    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/ --materials FILE] [--limit 900]
 
-The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol. The sieve–mill process (two screens and two
-population-balance mills in nested recycles, 200 size × 50 attribute classes, 6 h) is solved as a flowsheet in time and checked against SciPy
-on the same equations. The agglomeration process is not solved yet.
+The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol; Debian ships the program as ``dyssol``. The first
+is two screens and two population-balance mills in nested recycles, 200 size × 50 attribute classes, 6 h. The second is an agglomerator,
+two screens, a mill and a recycle, 320 size classes, 10 h. Both are solved as flowsheets in time, checked against SciPy on the same
+equations, and set against what the program itself makes of them. Times are processor time, since the machine may be shared, and wall time.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import re
+import resource
 import subprocess
 import tempfile
 import time
@@ -28,11 +30,16 @@ from granum.comminution.equipment.mills import BallMill
 from granum.comminution.equipment.screens import Screen
 from granum.comminution.population import rate_matrix
 from granum.flowsheet import Flowsheet
+from granum.flowsheet.axes import gather_axes
 from granum.flowsheet.dynamics import Profile, march
-from granum.particles.partition import MolerusHoffmannPartition
-from granum.streams.equipment.basics import Mixer
+from granum.particles.partition import MolerusHoffmannPartition, RosinRammlerPartition
+from granum.streams.equipment.agglomerator import Agglomerator
+from granum.streams.equipment.basics import Mixer, Single
 from granum.streams.mixture import Mixture, Species
-from granum.streams.stream import empty
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Unit
+
+UREA_DENSITY = 1320.0  # kg/m³, of the data base that comes with the program
 
 
 def script(path: Path) -> dict[tuple[str, ...], list[float]]:
@@ -86,6 +93,70 @@ def sieve_mill(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tup
     return Flowsheet(units, feeds, links), tuple(profiles), held
 
 
+class OnePassCrusher(Unit):
+    """The program's cone crusher: King's selection, Vogel's fragments, each particle broken once; the mass it loses is made up in proportion."""
+
+    smallest: float = eqx.field(static=True)
+    largest: float = eqx.field(static=True)
+    power: float = eqx.field(static=True)
+    fragment_size: float = eqx.field(static=True)
+    exponent: float = eqx.field(static=True)
+
+    def matrix(self, edges: np.ndarray) -> np.ndarray:
+        """Product by class of each class of the feed, before the loss is made up."""
+        d = 0.5 * (edges[1:] + edges[:-1])
+        chance = 1.0 - np.clip((self.largest - d) / (self.largest - self.smallest), 0.0, 1.0) ** self.power
+        finer = np.tril((d[:, None] / d) ** self.exponent * 0.5 * (1.0 + np.tanh((d - self.fragment_size) / self.fragment_size)))
+        finer = finer / finer.sum(axis=1, keepdims=True)
+        return ((finer - np.diag(np.diag(finer))) * chance[:, None] + np.diag(1.0 - chance)).T
+
+    def __call__(self, feed: Stream) -> Single:
+        out = feed.regraded(jnp.asarray(self.matrix(feed.mixture.edges)))
+        return Single(out.replace(solid=out.solid * (feed.solid_flow / jnp.maximum(out.solid_flow, 1e-300))))
+
+    def results(self, inlets: object, outlets: object) -> object:
+        return outlets
+
+
+class PairKernel(eqx.Module):
+    """Brownian kernel with a coefficient of one's own."""
+
+    coefficient: float
+
+    def __call__(self, size: object, other: object) -> object:
+        return self.coefficient * (size + other) ** 2 / (size * other)
+
+
+def agglomeration(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tuple[Profile, ...], dict[str, jax.Array]]:
+    """The flowsheet and what the agglomerator holds at the start."""
+    edges = np.array(data["DISTRIBUTION_GRID", "GLOBAL", "SIZE", "NUMERIC", "MANUAL", "DIAMETER"][1:])
+    urea = Species("urea", (("urea", 1.0),), (UREA_DENSITY,), (1500.0,), 0.0, 0.06)
+    mixture = Mixture((urea,), (), (), tuple(edges))
+
+    def by_size(unit: str, holdup: str) -> np.ndarray:
+        size = np.array(data["HOLDUP_DISTRIBUTION", unit, holdup, "SIZE", "Urea", "MASS_FRACTION", "DIAMETER", "MANUAL"][1 : len(edges)])
+        return (size / size.sum())[None]
+
+    def screen(unit: str) -> Screen:
+        cut, sharpness = (data["UNIT_PARAMETER", unit, k][1] for k in ("Xcut", "Alpha"))
+        return Screen(RosinRammlerPartition(cut, sharpness))
+
+    king = {k: data["UNIT_PARAMETER", "Mill", k][0] for k in ("CSS", "alpha1", "alpha2", "n", "d'", "q")}
+    mass = data["HOLDUP_OVERALL", "Agglomerator", "Holdup"][1]
+    units = {
+        "mixer_feed": Mixer(), "agglomerator": Agglomerator(PairKernel(data["UNIT_PARAMETER", "Agglomerator", "Beta0"][0]), mass, 1.0),
+        "screen1": screen("Screen1"), "screen2": screen("Screen2"),
+        "mill": OnePassCrusher(king["CSS"] * king["alpha1"], king["CSS"] * king["alpha2"], king["n"], king["d'"], king["q"]), "mixer_back": Mixer(),
+    }  # fmt: skip
+    feed = empty(mixture, 300.0, 1e5).replace(
+        solid=jnp.asarray(by_size("Feed", "InputMaterial")) * data["HOLDUP_OVERALL", "Feed", "InputMaterial"][1]
+    )
+    links = {"Feed": ("", "mixer_feed.fresh"), "back": ("mixer_back", "mixer_feed.back"), "mixed": ("mixer_feed", "agglomerator"),
+             "grown": ("agglomerator", "screen1"), "coarse1": ("screen1.oversize", "mill"), "fine1": ("screen1.undersize", "screen2"),
+             "product": ("screen2.oversize", ""), "fine2": ("screen2.undersize", "mixer_back.fine"), "milled": ("mill", "mixer_back.milled")}  # fmt: skip
+    return Flowsheet(units, {"Feed": feed}, links), (), {"agglomerator": jnp.asarray(by_size("Agglomerator", "Holdup")) * mass}
+
+
 def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax.Array], times: np.ndarray) -> np.ndarray:
     """Product by size from SciPy's BDF: the attribute rides along, so that the sums over it follow the same equations."""
     edges = np.asarray(next(iter(line.feeds.values())).mixture.edges)
@@ -135,27 +206,142 @@ def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax
     return np.stack([flows(t, *y.reshape(2, n))[2] for t, y in zip(times, np.concatenate(states), strict=True)])
 
 
-def other(program: Path, models: str, materials: str, path: Path, span: float, limit: float) -> tuple[float, float]:
-    """Plant time that Dyssol got through, and the time it took."""
+def agglomeration_by_scipy(line: Flowsheet, held: dict[str, jax.Array], times: np.ndarray, theirs: bool = False) -> np.ndarray:
+    """Product by size from SciPy's LSODA, births by NumPy's convolution.
+
+    ``theirs``: numbers from the volume at the mean diameter of a class, newborn shared out and screens read as in the program.
+    """
+    bed, feed = line.units["agglomerator"], next(iter(line.feeds.values()))
+    edges = feed.mixture.edges
+    n, middle = len(edges) - 1, 0.5 * (edges[1:] + edges[:-1])
+    even = (np.arange(n) + 0.5) * np.pi / 6.0 * edges[-1] ** 3 / n
+    size, fresh, mass = np.cbrt(even), np.asarray(feed.solid_by_size), bed.holdup_mass
+    volume = np.pi / 6.0 * middle**3 if theirs else even
+    part = (1.0 / 6.0 if theirs else 0.0) / (2.0 * np.arange(n + 1) + 1.0)
+    stays, moves = 0.5 + part[:n], 0.5 - part[1:]
+    curves = [line.units[u].separation for u in ("screen1", "screen2")]
+    screens = [np.asarray(c(middle) if theirs else c.over(edges[:-1], edges[1:])) for c in curves]
+    crusher = line.units["mill"].matrix(edges)
+
+    def back(out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        coarse = screens[0] * out
+        milled = crusher @ coarse
+        product = screens[1] * (out - coarse)
+        return milled * coarse.sum() / milled.sum() + out - coarse - product, product
+
+    def slope(_t: float, number: np.ndarray) -> np.ndarray:
+        pairs = (np.convolve(number, number) + np.convolve(number * size, number / size))[:n]
+        born = stays * pairs
+        born[1:] += (moves * pairs)[:-1]
+        lost = number * (2.0 * number.sum() + size * (number / size).sum() + (number * size).sum() / size)
+        share = number * volume / (number @ volume)
+        again, _product = back(share)
+        flow = fresh.sum() / (1.0 - again.sum())
+        return bed.agglomeration_kernel.coefficient * (born - lost) + (fresh + flow * again) / volume / UREA_DENSITY - flow * number / mass
+
+    start = np.asarray(held["agglomerator"])[0] / volume / UREA_DENSITY
+    found = []
+    for number in solve_ivp(slope, (0.0, times[-1]), start, "LSODA", times, rtol=1e-8, atol=1e-6).y.T:
+        again, product = back(number * volume / (number @ volume))
+        found.append(product * fresh.sum() / (1.0 - again.sum()))
+    return np.stack(found)
+
+
+def other(given: argparse.Namespace, path: Path) -> tuple[float, float, float, np.ndarray | None]:
+    """Plant time that Dyssol got through, its processor and wall time, and the product by time and size class if it came to the end."""
     text = path.read_text().replace('"Inlet flow"', '"InletFlow"').replace('"Outlet flow"', '"OutletFlow"')
     text = re.sub(r"MODELS_PATH .*\n(?=MODELS_PATH)", "", text)
     with tempfile.TemporaryDirectory() as folder:
         for key, value in {
-            "RESULT_FILE": f'"{folder}/r.dflw"',
-            "MATERIALS_DATABASE": f'"{materials}"',
-            "MODELS_PATH": f'"{models}"',
-            "SIMULATION_TIME": f"{span:g}",
-        }.items():
+            "RESULT_FILE": f'"{folder}/r.dflw"', "MATERIALS_DATABASE": f'"{given.materials}"', "MODELS_PATH": f'"{given.models}"',
+        }.items():  # fmt: skip
             text = re.sub(rf"{key} .*", lambda _m, key=key, value=value: f"{key} {value}", text)
         (Path(folder) / "case.txt").write_text(text)
-        begun = time.perf_counter()
+        before, begun = _children(), time.perf_counter()
         try:
-            said = subprocess.run([program, f"-s={folder}/case.txt"], capture_output=True, text=True, timeout=limit, check=False).stdout
+            said = subprocess.run(
+                [given.program, f"-s={folder}/case.txt"], capture_output=True, text=True, timeout=given.limit, check=False
+            ).stdout
         except subprocess.TimeoutExpired as late:
             said = (late.stdout or b"").decode()
         took = time.perf_counter() - begun
-    reached = [float(x) for x in re.findall(r"\[[\d.e+-]+, ([\d.e+-]+)\]", said)]
-    return (reached[-1] if reached else 0.0), took
+        reached = [float(x) for x in re.findall(r"\[[\d.e+-]+, ([\d.e+-]+)\]", said)]
+        result = Path(folder) / "r.dflw"
+        return (reached[-1] if reached else 0.0), _children() - before, took, product_of(result) if result.exists() else None
+
+
+def _children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def product_of(path: Path) -> np.ndarray | None:
+    """Times (first column) and size classes of the stream that leaves, kg/s, from the program's own file."""
+    import h5py
+
+    with h5py.File(path) as file:
+        for stream in file["Streams"].values():
+            if stream["StreamName"][0] not in (b"Coarse2", b"Fine2") or not len(stream["TimePoints"]):
+                continue
+            share = stream["Phases/Phase0/Distribution"]
+            classes = int(share["Classes"][1]) if len(share["Classes"]) == 2 else 0
+            if not classes:
+                return None
+            blocks = [share[f"Data{i}"][:] for i in range(sum(name.startswith("Data") for name in share))]
+            parts = [np.concatenate([np.broadcast_to(b[i + 1], (max(map(len, b)),)) for b in blocks]) for i in range(classes)]
+            flow = next(o["Data"][:][1] for o in stream["Overalls"].values() if o["Name"][0].lower().startswith(b"mass"))
+            return np.column_stack([stream["TimePoints"][:], flow[:, None] * np.stack(parts, 1)])
+    return None
+
+
+def solved(
+    line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax.Array], spans: list[tuple[float, int]]
+) -> tuple[np.ndarray, np.ndarray, float, float]:
+    """Times, product by size class, processor and wall time of a run of several equal numbers of steps, the second time it is made."""
+    run = eqx.filter_jit(lambda held, times: march(line, times, profiles, start=held))
+    for _again in range(2):
+        processor, begun, state, t0, times, product = time.process_time(), time.perf_counter(), held, 0.0, [], []
+        for end, steps in spans:
+            course = run(state, jnp.linspace(t0, end, steps + 1))
+            assert bool(course.converged.all()), "a loop did not converge"
+            state, t0 = course.holdups, end
+            solid = np.asarray(course.streams["product"].solid)
+            times.append(np.asarray(course.times)[int(bool(times)) :])
+            product.append(solid.sum(axis=(1, *range(3, solid.ndim)))[int(bool(product)) :])
+    return np.concatenate(times), np.concatenate(product), time.process_time() - processor, time.perf_counter() - begun
+
+
+def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]) -> None:
+    """One problem, here, by SciPy and by the program."""
+    path = given.folder / f"{name}-process.txt"
+    line, profiles, held = (sieve_mill if name == "sieve-mill" else agglomeration)(script(path))
+    few = gather_axes(line, held)
+    end = spans[-1][0]
+    times, product, processor, wall = solved(few.line, profiles, few.holdups, spans)
+    print(
+        f"{name}: {len(times) - 1} steps, {processor:.2f} s of processor, {wall:.2f} s of wall, {end / processor:.0f} s of plant time a second"
+    )
+    reference = by_scipy(line, profiles, held, times) if name == "sieve-mill" else agglomeration_by_scipy(line, held, times)
+    miss = np.abs(product - reference).sum(axis=1) / reference.sum(axis=1)
+    print(f"  share of the product in another class than SciPy has it: at most {0.5 * miss.max():.1e}, median {0.5 * np.median(miss):.1e}")
+    if not given.program:
+        return
+    reached, theirs, took, found = other(given, path)
+    late = "" if reached >= end else " (not to the end; it is slower at the start than later)"
+    print(f"  Dyssol: {reached:.0f} s of plant time in {theirs:.0f} s of processor, {took:.0f} s of wall{late}")
+    print(f"  ratio: {end / processor / (reached / theirs):.0f} by processor time, {end / wall / (reached / took):.0f} by wall time")
+    if found is not None:
+        there = np.stack([np.interp(times, found[:, 0], column) for column in found[:, 1:].T], 1)
+
+        def off(product: np.ndarray) -> str:
+            miss = 0.5 * np.abs(product - there).sum(axis=1) / there.sum(axis=1)
+            return f"at most {miss.max():.1e}, at the end {miss[-1]:.1e}"
+
+        print(f"  share of the product in another class than Dyssol has it: {off(product)}")
+        if name == "agglomeration":
+            print(
+                f"  the same for SciPy with the class numbers that Dyssol works with: {off(agglomeration_by_scipy(line, held, times, True))}"
+            )
 
 
 def main() -> None:
@@ -164,44 +350,10 @@ def main() -> None:
     options.add_argument("--program", type=Path)
     options.add_argument("--models", default="/usr/lib/x86_64-linux-gnu/Dyssol/Units/")
     options.add_argument("--materials", default="/usr/share/Dyssol/MaterialsDB/Materials.dmdb")
-    options.add_argument("--span", type=float, default=60.0, help="plant time asked of Dyssol, s")
-    options.add_argument("--limit", type=float, default=300.0, help="seconds given to Dyssol")
-    options.add_argument("--step", type=float, default=20.0, help="time step here, s")
+    options.add_argument("--limit", type=float, default=900.0, help="seconds given to Dyssol for each problem")
     given = options.parse_args()
-    line, profiles, held = sieve_mill(script(given.folder / "sieve-mill-process.txt"))
-    arrays = jax.tree.map(lambda x: jnp.asarray(x) if isinstance(x, float) else x, line)
-    end = 21600.0
-    run = eqx.filter_jit(lambda sheet, times: march(sheet, times, profiles, start=held))
-
-    def solved(step: float) -> tuple[np.ndarray, np.ndarray, float, float]:
-        times = jnp.arange(0.0, end + 0.5 * step, step)
-        begun = time.perf_counter()
-        jax.block_until_ready(run(arrays, times).balance)
-        first = time.perf_counter() - begun
-        begun = time.perf_counter()
-        course = jax.block_until_ready(run(arrays, times))
-        assert bool(course.converged.all()), "a loop did not converge"
-        solid = np.asarray(course.streams["product"].solid)
-        print(f"  step {step:g} s: balance {float(course.balance):.1e}")
-        return np.asarray(times), solid.sum(axis=(1, 3)), first, time.perf_counter() - begun
-
-    print("sieve–mill process, 200 × 50 classes, 6 h of plant time")
-    times, product, first, warm = solved(given.step)
-    print(f"  here: {warm:.2f} s (first call {first:.1f} s), {end / warm:.0f} s of plant time a second")
-    begun = time.perf_counter()
-    reference = by_scipy(line, profiles, held, times)
-    print(f"  SciPy BDF on the 200 sums over the attribute only: {time.perf_counter() - begun:.1f} s")
-    miss = np.abs(product - reference).max(axis=1) / reference.sum(axis=1).max()
-    print(
-        f"  largest difference of a size class to SciPy, over the largest product flow: {miss.max():.1e} (median over time {np.median(miss):.1e})"
-    )
-    if given.program:
-        reached, took = other(
-            given.program, given.models, given.materials, given.folder / "sieve-mill-process.txt", given.span, given.limit
-        )
-        print(
-            f"  Dyssol: {reached:.0f} s of plant time in {took:.0f} s; at that rate here {end / warm * took / max(reached, 1e-9):.0f} times faster"
-        )
+    compare("agglomeration", given, [(1500.0, 300), (9000.0, 300), (36000.0, 300)])
+    compare("sieve-mill", given, [(end, 300) for end in (300.0, 7200.0, 7500.0, 14400.0, 14700.0, 21600.0)])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Flowsheets: units and streams connected, loops solved, audited and drawn."""
 
+from granum.flowsheet.axes import Gathered, gather_axes
 from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.plan import Link
 from granum.flowsheet.schedule import Schedule, schedule
@@ -8,6 +9,8 @@ from granum.flowsheet.solving import Solution, closures, line_closure, solve, so
 
 __all__ = [
     "Course",
+    "Gathered",
+    "gather_axes",
     "Profile",
     "Schedule",
     "march",

@@ -13,7 +13,7 @@ import numpy as np
 from granum.core import flags
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.numerics import Anderson, Settled, settle
+from granum.numerics import Anderson, Newton, Settled, fixed_point, settle, within_rounding
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
 from granum.streams.sharing import sharing
@@ -86,8 +86,8 @@ def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets
     return made
 
 
-def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson, max_steps: int) -> tuple[_Made, Settled]:  # fmt: skip
-    """A loop, solved: the pass through its units stands once in the compiled code."""
+def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson | Newton, max_steps: int) -> tuple[_Made, Settled]:  # fmt: skip
+    """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
     words: list[Any] = []  # names and sources among what is made, which are no numbers
 
     def torn(vector: Any) -> dict[str, Stream]:
@@ -101,13 +101,23 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
         return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), numbers
 
     start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
-    found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps)
+    if isinstance(method, Anderson):
+        found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps)
+    else:
+        root = fixed_point(lambda x, _args: once(x)[0], start, method=method, tolerance=TOLERANCE, max_steps=max_steps, scale=1.0)
+        good = root.residual <= within_rounding(root.state, TOLERANCE)
+        found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
     made = eqx.combine(found.made, words[0])
     return made._replace(streams=made.streams | torn(found.state)), found
 
 
 def solve(
-    line: Flowsheet, start: Mapping[str, Stream] | None = None, *, sheets: bool = False, method: Anderson = Anderson(), max_steps: int = 200
+    line: Flowsheet,
+    start: Mapping[str, Stream] | None = None,
+    *,
+    sheets: bool = False,
+    method: Anderson | Newton = Anderson(),
+    max_steps: int = 200,
 ) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
@@ -116,7 +126,8 @@ def solve(
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
     sheets: also work out figures and checks of every unit (then jit with ``eqx.filter_jit``: checks carry words).
-    method: how loops are brought to rest. max_steps: most passes through a loop.
+    method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn numbers), which compiles longer and
+        solves some loops that do not contract. max_steps: most passes through a loop, or steps of Newton.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)

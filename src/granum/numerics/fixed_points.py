@@ -285,11 +285,6 @@ def settle(
     traced, closed_over = jax.closure_convert(flat, start)
     tree, kinds = shape
 
-    def allowed(x: jax.Array) -> jax.Array:
-        """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand tolerances."""
-        rounding = 32.0 * jnp.finfo(start.dtype).eps * _size(x)
-        return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)
-
     @jax.custom_jvp
     def search(closed_over: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
@@ -301,7 +296,7 @@ def settle(
         def unfinished(carry: tuple) -> jax.Array:
             iteration = carry[0]
             x, size = iteration[1]
-            return (size > allowed(x)) & (iteration[-1] < max_steps)
+            return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps)
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
         iteration, made = lax.while_loop(unfinished, advance, (method.begin(start), blank))
@@ -323,7 +318,13 @@ def settle(
     parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
     made = jax.tree.unflatten(tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)])
     size = lax.stop_gradient(size)
-    return Settled(x, made, size <= allowed(lax.stop_gradient(x)), number.astype(int), size)
+    return Settled(x, made, size <= within_rounding(x, tolerance), number.astype(int), size)
+
+
+def within_rounding(x: jax.Array, tolerance: float) -> jax.Array:
+    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand tolerances."""
+    rounding = 32.0 * jnp.finfo(x.dtype).eps * _size(lax.stop_gradient(x))
+    return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)
 
 
 def _solve(

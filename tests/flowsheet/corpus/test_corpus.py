@@ -5,13 +5,16 @@ from __future__ import annotations
 import importlib.util
 import sys
 from pathlib import Path
+from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 from granum.flowsheet import closures, solve
 from granum.flowsheet.packing import compiled
+from granum.numerics import Anderson, Newton
 
 _spec = importlib.util.spec_from_file_location("corpus_cases", Path(__file__).with_name("cases.py"))
 assert _spec is not None
@@ -45,6 +48,23 @@ def test_case(name: str) -> None:
 def test_what_has_no_steady_state_is_refused(name: str) -> None:
     line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, corpus.REFUSED[name]().line)
     assert not bool(_solve(line).converged)
+
+
+@pytest.mark.parametrize("name", ["eight components, gains 1e-4 to 0.9999", "swinging, slope -5"])
+def test_newton_finds_the_same(name: str) -> None:
+    """Newton–Krylov, with which a line is tried last, and its derivative; all of the corpus: ``benchmarks/recycles.py``."""
+    line = corpus.CASES[name]().line
+    feed = next(iter(line.feeds))
+    liquid = line.feeds[feed].liquid
+
+    def product(share: Any, method: Any) -> Any:
+        solution = solve(line.with_values({f"{feed}.liquid": liquid * share}), method=method)
+        return jnp.stack([solution.streams[n].mass_flow for n in line.products] + [1.0 * solution.converged])
+
+    one, other = (jax.jit(lambda x, m=m: jax.jvp(lambda y: product(y, m), (x,), (1.0,)))(1.0) for m in (Anderson(), Newton()))
+    assert one[0][-1] == other[0][-1] == 1.0
+    assert np.allclose(one[0], other[0], rtol=1e-9)
+    assert np.allclose(one[1], other[1], rtol=1e-7, atol=1e-9)
 
 
 def test_pass_rate() -> None:

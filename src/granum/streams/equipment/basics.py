@@ -12,6 +12,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import Fraction, Mass, MassFlow, Power, Temperature, Time
 from granum.streams.stream import Stream
+from granum.streams.turnover import Turnover
 from granum.streams.units import Dynamic, Unit
 
 
@@ -146,16 +147,7 @@ class StirredTank(Unit, Dynamic):
         self, state: Contents, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Contents, Single]:
         then, now = _condensed(before["feed"]), _condensed(after["feed"])
-        rate = 0.5 * (then.mass_flow + now.mass_flow) / self.mass * step  # turnovers in the step
-        small = rate < 1e-4
-        r = jnp.where(small, 1.0, rate)
-        kept = jnp.exp(-rate)
-        early = jnp.where(small, 0.5 - rate / 3.0, (1.0 - kept * (1.0 + rate)) / r**2)  # weights of the inlet at both ends
-        late = jnp.where(small, 0.5 - rate / 6.0, (rate - 1.0 + kept) / r**2)
-
-        def new(held: Any, old_inlet: Any, new_inlet: Any) -> Any:
-            return kept * held + step * (early * old_inlet + late * new_inlet)
-
+        new = Turnover.of(0.5 * (then.mass_flow + now.mass_flow) / self.mass, step).through
         full = Contents(
             new(state.solid, then.solid, now.solid), new(state.liquid, then.liquid, now.liquid),
             new(state.enthalpy, then.enthalpy_flow, now.enthalpy_flow),

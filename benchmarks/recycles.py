@@ -1,0 +1,78 @@
+"""How each way to bring a loop to rest does on the corpus of hard recycles.
+
+    python benchmarks/recycles.py
+
+Passes through the units for Anderson's method, steps for Newton's (each with directional derivatives of the whole loop); "–" where the
+way does not converge. What has no steady state must fail in all of them.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from granum.flowsheet import solve
+from granum.flowsheet.packing import compiled
+from granum.numerics import Anderson, Newton
+
+CASES = Path(__file__).parents[1] / "tests" / "flowsheet" / "corpus" / "cases.py"
+
+
+@compiled
+def substituted(line: Any) -> Any:
+    """Plain substitution: nothing remembered."""
+    return solve(line, method=Anderson(window=0), max_steps=5000)
+
+
+@compiled
+def anderson(line: Any) -> Any:
+    """What a line is solved with first."""
+    return solve(line)
+
+
+@compiled
+def patient(line: Any) -> Any:
+    """What is tried when that fails."""
+    return solve(line, method=Anderson(window=10, damping=0.4), max_steps=2000)
+
+
+@compiled
+def newton(line: Any) -> Any:
+    """What is tried last; here from empty torn streams."""
+    return solve(line, method=Newton(), max_steps=50)
+
+
+WAYS = {"substitution": substituted, "Anderson": anderson, "patient Anderson": patient, "Newton–Krylov": newton}
+
+
+def main() -> None:
+    spec = importlib.util.spec_from_file_location("corpus_cases", CASES)
+    assert spec is not None
+    assert spec.loader is not None
+    corpus = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = corpus
+    spec.loader.exec_module(corpus)
+    passed = dict.fromkeys(WAYS, 0)
+    print("| case | " + " | ".join(WAYS) + " |\n|---|" + "--:|" * len(WAYS))
+    for name, case in corpus.CASES.items():
+        line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case().line)
+        found = {way: run(line) for way, run in WAYS.items()}
+        for way, solution in found.items():
+            passed[way] += bool(solution.converged)
+        steps = [str(sum(int(n) for n in s.steps)) if bool(s.converged) else "–" for s in found.values()]
+        print(f"| {name} | " + " | ".join(steps) + " |", flush=True)
+    print(f"| solved of {len(corpus.CASES)} | " + " | ".join(str(n) for n in passed.values()) + " |")
+    for name, case in corpus.REFUSED.items():
+        line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case().line)
+        print(
+            f"| no steady state: {name} | " + " | ".join("–" if not bool(run(line).converged) else "WRONG" for run in WAYS.values()) + " |"
+        )
+
+
+if __name__ == "__main__":
+    main()
