@@ -44,6 +44,10 @@ def chain_blocks(function: Field, state: Any) -> tuple[jax.Array, jax.Array, jax
 def _linearized(function: Field, state: Any) -> tuple[jax.Array, jax.Array, jax.Array, jax.Array]:
     """Value and blocks, with one trace of the function."""
     n, b = state.shape
+    if n == 1:
+        value, push = jax.linearize(function, state)
+        own = jnp.moveaxis(jax.vmap(push)(jnp.eye(b)[:, None, :]), 0, -1)
+        return value, jnp.zeros_like(own), own, jnp.zeros_like(own)
     color = jnp.arange(n) % 3
     seeds = (color[None, None, :, None] == jnp.arange(3)[:, None, None, None]) * jnp.eye(b)[None, :, None, :]
     value, push = jax.linearize(function, state)
@@ -51,8 +55,6 @@ def _linearized(function: Field, state: Any) -> tuple[jax.Array, jax.Array, jax.
     found = jnp.moveaxis(found, 1, -1)
     cells = jnp.arange(n)
     own = found[color, cells]
-    if n == 1:
-        return value, jnp.zeros_like(own), own, jnp.zeros_like(own)
     before = found[(color - 1) % 3, cells].at[0].set(0.0)
     return value, before, own, found[(color + 1) % 3, cells].at[-1].set(0.0)
 
@@ -128,29 +130,34 @@ def solve_chain(
         eye = jnp.eye(start.shape[1])
 
         def step(carry: tuple) -> tuple:
-            u, safe, h, _change, number = carry
+            u, safe, h, last, haste, number = carry
             r, before, own, after = _linearized(f, u)
             shifted = own - capacity[:, :, None] / h * eye
             du = -solve_factored(factor_chain(before, shifted, after), r)
             good = jnp.all(jnp.isfinite(du)) & jnp.all(abs(du) <= size)
             relative = jnp.max(abs(du) / jnp.maximum(abs(u), 1.0))
             # a change is that of a Newton step only when the step in time is long
-            change = jnp.where(good & (h >= 1e8 * first_step), relative, jnp.inf)
-            longer = jnp.minimum(h * jnp.where(relative < 0.05, GROWTH**3, GROWTH), 1e12 * first_step)
+            late = good & (h >= 1e8 * first_step)
+            change = jnp.where(late, relative, jnp.inf)
+            stuck = late & (relative > 0.7 * last) & (relative > 1e-7)  # to and fro over a kink: again from short steps, slower
+            haste = jnp.where(stuck, 0.5 * haste, haste)
+            longer = jnp.minimum(h * GROWTH ** jnp.where(relative < 0.05, 3.0 * haste, haste), 1e12 * first_step)
+            longer = jnp.where(stuck, 10.0 * first_step, longer)
             lost = ~jnp.all(jnp.isfinite(r))  # the step before went astray: back to where it started
             return (
                 jnp.where(good, u + du, jnp.where(lost, safe, u)),
                 jnp.where(lost, safe, u),
                 jnp.where(good, longer, h * CAUTION),
                 change,
+                haste,
                 number + 1,
             )
 
         def unfinished(carry: tuple) -> Any:
-            return (carry[3] > tolerance) & (carry[4] < max_steps)
+            return (carry[3] > tolerance) & (carry[5] < max_steps)
 
-        first = (guess, guess, jnp.asarray(first_step, dtype=float), jnp.asarray(jnp.inf), jnp.zeros((), int))
-        u, _safe, _h, change, number = lax.while_loop(unfinished, step, first)
+        first = (guess, guess, jnp.asarray(first_step, dtype=float), jnp.asarray(jnp.inf), jnp.asarray(1.0), jnp.zeros((), int))
+        u, _safe, _h, change, _haste, number = lax.while_loop(unfinished, step, first)
         return u, (change, number.astype(u.dtype))
 
     def tangent(linear: Field, right: Any) -> Any:

@@ -22,19 +22,23 @@ WARMEST_STEP = 3.0  # largest change of an enthalpy in one step of the solver, i
 MIXED = 1e6  # flow between neighbors, over the flow through, that counts as well mixed
 
 
-class Network(NamedTuple):
-    """Flows of dry gas relative to the whole: into each cell from the cell before, from the cell after and from outside, and to the outside."""
+class Network(eqx.Module):
+    """Flows of dry gas relative to the whole: into each cell from the cell before, from the cell after and from outside, and to the outside.
+
+    ``one_way``: nothing comes back from the cell after, so that a steady state is found cell by cell.
+    """
 
     from_before: Any
     from_after: Any
     inlet: Any
     outlet: Any
+    one_way: bool = eqx.field(static=True, default=False)
 
     @classmethod
     def co_current(cls, n: int) -> Network:
         """With the solid."""
         first, last = jnp.zeros(n).at[0].set(1.0), jnp.zeros(n).at[-1].set(1.0)
-        return cls(1.0 - first, jnp.zeros(n), first, last)
+        return cls(1.0 - first, jnp.zeros(n), first, last, one_way=True)
 
     @classmethod
     def counter_current(cls, n: int) -> Network:
@@ -49,9 +53,11 @@ class Network(NamedTuple):
 
     def dispersed(self, flow: Any) -> Network:
         """The same with an exchange flow between all neighbors: axial dispersion."""
+        if isinstance(flow, float | int) and flow == 0:
+            return self
         n = len(self.inlet)
         inner = jnp.arange(n)
-        return self._replace(from_before=self.from_before + flow * (inner > 0), from_after=self.from_after + flow * (inner < n - 1))
+        return Network(self.from_before + flow * (inner > 0), self.from_after + flow * (inner < n - 1), self.inlet, self.outlet)
 
     @classmethod
     def mixed(cls, n: int) -> Network:
@@ -66,6 +72,15 @@ class Inlet(NamedTuple):
     temperature: Any
     humidity: Any
     gas_temperature: Any
+
+
+class Entering(NamedTuple):
+    """What enters as the core counts it: moisture and enthalpy of solid and gas, enthalpies in 10⁵ J/kg."""
+
+    moisture: Any
+    enthalpy: Any
+    humidity: Any
+    gas_enthalpy: Any
 
 
 class Profile(NamedTuple):
@@ -83,6 +98,32 @@ class Profile(NamedTuple):
     gas_enthalpy: Any
     heat_duty: Any  # taken up from walls less lost
     converged: Any
+
+
+class CellRow(NamedTuple):
+    """Of one cell: solid by class, its renewal, heat lost."""
+
+    solid: Any
+    renewal: Any
+    heat_loss: Any
+
+
+def largest_change(moisture: Any, classes: int) -> Any:
+    """Of the unknowns in one step of the solver."""
+    wettest = 0.2 * jnp.max(moisture) + 0.01
+    return jnp.concatenate([jnp.full(classes, 1.0) * wettest, jnp.full(classes, WARMEST_STEP), jnp.full(2, jnp.inf)])
+
+
+def march(rates: Callable[[Any, Any, Any], Any], first: Any, rows: Any, capacity: Any, steps: Any, limit: Any) -> tuple[Any, Any]:
+    """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)`` vanishes, u having one row."""
+
+    def cell(carry: tuple[Any, Any], given: tuple[Any, Any]) -> tuple[tuple[Any, Any], Any]:
+        (before, well), (row, step) = carry, given
+        found = solve_chain(lambda u: rates(u, before, row), before[None], capacity, first_step=step, largest_change=limit)
+        return (found.state[0], well & found.converged), found.state[0]
+
+    (_last, well), states = jax.lax.scan(cell, (first, jnp.asarray(True)), (rows, steps))
+    return states, well
 
 
 class Contact(eqx.Module):
@@ -153,20 +194,22 @@ class Contact(eqx.Module):
         heat = at.exchange * slowed * (at.gas_temperature - at.temperature)
         return rate, rate * carried, heat, self.wall_exchange * (self.wall_temperature - at.temperature)
 
-    def rates(self, u: Any, inlet: Inlet) -> Any:
+    def entering(self, inlet: Inlet) -> Entering:
+        """The inlet in moistures and enthalpies."""
+        n, m = self.solid.shape
+        X, T = jnp.broadcast_to(inlet.moisture, (m,)), jnp.broadcast_to(inlet.temperature, (m,))
+        Y, Tg = jnp.broadcast_to(inlet.humidity, (n,)), jnp.broadcast_to(inlet.gas_temperature, (n,))
+        return Entering(X, self.matter.moist_solid(T, X) / ENTHALPY, Y, self.matter.moist_gas(Tg, Y) / ENTHALPY)
+
+    def rates(self, u: Any, fresh: Entering) -> Any:
         """Rates of change: per kg of dry solid for solid, per kg/s of dry gas flow times ``gas_time``/n for gas."""
-        n = self.solid.shape[0]
         X, H, Y, Hg = self.parts(u)
         rate, carried, heat, wall = self._transfer(u)
-        Xin, Tin = jnp.broadcast_to(inlet.moisture, X.shape[1:]), jnp.broadcast_to(inlet.temperature, X.shape[1:])
-        Hin = self.matter.moist_solid(Tin, Xin) / ENTHALPY
-        dX = self._moved(X, Xin) - rate
-        dH = self._moved(H, Hin) + (heat + wall - carried) / ENTHALPY
+        dX = self._moved(X, fresh.moisture) - rate
+        dH = self._moved(H, fresh.enthalpy) + (heat + wall - carried) / ENTHALPY
         g = self.gas_flow
-        Yin, Tgin = jnp.broadcast_to(inlet.humidity, (n,)), jnp.broadcast_to(inlet.gas_temperature, (n,))
-        Hgin = self.matter.moist_gas(Tgin, Yin) / ENTHALPY
-        dY = self._blown(Y, Yin) + jnp.sum(self.solid * rate, axis=1) / g
-        dHg = self._blown(Hg, Hgin) + (jnp.sum(self.solid * (carried - heat), axis=1) - self.heat_loss) / (g * ENTHALPY)
+        dY = self._blown(Y, fresh.humidity) + jnp.sum(self.solid * rate, axis=1) / g
+        dHg = self._blown(Hg, fresh.gas_enthalpy) + (jnp.sum(self.solid * (carried - heat), axis=1) - self.heat_loss) / (g * ENTHALPY)
         return jnp.concatenate([dX, dH, dY[:, None], dHg[:, None]], axis=1)
 
     def _moved(self, q: Any, q_in: Any) -> Any:
@@ -190,7 +233,8 @@ class Contact(eqx.Module):
         out = self.gas_flow * self.network.outlet
         return jnp.concatenate([self.solid_flow * X[-1], self.solid_flow * H[-1], jnp.sum(out * Y)[None], jnp.sum(out * Hg)[None]])
 
-    def _capacity(self) -> Any:
+    def capacity(self) -> Any:
+        """What the cells hold: solid by itself, gas by its time."""
         n, m = self.solid.shape
         return jnp.concatenate([jnp.ones((n, 2 * m)), jnp.full((n, 2), 1.0) * self.gas_time / n], axis=1)
 
@@ -201,13 +245,30 @@ class Contact(eqx.Module):
         X, T = (jnp.broadcast_to(v, (n, m)) for v in (inlet.moisture, inlet.temperature))
         return self.state(X, T, jnp.full(n, Y), jnp.full(n, Tg))
 
+    def cell(self, row: CellRow) -> Contact:
+        """One cell on its own, in a row through which solid and gas flow together."""
+        return Contact(
+            self.matter, self.kinetics, row.solid[None], row.renewal[None], self.gas_flow, Network.co_current(1), self.exchange,
+            self.wall_exchange, self.wall_temperature, row.heat_loss[None],
+        )  # fmt: skip
+
     def steady(self, inlet: Inlet) -> Profile:
         """The steady state."""
-        m = self.solid.shape[1]
-        wettest = 0.2 * jnp.max(inlet.moisture) + 0.01
-        limit = jnp.concatenate([jnp.full(m, 1.0) * wettest, jnp.full(m, WARMEST_STEP), jnp.full(2, jnp.inf)])
+        n, m = self.solid.shape
+        limit = largest_change(inlet.moisture, m)
+        fresh = self.entering(inlet)
+        if self.network.one_way and isinstance(self.solid_dispersion, float | int) and self.solid_dispersion == 0:
+            rows = CellRow(self.solid, jnp.broadcast_to(self.renewal, (n, m)), jnp.broadcast_to(self.heat_loss, (n,)))
+            capacity = self.capacity()[:1] * jnp.asarray([1.0] * 2 * m + [0.0] * 2)
+
+            def rates(u: Any, before: Any, row: CellRow) -> Any:
+                return self.cell(row).rates(u, Entering(before[:m], before[m : 2 * m], before[-2:-1], before[-1:]))
+
+            steps = 0.1 / jnp.max(rows.renewal, axis=1)
+            states, converged = march(rates, self.start(inlet)[0], rows, capacity, steps, limit)
+            return self.profile(states, converged)
         step = 0.1 / jnp.max(self.renewal)
-        found = solve_chain(lambda u: self.rates(u, inlet), self.start(inlet), self._capacity(), first_step=step, largest_change=limit)
+        found = solve_chain(lambda u: self.rates(u, fresh), self.start(inlet), self.capacity(), first_step=step, largest_change=limit)
         return self.profile(found.state, found.converged)
 
     def profile(self, u: Any, converged: Any = True) -> Profile:
@@ -229,5 +290,5 @@ class Contact(eqx.Module):
         def flows(u: Any, _inlet: Inlet) -> Any:
             return self.outflow(u)
 
-        states, totals = advance_chain(self.rates, start, self._capacity(), step, inlets, flows)
+        states, totals = advance_chain(lambda u, given: self.rates(u, self.entering(given)), start, self.capacity(), step, inlets, flows)
         return jax.vmap(self.profile)(states), totals

@@ -40,23 +40,30 @@ def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int)
     ``like`` gives matter, kinetics, exchange and the shares of solid in its layers (layers × 1).
     """
     n = like.solid.shape[0]
-    X, T = jnp.broadcast_to(X, (n, 1)), jnp.broadcast_to(T, (n, 1))
-    found, clock = [], 0.0
     edges = (jnp.arange(steps + 1) / steps) ** 2  # short steps where a zone begins
-    for zone in zones:
-        network = Network.counter_current(n) if zone.backwards else Network.co_current(n)
+    up, down = Network.counter_current(n), Network.co_current(n)
+
+    def through(carry: tuple[Any, Any], zone: Zone) -> tuple[tuple[Any, Any], tuple[Profile, Any]]:
+        X, T = carry
+        network = Network(
+            *(jnp.where(zone.backwards, getattr(up, k), getattr(down, k)) for k in ("from_before", "from_after", "inlet", "outlet"))
+        )
         column = Contact(
             like.matter, like.kinetics, like.solid, jnp.zeros((n, 1)), zone.gas_per_solid, network, like.exchange,
             like.wall_exchange, like.wall_temperature, like.heat_loss,
         )  # fmt: skip
         start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0])  # gas at rest with the solid, so that the first step is mild
-        inlets = Inlet(
-            *(jnp.broadcast_to(jnp.asarray(v, dtype=float), (steps, *jnp.shape(v))) for v in (X[0], T[0], zone.humidity, zone.temperature))
-        )
+        inlets = Inlet(*(jnp.broadcast_to(v, (steps, *jnp.shape(v))) for v in (X[0], T[0], zone.humidity, zone.temperature)))
         layers, totals = column.dynamic(start, inlets, zone.duration * jnp.diff(edges))
-        X, T = layers.moisture[-1], layers.temperature[-1]
-        time = clock + zone.duration * edges[1:]
-        found.append(Passage(layers, time, zone.gas_per_solid, totals[-1, -2], ENTHALPY * totals[-1, -1]))
+        return (layers.moisture[-1], layers.temperature[-1]), (layers, totals[-1])
+
+    stacked = Zone(*(jnp.stack([jnp.asarray(v, dtype=float) for v in values]) for values in zip(*zones, strict=True)))
+    stacked = stacked._replace(backwards=stacked.backwards > 0.5)
+    _end, (layers, totals) = jax.lax.scan(through, (jnp.broadcast_to(X, (n, 1)) + 0.0, jnp.broadcast_to(T, (n, 1)) + 0.0), stacked)
+    found, clock = [], 0.0
+    for i, zone in enumerate(zones):
+        here = jax.tree.map(lambda leaf, i=i: leaf[i], layers)
+        found.append(Passage(here, clock + zone.duration * edges[1:], zone.gas_per_solid, totals[i, -2], ENTHALPY * totals[i, -1]))
         clock = clock + zone.duration
     return found
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import Contact, Inlet, Network, Profile
+from granum.drying.contact.cells import ENTHALPY, Contact, Entering, Inlet, Network, Profile, largest_change, march
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
+from granum.numerics import solve_chain
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 
 WATER_DENSITY = 997.0
-PASSES, AGREED = 8, 0.05  # solutions in turn, and the change (K, kg/kg) below which speeds and drying agree
 SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, which a check reports
 
 
@@ -46,90 +45,94 @@ def drop_ratio(dry_density: Any, solid_density: Any, X: Any) -> Any:
     return (dry_density * (1.0 / solid_density + jnp.maximum(X, 0.0) / WATER_DENSITY)) ** (1.0 / 3.0)
 
 
-def speeds(path: Path, gas_speed: Any, gas_density: Any, viscosity: Any, X: Any) -> tuple[Any, Any]:
-    """Speed of each class at the end of each cell and the time in it: drag of Schiller and Naumann and gravity, relaxed over each cell."""
+def relaxed(path: Path, gas: Flight, before: Any, own: Any, X: Any) -> tuple[Any, Any]:
+    """Speed of each class at the end of a cell entered at a speed, and the time in it: drag of Schiller and Naumann at the mean speed, and
+    gravity. ``own`` is the speed at the end as far as it is known; at the solution both agree.
+    """
     d = wet_size(path, X)
-    mass = path.dry_density * (path.dry_size / d) ** 3 * (1.0 + X)  # per volume of the wet particle
+    density = path.dry_density * (path.dry_size / d) ** 3 * (1.0 + X)  # mass per volume of the wet particle
+    mean = jnp.maximum(0.5 * (before + own), SLOWEST)
+    time = gas.length / mean
+    Re = gas.density * d * jnp.hypot(gas.speed - mean, SLOWEST) / gas.viscosity
+    relaxation = density * d**2 / (18.0 * gas.viscosity * (1.0 + 0.15 * jnp.maximum(Re, 1e-12) ** 0.687))
+    final = gas.speed + path.gravity * relaxation
+    return jnp.maximum(final + (before - final) * jnp.exp(-time / relaxation), SLOWEST), time
 
-    def cell(u: Any, given: tuple) -> tuple[Any, tuple[Any, Any]]:
-        ug, rho, eta, size, density, length = given
 
-        def through(u_end: Any) -> tuple[Any, Any]:
-            mean = jnp.maximum(0.5 * (u + u_end), SLOWEST)
-            time = length / mean
-            Re = rho * size * jnp.abs(ug - mean) / eta
-            relaxation = density * size**2 / (18.0 * eta * (1.0 + 0.15 * jnp.maximum(Re, 1e-12) ** 0.687))
-            final = ug + path.gravity * relaxation
-            return jnp.maximum(final + (u - final) * jnp.exp(-time / relaxation), SLOWEST), time
+class Flight(NamedTuple):
+    """Gas that carries the particles through cells of a length (cells × 1)."""
 
-        end = u
-        for _pass in range(4):  # time and drag of the cell at its mean speed
-            end, time = through(end)
-        return end, (end, time)
-
-    rows = (gas_speed[:, None], gas_density[:, None], viscosity[:, None], d, mass, path.steps[:, None])
-    _last, (ends, times) = jax.lax.scan(cell, jnp.broadcast_to(path.start, d.shape[1:]), rows)
-    return ends, times
+    speed: Any
+    density: Any  # with its vapor
+    viscosity: Any
+    length: Any
 
 
 def convey(
-    path: Path,
-    matter: Matter,
-    kinetics: AbstractKinetics,
-    feed: Stream,
-    gas: Stream,
-    inlet: Inlet,
-    solid_flow: Any,
-    network: Network,
+    path: Path, matter: Matter, kinetics: AbstractKinetics, feed: Stream, gas: Stream, inlet: Inlet, solid_flow: Any, network: Network,
     heat_loss: Any,
-) -> tuple[Profile, Any]:
-    """Steady state of particles carried by gas: speeds follow from the gas, the gas from what the particles
-    evaporate, in turn until both agree. Also the dry solid under way, kg.
-    """
-    n = path.steps.shape[0]
-    dry = gas.gas_flow - gas.gas[matter.vapor]
+) -> tuple[Profile, Any]:  # fmt: skip
+    """Steady state of particles carried by gas; their speeds are unknowns beside moisture and temperature. Also the dry solid under way, kg.
 
-    def contact(times: Any, slip: Any) -> Contact:
+    Without dispersion of the gas every cell depends on the one before alone, and they are solved one after the other.
+    """
+    n, m = path.steps.shape[0], len(feed.mixture.sizes)
+    dry = gas.gas_flow - gas.gas[matter.vapor]
+    shape = (m,)
+    viscosity_of, conductivity_of = gas.mixture.gas_viscosity, gas.mixture.gas_conductivity
+    assert viscosity_of is not None
+    assert conductivity_of is not None
+
+    def contact(times: Any, slip: Any, network: Network, lengths: Any) -> Contact:
         def exchange(X: Any, Ts: Any, Tg: Any, Y: Any) -> Any:
             film = 0.5 * (Ts + Tg)
-            conductivity, viscosity = gas.mixture.gas_conductivity(film), gas.mixture.gas_viscosity(film)  # type: ignore[misc]
+            conductivity, viscosity = conductivity_of(film), viscosity_of(film)
             size = wet_size(path, X)
             density = matter.gas_density(film, Y) * (1.0 + Y)
             prandtl = matter.gas_heat_capacity(film, Y) * viscosity / conductivity
             nusselt = nusselt_number_ranz_marshall.function(density * slip * size / viscosity, prandtl)
             return nusselt * conductivity / size * 6.0 * size**2 / (path.dry_density * path.dry_size**3)
 
-        return Contact(
-            matter,
-            kinetics,
-            solid_flow * times,
-            1.0 / times,
-            dry,
-            network,
-            exchange,
-            heat_loss=heat_loss * path.steps / jnp.sum(path.steps),
-        )
+        lost = heat_loss * lengths[:, 0] / jnp.sum(path.steps)
+        return Contact(matter, kinetics, solid_flow * times, 1.0 / times, dry, network, exchange, heat_loss=lost)
 
-    def motion(state: tuple[Any, Any, Any]) -> tuple[Any, Any]:
-        X, Y, Tg = state
+    def split(v: Any, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any]:
+        """The core for speeds at the ends of the cells, and what these lack."""
+        own, X, Y = v[:, -m:], v[:, :m], v[:, 2 * m : 2 * m + 1]
+        Tg = matter.gas_temperature(ENTHALPY * v[:, 2 * m + 1 : 2 * m + 2], Y)
         density = matter.gas_density(Tg, Y)
         gas_speed = dry / (density * path.section)
-        ends, times = speeds(path, gas_speed, density * (1.0 + Y), gas.mixture.gas_viscosity(Tg), X)  # type: ignore[misc]
-        starts = jnp.concatenate([jnp.broadcast_to(path.start, ends[:1].shape), ends[:-1]])
-        return times, jnp.abs(gas_speed[:, None] - 0.5 * (starts + ends))
+        before = jnp.concatenate([jnp.broadcast_to(first, (1, m)), own[:-1]])
+        ends, times = relaxed(path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X)
+        return contact(times, jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST), network, lengths), (ends - own) / times
 
-    def again(state: tuple[Any, Any, Any], _pass: Any) -> tuple[tuple[Any, Any, Any], tuple[Profile, Any, Any]]:
-        core = contact(*motion(state))
-        found = core.steady(inlet)
-        change = jnp.max(jnp.abs(found.gas_temperature - state[2])) + jnp.max(jnp.abs(found.moisture - state[0]))
-        return (found.moisture, found.humidity, found.gas_temperature), (found, jnp.sum(core.solid), change)
+    def rates(v: Any, fresh: Entering, first: Any, network: Network, lengths: Any) -> Any:
+        core, lack = split(v, first, network, lengths)
+        return jnp.concatenate([core.rates(v[:, :-m], fresh), lack], axis=1)
 
-    first = (
-        jnp.broadcast_to(inlet.moisture, (n, *jnp.shape(inlet.moisture))),
-        jnp.full(n, 1.0) * inlet.humidity,
-        jnp.full(n, 1.0) * inlet.gas_temperature,
-    )
-    _state, passes = jax.lax.scan(again, first, None, length=PASSES)
-    found, holdup, change = jax.tree.map(lambda leaf: leaf[-1], passes)
+    lengths = path.steps[:, None]
+    still = contact(jnp.ones((n, m)), 1.0, network, lengths)
+    fresh, start = still.entering(inlet), jnp.broadcast_to(path.start, shape)
+    first = jnp.concatenate([still.start(inlet)[0], start])
+    moving = jnp.concatenate([largest_change(inlet.moisture, m), jnp.full(m, jnp.inf)])
+    capacity = jnp.asarray([[1.0] * 2 * m + [0.0] * 2 + [1.0] * m])
+    fastest = jnp.maximum(jnp.max(start), dry / (matter.gas_density(inlet.gas_temperature, inlet.humidity) * path.section))
+    alone = Network.co_current(1)
+
+    def cell(v: Any, before: Any, length: Any) -> Any:
+        known = Entering(before[:m], before[m : 2 * m], before[2 * m : 2 * m + 1], before[2 * m + 1 : 2 * m + 2])
+        return rates(v, known, before[-m:], alone, length[None])
+
+    states, converged = march(cell, first, lengths, capacity, 0.1 * path.steps / fastest, moving)
+    if not network.one_way:  # from the dryer without dispersion, its gas mixed with that at the end in proportion
+        share = 1.0 / (1.0 + network.from_after[0])
+        guess = states.at[:, 2 * m : 2 * m + 2].multiply(share).at[:, 2 * m : 2 * m + 2].add((1.0 - share) * states[-1, 2 * m : 2 * m + 2])
+        held = jnp.broadcast_to(capacity, (n, 3 * m + 2)).at[:, 2 * m : 2 * m + 2].set(lengths / fastest)
+        found = solve_chain(
+            lambda v: rates(v, fresh, start, network, lengths), guess, held, first_step=0.1 * jnp.min(path.steps) / fastest,
+            largest_change=moving,
+        )  # fmt: skip
+        states, converged = found.state, found.converged
+    core, _lack = split(states, start, network, lengths)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)
-    return found._replace(place=place, converged=found.converged & (change < AGREED)), holdup
+    return core.profile(states[:, :-m], converged)._replace(place=place), jnp.sum(core.solid)

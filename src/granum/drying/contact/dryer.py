@@ -28,10 +28,23 @@ NOTES = "houdon2017, notes D table {table}"
 
 
 _last = threading.local()
+PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}  # ready four times as soon; small arrays run as fast
+
+
+def ready(solve: Callable[..., Any]) -> Callable[..., Any]:
+    """Compiled when called from outside of compiled code, quickly rather than for speed: a dryer's arrays are small."""
+    quick = eqx.filter_jit(solve, compiler_options=PLAIN if jax.default_backend() == "cpu" else None)
+
+    def call(*given: Any) -> Any:
+        inside = isinstance(jnp.zeros(()) + 0.0, jax.core.Tracer)
+        return (solve if inside else quick)(*given)
+
+    return call
 
 
 def recalled(solve: Callable[..., Any]) -> Callable[..., Any]:
-    """Keep the last solution of each thread: the streams, the figures and the checks of one dryer ask for it one after the other."""
+    """As ``ready``, and keeps the last solution of each thread: streams, figures and checks of one dryer ask for it one after the other."""
+    solve = ready(solve)
 
     def call(*given: Any) -> Any:
         key = (solve, *jax.tree.leaves(given), jax.tree.structure(given))
@@ -176,7 +189,6 @@ def humidity_of(gas: Stream) -> Any:
 
 
 @recalled
-@eqx.filter_jit
 def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Profile:
     return dryer.contact(feed, gas).steady(dryer.inlet(feed, gas))
 
@@ -213,12 +225,10 @@ def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
     return kinetics.equilibrium(at)[0]
 
 
-def sized(
-    dryer: Any, name: str, target: Any, low: float, high: float, feed: Stream, gas: Stream, supplied: Callable[[Any], Stream] | None = None
-) -> Any:
+def sized(dryer: Any, name: str, target: Any, low: float, high: float, feed: Stream, gas: Stream, gas_velocity: Any = None) -> Any:
     """The dryer with one parameter such that the product has a moisture; an error that says why where there is none.
 
-    ``supplied`` gives the gas of each trial dryer when its flow follows the size.
+    With ``gas_velocity`` the gas flow follows the size of the trial dryer: it crosses its extent at this speed.
     """
     least = float(equilibrium(dryer.kinetics, feed, gas))
     shown = f"{float(target):.4g}"
@@ -230,30 +240,36 @@ def sized(
         )
     if float(target) >= float(feed.moisture_dry_basis):
         raise ApplicabilityError(_("The feed is already as dry as {value} kg/kg.").format(value=shown))
+    # numbers as arrays, so that dryers of one shape share compiled code; a zero may switch a part off and stays
+    given = jax.tree.map(lambda x: np.asarray(x, dtype=float) if isinstance(x, float) and x else x, (dryer, feed, gas, gas_velocity))
 
-    @eqx.filter_jit
-    def moisture(x: Any, dryer: Any) -> Any:
-        changed = eqx.tree_at(lambda d: getattr(d, name), dryer, jnp.exp(x))
-        return changed(feed, supplied(changed) if supplied else gas).product.moisture_dry_basis
+    def over(x: float) -> float:
+        return float(np.log(max(float(_moisture(name, jnp.asarray(x, dtype=float), *given)), 1e-12) / float(target)))
 
-    size = float(getattr(dryer, name))
-    wet = float(moisture(np.log(size), dryer))
-    grow = WIDER if wet > float(target) else 1.0 / WIDER
-    ahead, other = wet, size
-    while (ahead > float(target)) == (wet > float(target)) and low < other < high:
-        size, other = other, other * grow
-        ahead = float(moisture(np.log(other), dryer))
-    if (ahead > float(target)) == (wet > float(target)) or not np.isfinite(ahead):
-        best = min(wet, ahead)
+    size = float(np.log(getattr(dryer, name)))
+    first = last = over(size)
+    other = size
+    way = np.log(WIDER) if first > 0 else -np.log(WIDER)
+    while last * first > 0 and np.log(low) < other < np.log(high):
+        size, other, first = other, other + way, last
+        last = over(other)
+    if last * first > 0 or not np.isfinite(last):
         raise ApplicabilityError(
             _(
                 "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {high} leaves {best} kg/kg, because the exhaust "
                 "saturates or the gas cools to the solid; take more or hotter gas."
-            ).format(value=shown, name=name, high=f"{max(size, other):.3g}", best=f"{best:.4g}")
+            ).format(value=shown, name=name, high=f"{np.exp(max(size, other)):.3g}", best=f"{float(target) * np.exp(min(first, last)):.4g}")
         )
-
-    def over(x: float) -> float:
-        return float(np.log(max(float(moisture(x, dryer)), 1e-12) / float(target)))
-
-    found = root_scalar(over, bracket=sorted((float(np.log(size)), float(np.log(other)))), method="brentq", xtol=1e-13, rtol=1e-13).root
+    ends = sorted([(size, first), (other, last)])
+    known = dict(ends)
+    found = root_scalar(lambda x: known.get(x) or over(x), bracket=[x for x, _y in ends], method="toms748", xtol=1e-12, rtol=1e-12).root
     return eqx.tree_at(lambda d: getattr(d, name), dryer, float(np.exp(found)))
+
+
+@ready
+def _moisture(name: str, x: Any, dryer: Any, feed: Stream, gas: Stream, gas_velocity: Any) -> Any:
+    """Of the product of a dryer with the logarithm of its size."""
+    changed = eqx.tree_at(lambda d: getattr(d, name), dryer, jnp.exp(x))
+    if gas_velocity is not None:
+        gas = gas.part(gas=gas_velocity * changed.extent() * gas.gas_density / gas.gas_flow)
+    return jnp.sum(changed.profile(feed, gas).water) / feed.solid_flow

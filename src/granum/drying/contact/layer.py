@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import Any
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from granum.drying.contact.cells import Contact, Network, Profile
@@ -55,7 +54,6 @@ class LayerDryer(Dryer):
 
 
 @recalled
-@eqx.filter_jit
 def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Profile:
     like, found = dryer.passages(feed, *gases)
     return joined(like, found, feed.solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))

@@ -140,8 +140,11 @@ def _inverse(function: Callable[[Any], Any], H: Any) -> Any:
 
 
 def temperature_at(function: Callable[[Any], Any], H: Any, T: Any) -> Any:
-    """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess."""
-    for _step in range(NEWTON_STEPS):
+    """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess. Derivatives come from the last step alone."""
+
+    def step(_number: Any, T: Any) -> Any:
         value, rise = slope(function, T)
-        T = T - (value - H) / rise
-    return T
+        return T - (value - H) / rise
+
+    close = jax.lax.fori_loop(0, NEWTON_STEPS - 1, lambda i, T: jax.lax.stop_gradient(step(i, T)), jax.lax.stop_gradient(T))
+    return step(0, close)

@@ -68,13 +68,8 @@ class BeltDryer(LayerDryer):
     def size(cls, moisture_outlet: Any, feed: Stream, gas_velocity: Any, gas: Stream, layer_depth: Any, bulk_density_dry: Any,
              kinetics: AbstractKinetics, **more: Any) -> BeltDryer:  # fmt: skip
         """The belt area that a product moisture needs, with gas (of any flow) taken at a velocity through the empty section."""
-        density = gas.gas_density
         first = cls(1.0, layer_depth, bulk_density_dry, kinetics, **more)
-
-        def supplied(dryer: Any) -> Stream:
-            return gas.part(gas=gas_velocity * dryer.area * density / gas.gas_flow)
-
-        return sized(first, "area", moisture_outlet, 1e-3, 1e4, feed, gas, supplied)
+        return sized(first, "area", moisture_outlet, 1e-3, 1e4, feed, gas, gas_velocity)
 
     def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
         gas = inlets["gas"]

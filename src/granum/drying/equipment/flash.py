@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 from typing import Annotated, Any
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
@@ -75,7 +74,6 @@ class FlashDryer(Dryer):
 
 
 @recalled
-@eqx.filter_jit
 def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
     X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
@@ -132,7 +131,6 @@ class SiloDryer(LayerDryer):
 
 
 @recalled
-@eqx.filter_jit
 def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> tuple[Profile, Any, Any]:
     """The profile, and vapor and enthalpy of the cooling air."""
     gases = (gas,) if cooling is None else (gas, cooling)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 from typing import Annotated, Any
 
-import equinox as eqx
 import jax.numpy as jnp
 from jax.scipy.special import gammaln
 
@@ -29,7 +28,7 @@ class SprayDryer(Dryer):
     """Drops of a Rosin–Rammler spread around the atomizer's Sauter mean fall with the gas, shrink while they are full drops, and dry.
 
     The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or suspended, is shared out over them.
-    ``gas_dispersion`` mixes the gas along the chamber: exchange flow over through-flow, zero for plug flow, a million for a mixed chamber.
+    ``gas_dispersion`` mixes the gas along the chamber: exchange flow between cells over through-flow, zero for plug flow, up to some tens.
     """
 
     length: Length
@@ -105,7 +104,6 @@ class SprayDryer(Dryer):
 
 
 @recalled
-@eqx.filter_jit
 def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
     drops = dryer.atomized(feed, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
