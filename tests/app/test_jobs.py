@@ -26,9 +26,10 @@ def client(serve: Any) -> Iterator[httpx.Client]:
         yield found
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def crew() -> Iterator[Crew]:
-    made = Crew(count=1, waiting=2, memory=4000)
+    """One process at a time, shared by the tests below: each start of one takes seconds."""
+    made = Crew(count=1, waiting=2, memory=2500)
     yield made
     made.close()
 
@@ -113,14 +114,10 @@ def test_time_and_queue_are_bounded(crew: Crew) -> None:
         crew.submit("chart", {"key": "no.such", "inputs": {}}).future.result(timeout=100)
 
 
-def test_memory_is_bounded() -> None:
-    small = Crew(count=1, memory=1500)
-    try:
-        with pytest.raises(Busy, match="memory"):
-            small.submit("fill", {"bytes": 3_000_000_000}).future.result(timeout=100)
-        assert json.loads(small.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}  # the next job finds a new process
-    finally:
-        small.close()
+def test_memory_is_bounded(crew: Crew) -> None:
+    with pytest.raises(Busy, match="memory"):
+        crew.submit("fill", {"bytes": 3_000_000_000}).future.result(timeout=100)
+    assert json.loads(crew.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}  # the next job finds a new process
 
 
 def test_a_worn_process_is_replaced_and_nothing_is_lost(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:

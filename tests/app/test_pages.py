@@ -197,10 +197,13 @@ def test_a_pasted_table_is_fitted(page: Page, language: str) -> None:
         f"{a * v * v + b * v + wiggle},{v}"
         for v, wiggle in ((0.0005, 0.01), (0.001, -0.01), (0.0015, 0.01), (0.002, -0.02), (0.0025, 0.01), (0.003, 0.0))
     ]
-    page.one("#table").send_keys("time [s],filtrate_volume [m^3]\n" + "\n".join(rows))
+    page.one("#table").send_keys("t / s,Filtrat (m3)\n" + "\n".join(rows))  # named otherwise: the columns are told what they are
+    for column, named in (("time", "t / s"), ("filtrate_volume", "Filtrat (m3)")):
+        Select(page.one(f"#column-{column}")).select_by_visible_text(named)
+    assert page.one("#table").get_attribute("value").startswith("time [s],filtrate_volume [m3]")
     row = page.one("[data-parameter=cake_resistance]")
     assert "10¹" in row.text or "× 10" in row.text
-    page.one(".plot .main-svg")
+    assert len(page.until(lambda: len(found := page.all(".plot .main-svg")) >= 2 and found)) >= 2  # fit and residuals
     page.settle()
     page.check()
 
@@ -248,6 +251,18 @@ def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None
     assert "# root-two classes" in saved  # comments survive
     page.button("Undo").click()
     page.until(lambda: page.one("[data-panel=mill] input[id$=holdup_mass]").get_attribute("value") == "1.6")
+
+
+def test_unsaved_changes_are_there_on_coming_back(page: Page) -> None:
+    page.open(f"lines/{quote(CASE, safe='')}")
+    page.one(".diagram svg")
+    page.browser.execute_script("document.querySelector('[data-form=mill]').open = true")
+    page.write("[data-form=mill] input[id$=holdup_mass]", "2.4")
+    page.until(lambda: "2.4 tonne" in page.one("#case").get_attribute("value"))
+    page.browser.refresh()
+    page.until(lambda: "2.4 tonne" in page.one("#case").get_attribute("value"))
+    page.button("Undo").click()
+    page.until(lambda: "1.6 tonne" in page.one("#case").get_attribute("value"))
 
 
 @pytest.mark.parametrize(("language", "run"), [("en", "Run the study"), ("fr", "Lancer l'étude")])

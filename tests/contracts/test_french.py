@@ -12,6 +12,7 @@ import granum
 from granum.core.glossary import glossary
 from granum.core.i18n import catalog
 from granum.core.kinds import KINDS
+from granum.core.registry import everything
 
 SOURCE = Path(granum.__file__).parent
 MESSAGES = sorted(
@@ -45,3 +46,16 @@ def test_french_keeps_the_placeholders() -> None:
 def test_kinds_and_terms_have_french() -> None:
     assert [k.name for k in KINDS.values() if k.name not in catalog("fr")] == []
     assert [t.name for t in glossary().values() if not t.fr] == []
+
+
+def test_endings_of_labels_and_words_of_choices_have_french() -> None:
+    missing = set()
+    for thing in everything().values():
+        for p in (*thing.card.parameters, *thing.card.outputs):
+            rest = p.name[len(p.term.name) :].strip("_") if p.term else p.name
+            missing |= {
+                word
+                for w in (rest, *map(str, p.choices))
+                if (word := w.replace("_", " ")) and word not in catalog("fr") and not word.isdigit()
+            }
+    assert not missing

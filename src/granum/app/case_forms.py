@@ -69,16 +69,7 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
         "summary": form["summary"],
         "parameters": form["parameters"],
         "values": {p.name: _text(table[p.name]) for p in card.parameters if p.name in table},
-        "laws": {p.name: _law_labels(p, table[p.name]) for p in card.parameters if p.law and isinstance(table.get(p.name), dict)},
     }
-
-
-def _law_labels(p: Parameter, table: Mapping[str, Any]) -> dict[str, str]:
-    """Labels of the options of a law."""
-    known = {thing.card.name.removeprefix(p.law or "").strip("_"): thing.card for thing in registry.family(p.law or "").values()}
-    known |= {thing.card.name: thing.card for thing in registry.family(p.law or "").values()}
-    card = known.get(str(table.get("law", "")))
-    return {"law": card.title} | {q.name: q.label for q in card.parameters} if card else {}
 
 
 def _feed(table: Mapping[str, Any]) -> dict[str, Any]:

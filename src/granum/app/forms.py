@@ -30,6 +30,7 @@ def card_form(key: str) -> dict[str, Any]:
         row["allowed"] = bounds_text(p)
         row["source_range"] = range_text(p, p.fitted) if p.fitted else ""
         row["options"] = options(p)
+        row["laws"] = law_labels(p)
         if p.kind:
             row["units"] = _units_of(p.kind, row["units"])
         row["default_shown"] = None if p.required or p.default is None else entry(p, p.default)
@@ -105,8 +106,28 @@ def options(p: Parameter) -> list[dict[str, str]]:
         return [{"value": "yes", "label": _("yes")}, {"value": "no", "label": _("no")}]
     if not p.law:
         return []
-    ready = [t.card for t in registry.family(p.law).values() if t.card.sort != "law" or not any(q.required for q in t.card.parameters)]
-    return sorted(({"value": c.name, "label": law_label(c)} for c in ready), key=lambda o: o["label"])
+    found = [option for thing in registry.family(p.law).values() if (option := _law_option(thing.card)) is not None]
+    return sorted(found, key=lambda o: o["label"])
+
+
+def _law_option(card: Card) -> dict[str, str] | None:
+    """A law that may be chosen; one that needs parameters starts from those of its own example, or is left to case files."""
+    if card.sort != "law" or not any(q.required for q in card.parameters):
+        return {"value": card.name, "label": law_label(card)}
+    example = docstring_values(card)
+    if any(q.required and q.name not in example for q in card.parameters):
+        return None
+    return {"value": card.name, "label": law_label(card), "table": json.dumps({"law": card.name} | example, ensure_ascii=False)}
+
+
+def law_labels(p: Parameter) -> dict[str, dict[str, str]]:
+    """Labels of the laws with parameters that may stand for a parameter, by the names under which a case or a link calls them."""
+    found: dict[str, dict[str, str]] = {}
+    for thing in registry.family(p.law).values() if p.law else ():
+        if thing.card.sort == "law":
+            words = {"law": thing.card.title} | {q.name: q.label for q in thing.card.parameters}
+            found |= {thing.card.name: words, thing.card.name.removeprefix(p.law or "").strip("_"): words}
+    return found
 
 
 def _edge(value: float, kind: Kind) -> str:

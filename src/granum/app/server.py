@@ -146,6 +146,12 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
         name = Path(file.filename or "data.csv").name
         return _json(await crew().run("fit", {"key": key, "content": content, "name": name, "conditions": conditions}, key, request))
 
+    @app.post("/api/table")
+    async def table(request: Request, file: Annotated[UploadFile, File()]) -> Response:
+        """An uploaded table (CSV or Excel) as comma-separated text."""
+        content = await file.read(LARGEST_BODY + 1)
+        return _json(await crew().run("table", {"content": content, "name": Path(file.filename or "data.csv").name}, "", request))
+
     @app.post("/api/run")
     async def run(request: Request, case: Case, place: Place = "") -> Response:
         """Solve the text of a case file; ``place`` is where it was opened, for the files it names."""

@@ -20,7 +20,7 @@ def spread(thing: Any, given: dict[str, Any]) -> list[dict[str, Any]]:
         if key != thing.card.key and other.card.sort == "formula" and _suffices(other, given):
             rows += _row(other, {p.name: given[p.name] for p in other.card.parameters if p.name in given}, law_label(other.card), {})
     for p in thing.card.parameters:
-        for option in options(p) if p.law else []:
+        for option in (o for o in options(p) if p.law and "table" not in o):
             rows += _row(thing, given | {p.name: option["value"]}, option["label"], {p.name: option["value"]})
     return rows[:MOST]
 

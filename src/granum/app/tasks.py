@@ -106,7 +106,8 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
     source = io.BytesIO(payload["content"])
     source.name = payload["name"]
     test = test_type.read(source, **inputs_for(test_type.card, conditions))
-    data = test.fit().as_json()
+    found = test.fit()
+    data = found.as_json() | {"residuals": found.residuals, "kept": found.kept}
     return packed(
         data
         | {
@@ -115,6 +116,15 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
             "chart": json.loads(test.chart().to_json()),
         }
     )
+
+
+def table(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The text of a data file, whatever it was, so that a page can show it and name its columns."""
+    from granum.estimation.tables import as_csv
+
+    source = io.BytesIO(payload["content"])
+    source.name = payload["name"]
+    return packed({"text": as_csv(source)})
 
 
 @lru_cache(maxsize=4)
@@ -177,5 +187,5 @@ def fill(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 
 TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
-    task.__name__: task for task in (calculate, others, chart, fit, run, report, study_choices, study, rest, fill)
+    task.__name__: task for task in (calculate, others, chart, fit, table, run, report, study_choices, study, rest, fill)
 }

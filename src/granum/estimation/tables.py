@@ -68,6 +68,15 @@ def held(source: Source) -> tuple[Held, tuple[str, ...]]:
     return Held(raw, name), tuple(_heading(str(cell or ""))[0] for cell in first)
 
 
+def as_csv(source: Source) -> str:
+    """A data file as comma-separated text with decimal points, whatever it was."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source))):
+        writer.writerow(["" if cell is None else cell for cell in cells])
+    return text.getvalue()
+
+
 def _heading(cell: str) -> tuple[str, str | None]:
     match = _HEADER.match(cell)
     assert match is not None

@@ -110,8 +110,9 @@ function fitted({ layout, data }, width) {
   const narrow = width < 560;
   const margin = { ...layout.margin, t: 36, ...(narrow ? { l: 56, r: 12 } : {}) };
   const legend = narrow ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: -0.22, yanchor: 'top', font: { size: 11 } } : layout.legend;
+  const table = narrow && data.some((trace) => trace.type === 'table');
   const axes = narrow ? { xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 }, ...(count > 8 ? { showlegend: false } : {}) } : {};
-  return { ...layout, title: undefined, width: undefined, autosize: true, margin, legend, ...axes };
+  return { ...layout, title: undefined, width: undefined, autosize: true, ...(table ? { height: (layout.height || 450) + 220 } : {}), margin, legend, ...axes };
 }
 
 export function Plot({ figure, label, onPoint }) {

@@ -17,33 +17,89 @@ function Test({ card, given }) {
   const example = columns.map((p) => `${p.name} [${p.units?.[0]?.unit || '1'}]`).join(',');
   const [values, setValues] = useState(Object.keys(given).length ? given : ordinary(conditions));
   const [table, setTable] = useState('');
-  const [file, setFile] = useState(null);
+  const [told, setTold] = useState('');
   const [over, setOver] = useState(false);
   useEffect(() => replaceLink('lab', card.card, values), [values]);
   const answer = useAnswer(async (signal) => {
-    const source = file || (table.trim() ? new File([table], 'data.csv', { type: 'text/csv' }) : null);
-    if (!source) return null;
+    if (!table.trim()) return null;
     const form = new FormData();
-    form.append('file', source);
+    form.append('file', new File([table], 'data.csv', { type: 'text/csv' }));
     form.append('conditions', JSON.stringify(values));
     return ask(`/api/fit/${card.card}`, form, { signal });
-  }, [table, file, JSON.stringify(values)], 250);
-  const take = (list) => { if (list?.length) { setFile(list[0]); setTable(''); } };
+  }, [table, JSON.stringify(values)], 250);
+  const take = async (list) => {
+    if (!list?.length) return;
+    const form = new FormData();
+    form.append('file', list[0]);
+    try { setTable((await ask('/api/table', form)).text); setTold(list[0].name); } catch (problem) { setTold(problem.message); }
+  };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => { e.preventDefault(); setOver(true); }} onDragLeave=${() => setOver(false)} onDrop=${(e) => { e.preventDefault(); setOver(false); take(e.dataTransfer.files); }}>
         <label>${t('Drop a CSV or Excel file here, or choose one:')} <input type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
-        ${file && html`<p>${file.name} <button class="button" onClick=${() => setFile(null)}>${t('Remove')}</button></p>`}</div>
+        <div role="status">${told}</div></div>
       <h2><label for="table">${t('or paste the table')}</label></h2>
-      <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => { setTable(e.target.value); setFile(null); }}></textarea>
+      <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => setTable(e.target.value)}></textarea>
+      <${Columns} columns=${columns} table=${table} change=${setTable} />
       <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
       <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${answer.error?.details?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
-      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} />`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
 }
 
-function Fitted({ data }) {
+const MARKS = ['\t', ';', ','];
+const HEADING = /^\s*(.*?)\s*(?:[[(]\s*(.*?)\s*[\])]|\s\/\s*(.+?))?\s*$/;
+
+/** The first line of a table: where it is, its separator, its cells; a table without names gets numbered columns. */
+function headOf(table) {
+  const lines = table.split('\n');
+  const at = lines.findIndex((line) => line.trim() && !line.trimStart().startsWith('#'));
+  if (at < 0) return null;
+  const mark = MARKS.reduce((best, one) => (lines[at].split(one).length > lines[at].split(best).length ? one : best));
+  const cells = lines[at].split(mark).map((cell) => cell.trim().replace(/^"|"$/g, ''));
+  const bare = cells.every((cell) => cell !== '' && Number.isFinite(Number(cell.replace(',', '.'))));
+  return { lines, at, mark, bare, cells: bare ? cells.map((_, i) => t('column {number}', { number: i + 1 })) : cells };
+}
+const heading = (cell) => { const [, name, one, other] = HEADING.exec(cell); return { name: name.toLowerCase().replace(/[ -]/g, '_'), unit: one ?? other ?? '' }; };
+
+/** Which column of the table is what, in which unit; a choice rewrites the first line of the table. */
+function Columns({ columns, table, change }) {
+  const head = headOf(table);
+  if (!head) return null;
+  const set = (p, place, unit) => {
+    const cells = head.cells.map((cell, i) => (i === place ? `${p.name}${unit ? ` [${unit}]` : ''}` : heading(cell).name === p.name ? `(${cell})` : cell));
+    const lines = [...head.lines];
+    lines.splice(head.at, head.bare ? 0 : 1, cells.join(head.mark));
+    change(lines.join('\n'));
+  };
+  return html`<h2>${t('Which column is what')}</h2>${columns.map((p) => {
+    const place = head.bare ? -1 : head.cells.findIndex((cell) => heading(cell).name === p.name);
+    const unit = place < 0 ? '' : heading(head.cells[place]).unit;
+    const usual = p.units?.[0]?.unit === 'dimensionless' ? '' : p.units?.[0]?.unit || '';
+    return html`<div class="field" key=${p.name}><label for=${'column-' + p.name}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
+      <div class="entry"><select id=${'column-' + p.name} class="alone" value=${String(place)} onChange=${(e) => Number(e.target.value) >= 0 && set(p, Number(e.target.value), heading(head.cells[Number(e.target.value)]).unit || usual)}>
+        <option value="-1">—</option>${head.cells.map((cell, i) => html`<option value=${String(i)} selected=${i === place}>${cell || t('column {number}', { number: i + 1 })}</option>`)}</select>
+      ${p.units?.length > 0 && html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${unit} disabled=${place < 0} onChange=${(e) => set(p, place, e.target.value)}>
+        ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${u.label || '1'}</option>`)}</select>`}</div></div>`;
+  })}`;
+}
+
+/** The fit as a table of a case file: the line then takes what the test gave. */
+function asCase(data, values) {
+  const quoted = (text) => JSON.stringify(String(text));
+  const given = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined);
+  const name = data.card.split('.')[1];
+  return [`[fits.${name}]`, `test = ${quoted(data.card)}`, 'data = "data.csv"', `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
+    `gives = { ${Object.keys(data.parameters).map((key) => `"UNIT.${key}" = ${quoted(key)}`).join(', ')} }`].join('\n');
+}
+
+const residuals = (data) => ({
+  data: [{ type: 'scatter', mode: 'markers', x: data.residuals.map((_, i) => i + 1), y: data.residuals, marker: { color: '#0b6e6e', symbol: data.kept.map((kept) => (kept ? 'circle' : 'circle-open')) } }],
+  layout: { height: 240, margin: { l: 70, r: 15, t: 10, b: 45 }, plot_bgcolor: 'white', xaxis: { title: { text: t('point') }, dtick: Math.ceil(data.residuals.length / 12) }, yaxis: { title: { text: t('measured less model (SI)') }, zeroline: true, zerolinecolor: '#1c2430' } },
+});
+
+function Fitted({ data, values }) {
   const save = () => {
     const { chart: _chart, ...rest } = data;
     const place = URL.createObjectURL(new Blob([JSON.stringify(rest, null, 1)], { type: 'application/json' }));
@@ -54,6 +110,8 @@ function Fitted({ data }) {
     <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}</td><td class="n">${row.derived ? row.value : html`<strong>${row.value}</strong>`}</td><td class="n">${row.error}</td><td class="n">${row.interval}</td><td>${row.unit}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
+    ${data.residuals?.length > 0 && !Array.isArray(data.residuals[0]) && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} />`}
     <p class="small dim">${data.statistics_shown}</p>
+    <details><summary>${t('Use in a line')}</summary><p class="small">${t('Put this into the case file, with the table saved beside it as data.csv, and write the name of the unit instead of UNIT.')}</p><pre>${asCase(data, values)}</pre></details>
     <button class="button" onClick=${save}>${t('Download the result')}</button>`;
 }

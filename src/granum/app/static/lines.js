@@ -4,6 +4,11 @@ import { Field } from './form.js';
 
 const MOST_KEPT = 2;
 
+/** The changes that were not saved, when the same file is opened again. */
+function drafted(where) {
+  try { const found = JSON.parse(localStorage.getItem('granum-draft')); return found?.place === where ? found.text : null; } catch { return null; }
+}
+
 export function Lines({ state }) {
   const [list, setList] = useState(null);
   const [path, setPath] = useState(state.key || '');
@@ -21,17 +26,20 @@ export function Lines({ state }) {
   const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files, titles: shipped.titles }));
   useEffect(() => { files(); return () => stop.current?.abort(); }, []);
   useEffect(() => { if (state.key.includes(':')) open(state.key); }, [state.visit]);
+  const draft = (next, where) => { try { next === null ? localStorage.removeItem('granum-draft') : localStorage.setItem('granum-draft', JSON.stringify({ place: where, text: next })); } catch { /* private window */ } };
   const shown = (next) => { latest.current = next; setText(next); ask('/api/case/form', { case: next }).then((found) => { if (latest.current === next) setForm(found); }, () => setForm(null)); };
-  const change = (next) => { setPast((before) => [...before.slice(-50), text]); shown(next); };
+  const change = (next) => { setPast((before) => [...before.slice(-50), latest.current]); draft(next, place); shown(next); };
   const open = async (where) => {
     if (!where) return;
     const [sort, ...rest] = where.split(':');
     try {
       const found = await ask(`/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`);
-      if (text) setPast([...past, text]);
-      shown(found.text); setPlace(where); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null); setKept([]);
+      const kept = drafted(where);
+      const now = kept ?? found.text;
+      if (text || kept) setPast([...past, kept ? found.text : text]);
+      shown(now); setTold(kept ? t('With the changes of last time; Undo takes them back.') : ''); setPlace(where); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null); setKept([]);
       replaceLink('lines', where, {});
-      solve(found.text, where);
+      solve(now, where);
     } catch (problem) { setError(problem); }
   };
   const solve = async (given, where = place) => {
@@ -52,11 +60,11 @@ export function Lines({ state }) {
       waiting.current = setTimeout(() => solve(found.case), 400);
     } catch (problem) { setError(problem); }
   };
-  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); shown(before); if (outcome) solve(before); };
+  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); draft(past.length > 1 ? before : null, place); shown(before); if (outcome) solve(before); };
   const save = async () => {
     try {
       await ask(`/api/workspace/${path.split('/').map(encodeURIComponent).join('/')}`, { text }, { method: 'PUT' });
-      setTold(t('Saved.')); setPlace('workspace:' + path); replaceLink('lines', 'workspace:' + path, {}); files(); setTimeout(() => setTold(''), 3000);
+      draft(null); setTold(t('Saved.')); setPlace('workspace:' + path); replaceLink('lines', 'workspace:' + path, {}); files(); setTimeout(() => setTold(''), 3000);
     } catch (problem) { setError(problem); }
   };
   const report = async () => {
@@ -69,15 +77,15 @@ export function Lines({ state }) {
     } catch (problem) { setError(problem); } finally { setBusy(false); }
   };
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
-    <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="">${t('Open…')}</option>
-      ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f}>${f}</option>`)}</optgroup>`}
-      ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
+    <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
+      ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
+      ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
       <button class="button main" disabled=${!text || busy} onClick=${() => solve(text)}>${t('Solve')}</button>
       <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button></div>
-    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button> <span role="status">${told}</span></div>`}
+    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button></div>`}<span class="small dim" role="status">${told}</span>
     ${form && html`<${Forms} form=${form} edit=${edit} problem=${error?.details} message=${error?.message} />`}
     <details open=${!form}><summary>${t('Case file')}</summary>
-    <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => { setPast([...past, latest.current]); shown(e.target.value); }} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
+    <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => change(e.target.value)} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
     <section aria-label=${t('Believe')}>
     ${busy && html`<div class="row" aria-busy="true"><span role="status">${t('Working… a new line takes a little while the first time.')}</span> <button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button></div>`}
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
@@ -105,7 +113,7 @@ function ItemForm({ table, name, item, edit, wrong, message, spot = 'form' }) {
     timer.current[key] = setTimeout(() => edit(table, name, key, value), 500);
   };
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${{ ...p, name: `${spot}-${name}-${p.name}` }} labels=${item.laws?.[p.name]} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${{ ...p, name: `${spot}-${name}-${p.name}` }} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
 }
 
 function Outcome({ data, kept, form, edit, tools, clear }) {
