@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from granum.core.glossary import quantity_in, term
+from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 
@@ -59,9 +59,9 @@ class Card:
         if word is None:
             return self.name.replace("_", " ").capitalize()
         label = term(word).label
-        author = self.name[len(word) :].strip("_")
+        rest = self.name[len(word) :].strip("_")
         label = label[0].upper() + label[1:]
-        return f"{label} ({'–'.join(part.capitalize() for part in author.split('_'))})" if author else label
+        return f"{label} ({ending(rest)})" if rest else label
 
     @property
     def summary(self) -> str:

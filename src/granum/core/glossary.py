@@ -8,7 +8,7 @@ from functools import cache
 from importlib.resources import files
 
 from granum.core.errors import unknown_name
-from granum.core.i18n import current_language
+from granum.core.i18n import _, catalog, current_language
 
 
 @dataclass(frozen=True)
@@ -73,3 +73,12 @@ def quantity_in(name: str) -> str | None:
         if candidate in glossary():
             return candidate
     return None
+
+
+def ending(rest: str) -> str:
+    """What follows the glossary word in a name: the authors of a correlation, or words, which are those that have a translation."""
+    phrase = rest.replace("_", " ")
+    french = catalog("fr").get(phrase, "")
+    if french.isupper():
+        return french
+    return _(phrase) if french[:1].islower() else "–".join(part.capitalize() for part in rest.split("_"))

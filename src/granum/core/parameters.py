@@ -14,7 +14,7 @@ import numpy as np
 
 from granum.core import units
 from granum.core.errors import InputError, unknown_name
-from granum.core.glossary import Term, glossary
+from granum.core.glossary import Term, ending, glossary
 from granum.core.i18n import _
 from granum.core.kinds import Kind, Law, Series, extra_of, kind_of
 
@@ -67,8 +67,8 @@ class Parameter:
         found = self.term
         if found is None:
             return self.name.replace("_", " ")
-        rest = self.name[len(found.name) :].strip("_").replace("_", " ")
-        return f"{found.label} ({_(rest)})" if rest else found.label
+        rest = self.name[len(found.name) :].strip("_")
+        return f"{found.label} ({ending(rest)})" if rest else found.label
 
     @property
     def units(self) -> tuple[str, ...]:

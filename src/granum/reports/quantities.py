@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from granum.core.cards import Card
-from granum.core.glossary import quantity_in, term
+from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.parameters import Parameter, default_as_json
@@ -79,10 +79,10 @@ def figure_named(name: str, unit: str, card: str = "") -> Parameter:
 def label_of(name: str) -> str:
     """The glossary's label of a result that is no declared output."""
     word = quantity_in(name)
-    rest = name[len(word or "") :].strip("_").replace("_", " ")
+    rest = name[len(word or "") :].strip("_")
     if not word:
-        return _(rest)
-    return f"{term(word).label} ({_(rest)})" if rest else term(word).label
+        return _(rest.replace("_", " "))
+    return f"{term(word).label} ({ending(rest)})" if rest else term(word).label
 
 
 def statistics_text(data: dict[str, Any]) -> str:
