@@ -87,7 +87,7 @@ def test_on_the_command_line(tmp_path) -> None:
     told = json.loads(outcome.stdout)["next"]  # v = k d²: the largest grain tells most
     assert told["at"]["particle_diameter"]["value"] == pytest.approx(150e-6)
     assert 0.5 < told["shrinkage"] < 1.0
-    assert "Next measurement: particle_diameter" in CliRunner().invoke(app, [*words, "--estimate", "dynamic_viscosity", "--next"]).stdout
+    assert "Next measurement: particle diameter" in CliRunner().invoke(app, [*words, "--estimate", "dynamic_viscosity", "--next"]).stdout
     outcome = CliRunner().invoke(app, words)
     assert outcome.exit_code == 2
     assert "--estimate dynamic_viscosity" in outcome.stderr
