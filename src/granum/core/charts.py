@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import plotly.graph_objects as go
 
 from granum.core.glossary import glossary
@@ -58,10 +59,27 @@ def figure(x: str, y: str, *, title: str = "", x_log: bool = False, y_log: bool 
     return chart
 
 
+def _mark_short_decades(chart: go.Figure) -> None:
+    """Marks within the decade on logarithmic axes whose data span little more than one, which would have one mark or none."""
+    for axis, coordinate in ((chart.layout.xaxis, "x"), (chart.layout.yaxis, "y")):
+        if axis.type != "log":
+            continue
+        seen = np.concatenate([np.asarray(getattr(trace, coordinate, None), dtype=float).ravel() for trace in chart.data])
+        seen = seen[np.isfinite(seen) & (seen > 0)]
+        low, high = (float(seen.min()), float(seen.max())) if seen.size else (1.0, 100.0)
+        short = high < 20.0 * low and low >= 1e-3 and high < 1e5
+        steps = (1, 2, 5) if high > 6 * low else (1, 1.5, 2, 3, 4, 5, 6, 8)
+        marks = [s * 10.0**k for k in range(-4, 5) for s in steps]
+        axis.update(tickvals=marks, tickformat="~r", tickmode="array") if short else axis.update(
+            tickvals=None, tickformat=None, tickmode="linear"
+        )
+
+
 def add_points(chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK, hollow: bool = False, **more: Any) -> None:
     """Data points; hollow ones are excluded from a fit."""
     marker = {"color": "white" if hollow else color, "size": 7, "line": {"color": color, "width": 1.5}}
     chart.add_trace(go.Scatter(x=x, y=y, mode="markers", name=name, marker=marker, **more))
+    _mark_short_decades(chart)
 
 
 def add_line(
@@ -69,6 +87,7 @@ def add_line(
 ) -> None:
     """A model line."""
     chart.add_trace(go.Scatter(x=x, y=y, mode="lines", name=name, line={"color": color, "dash": dash, "width": width}, **more))
+    _mark_short_decades(chart)
 
 
 def add_band(chart: go.Figure, x: Any, low: Any, high: Any, name: str, *, color: str = ACCENT) -> None:

@@ -34,8 +34,8 @@ def solubility_chart(
 ) -> Any:
     """Solubility curve with the stable, metastable and labile zones, and the path of a batch through them.
 
-    The limit of the metastable zone is the solubility curve moved by the zone width towards higher temperature, as measured with
-    cooling experiments (lab test ``metastable_zone``). Pass the temperature and composition of a simulated batch as the path.
+    The limit of the metastable zone is the solubility curve moved by the zone width towards lower temperature where the solubility rises, as measured
+    with cooling experiments (lab test ``metastable_zone``), and towards higher temperature where it falls. Pass the temperature and composition of a simulated batch as the path.
 
     >>> drawing = solubility_chart(solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
     ...                            temperature_cold="10 degC", temperature_hot="50 degC")
@@ -43,7 +43,8 @@ def solubility_chart(
     ['solubility', 'metastable limit']
     """
     T = np.linspace(temperature_cold, temperature_hot, 120)
-    saturated, limit = np.asarray(solubility(T)), np.asarray(solubility(T + metastable_width))
+    saturated = np.asarray(solubility(T))
+    limit = np.max([solubility(T + shift) for shift in np.linspace(-metastable_width, metastable_width, 21)], axis=0)
     x = T - ZERO_CELSIUS
     drawing = figure(axis_title("temperature", "degC"), axis_title("solute_per_solvent", "kg/kg"), title=_("Solubility and zones"))
     add_line(drawing, x, saturated, _("solubility"), color=LIQUID, width=3)
@@ -101,7 +102,7 @@ def batch_chart(
     add_line(drawing, t, np.asarray(course.crystals), _("crystals"), color=SOLID)
     add_line(drawing, t, np.asarray(course.temperature) - ZERO_CELSIUS, _("temperature"), color=HEAT, dash="dot", yaxis="y2")
     drawing.update_layout(yaxis2={"overlaying": "y", "side": "right", "title": axis_title("temperature", "degC"), "showgrid": False, "tickmode": "auto", "nticks": 6},
-                          margin={"r": 70}, legend={"orientation": "h", "y": 1.08})  # fmt: skip
+                          margin={"r": 70, "t": 80}, legend={"orientation": "h", "y": 1.08})  # fmt: skip
     return drawing
 
 
