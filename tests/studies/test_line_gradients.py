@@ -11,6 +11,7 @@ import pytest
 
 import granum as gr
 from granum.cases import read_studies
+from granum.flowsheet.packing import compiled
 from granum.studies.lines import LineSubject
 
 FOLDER = Path(__file__).parents[2] / "examples" / "potassium-nitrate"
@@ -40,40 +41,42 @@ def outputs(subject):
 
 
 @pytest.fixture(scope="module")
-def scaled(subject, outputs):
-    """Figures for inputs relative to those of the case."""
+def along(subject, outputs):
+    """Figures, and their derivative along a direction, for inputs relative to those of the case; compiled once."""
     run, numbers = subject.traced(INPUTS, outputs), subject.numbers()
     start = jnp.array([subject.nominal(p) for p in INPUTS])
-    return lambda z: run(numbers, start * z)[0]
+    return compiled(lambda z, d: jax.jvp(lambda z: run(numbers, start * z)[0], (z,), (d,)))
 
 
 @pytest.fixture(scope="module")
-def value(scaled):
-    return jax.jit(scaled)
+def value(along):
+    return lambda z: along(jnp.asarray(z), jnp.zeros(len(INPUTS)))[0]
 
 
-def test_every_derivative_equals_differences(outputs, scaled, value) -> None:
-    slope = jax.jit(lambda d: jax.jvp(scaled, (jnp.ones(len(INPUTS)),), (d,))[1])
-    figures = np.asarray(value(jnp.ones(len(INPUTS))))
-    nothing = np.abs(figures) < 1e-9  # the share of crystals that a saturated wash dissolves is zero here
+def test_every_derivative_equals_differences(outputs, along, value) -> None:
+    def slope(direction: np.ndarray) -> np.ndarray:
+        return along(jnp.ones(len(INPUTS)), jnp.asarray(direction))[1]
+
+    figures = value(jnp.ones(len(INPUTS)))
+    nothing = np.abs(figures) < 1e-9
     far = []
     for i, direction in enumerate(np.eye(len(INPUTS))):
-        exact = np.asarray(slope(jnp.asarray(direction)))
+        exact = slope(direction)
         miss = np.full(len(outputs), np.inf)
         for h in (1e-3, 3e-4, 1e-4):  # fourth order: the best step for each figure, some being curved and some all but flat
-            two, one, fore, aft = (np.asarray(value(jnp.asarray(1.0 + k * h * direction))) for k in (-2, -1, 1, 2))
+            two, one, fore, aft = (value(1.0 + k * h * direction) for k in (-2, -1, 1, 2))
             difference = (two - 8.0 * one + 8.0 * fore - aft) / (12.0 * h)
             # an elasticity below 0.01 is compared to 1e-8 of the figure: the rounding of the differences is not smaller
             miss = np.minimum(miss, np.abs(exact - difference) / np.maximum(np.abs(difference), 1e-2 * np.abs(figures) + 1e-30))
         far += [(INPUTS[i], outputs[j], miss[j]) for j in np.flatnonzero(~(miss < 1e-6) & ~nothing)]
     assert not far
     assert nothing.sum() <= 2
-    assert np.asarray(slope(jnp.eye(len(INPUTS))[0]))[outputs.index("crystals.solid_flow")] < 0.0  # warmer mother liquor keeps more salt
+    assert slope(np.eye(len(INPUTS))[0])[outputs.index("crystals.solid_flow")] < 0.0  # warmer mother liquor keeps more salt
 
 
 def test_figures_of_the_subject_are_those_of_the_run(line, outputs, value) -> None:
     """A study sees the same line as ``granum run``."""
-    run, figures = line.solve(), dict(zip(outputs, np.asarray(value(jnp.ones(len(INPUTS)))), strict=True))
+    run, figures = line.solve(), dict(zip(outputs, value(jnp.ones(len(INPUTS))), strict=True))
     for path in ("crystallizer.mass_median_size", "filter.moisture_dry_basis", "dryer.evaporation_rate"):
         assert figures[path] == pytest.approx(run.figure(path), rel=1e-9)
     assert figures["crystals.solid_flow"] == pytest.approx(float(run.streams["crystals"].solid_flow), rel=1e-9)
