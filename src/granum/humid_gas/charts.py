@@ -22,24 +22,31 @@ if TYPE_CHECKING:
 
 WIDTH, HEIGHT = 1120, 790
 MARGIN = {"l": 70, "r": 80, "t": 70, "b": 62}
-TABLE_HEIGHT = 200
+NEARBY = np.array([0.0, -0.04, 0.04, -0.08, 0.08, -0.12, 0.12, -0.18, 0.18, -0.24, 0.24, -0.3, 0.3])  # shares where a label may evade to
 States = Annotated[Temperature, Series("states")] | None
 Humidities = Annotated[HumidityRatio, Series("states")] | None
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
-def default_humidity(T_high: float) -> float:
-    """A humidity ratio that suits a highest temperature."""
+def default_humidity(T_high: float, pair: AbstractPair = AIR_WATER) -> float:
+    """A humidity ratio that suits a highest temperature: that of air and water, times what a more volatile vapor makes of it."""
     t = T_high - ZERO_CELSIUS
-    return 0.03 if t <= 60.0 else 0.03 + 8e-4 * (t - 55.0)
+    w = 0.03 if t <= 60.0 else 0.03 + 8e-4 * (t - 55.0)
+    if pair.vapor_molar_mass == AIR_WATER.vapor_molar_mass:
+        return w
+    fractions = [float(p.saturated_fraction(300.0, STANDARD_ATMOSPHERE, False)) for p in (pair, AIR_WATER)]
+    times = pair.humidity_ratio(min(fractions[0], 0.5)) / AIR_WATER.humidity_ratio(fractions[1])
+    return float(f"{w * times:.1g}")
 
 
-def _window(low: float | None, high: float | None, usual: float, w_high: float | None, states: Any) -> tuple[float, float, float]:
+def _window(
+    low: float | None, high: float | None, usual: float, w_high: float | None, states: Any, pair: AbstractPair
+) -> tuple[float, float, float]:
     """Coldest and hottest temperature and largest humidity: those given, or the usual ones widened so that every state is inside."""
     T, w = ([], []) if states is None else ([float(t) for t in states[0]], [float(x) for x in states[1]])
     cold = min([263.15] + [5.0 * float(np.floor((t - 1.0) / 5.0)) + 3.15 for t in T]) if low is None else float(low)
     hot = max([usual] + [5.0 * float(np.ceil((t + 1.85) / 5.0)) + 3.15 for t in T]) if high is None else float(high)
-    return cold, hot, float(w_high) if w_high else max([default_humidity(hot)] + [1.1 * x for x in w])
+    return cold, hot, float(w_high) if w_high else max([default_humidity(hot, pair)] + [1.1 * x for x in w])
 
 
 class _Sheet:
@@ -49,6 +56,19 @@ class _Sheet:
         self.figure, self.lines, self.place = figure, lines, place
         self.x, self.y = x, y
         self.scale = ((WIDTH - MARGIN["l"] - MARGIN["r"]) / (x[1] - x[0]), height / (y[1] - y[0]))
+        self.taken: list[tuple[float, float, float]] = []  # circles of pixels that labels and states cover
+
+    def _free(self, circles: list[tuple[float, float, float]]) -> bool:
+        """Whether pixels are inside the frame and not covered yet."""
+        left, right = (x * self.scale[0] for x in self.x)
+        low, high = (y * self.scale[1] for y in self.y)
+        inside = all(left + r < x < right - r and low + r < y < high - r for x, y, r in circles)
+        return inside and all(np.hypot(x - a, y - b) >= r + c for x, y, r in circles for a, b, c in self.taken)
+
+    def reserve(self, T: np.ndarray, w: np.ndarray) -> None:
+        """Keep labels off the marks of states."""
+        x, y = self.place(T, w)
+        self.taken += [(float(a * self.scale[0]), float(b * self.scale[1]), 13.0) for a, b in zip(x, y, strict=True)]
 
     def curve(self, T: np.ndarray, w: np.ndarray, name: str, color: str, width: float, dash: str = "solid", legend: bool = False) -> None:
         import plotly.graph_objects as go
@@ -60,7 +80,7 @@ class _Sheet:
                                          legendgroup=name, showlegend=legend, hoverinfo="skip"))  # fmt: skip
 
     def label(self, T: np.ndarray, w: np.ndarray, text: str, color: str, at: float, size: int = 10, beyond: float = 0.0) -> None:
-        """Text along a curve, at a share of its drawn length; ``beyond`` shifts it past the end, in pixels."""
+        """Text along a curve, near a share of its drawn length where nothing is in the way; ``beyond`` shifts it past the end, in pixels."""
         if len(T) < 2:
             return
         x, y = self.place(T, w)
@@ -68,21 +88,25 @@ class _Sheet:
         s = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(px), np.diff(py)))])
         if s[-1] < 45.0 and not beyond:
             return
-        where = at * s[-1]
-        cx, cy = np.interp(where, s, px), np.interp(where, s, py)
-        low, high = max(where - 12.0, 0.0), min(where + 12.0, s[-1])
-        dx = np.interp(high, s, px) - np.interp(low, s, px)
-        dy = np.interp(high, s, py) - np.interp(low, s, py)
-        angle = -np.degrees(np.arctan2(dy, dx))
-        length = np.hypot(dx, dy) or 1.0
-        sign = 1.0 if at > 0.5 else -1.0
-        cx, cy = cx + sign * beyond * dx / length, cy + sign * beyond * dy / length
-        angle = angle - 180.0 if angle > 90.0 else angle + 180.0 if angle < -90.0 else angle
-        X, Y = cx / self.scale[0], cy / self.scale[1]
-        if not (self.x[0] <= X <= self.x[1] and self.y[0] <= Y <= self.y[1]):
-            return
-        self.figure.add_annotation(x=X, y=Y, text=text, textangle=float(angle), showarrow=False, font={"size": size, "color": color},
-                                   bgcolor="rgba(255,255,255,0.85)" if not beyond else None, borderpad=0)  # fmt: skip
+        for share in (at,) if beyond else at + NEARBY[(at + NEARBY > 0.03) & (at + NEARBY < 0.97)]:
+            where = share * s[-1]
+            cx, cy = np.interp(where, s, px), np.interp(where, s, py)
+            low, high = max(where - 12.0, 0.0), min(where + 12.0, s[-1])
+            dx, dy = (np.interp(high, s, p) - np.interp(low, s, p) for p in (px, py))
+            length = np.hypot(dx, dy) or 1.0
+            dx, dy = dx / length, dy / length
+            sign = 1.0 if at > 0.5 else -1.0
+            cx, cy = cx + sign * beyond * dx, cy + sign * beyond * dy
+            half = 0.28 * size * len(text)
+            circles = [(float(cx + k * half * dx), float(cy + k * half * dy), 0.6 * size) for k in (-0.7, 0.0, 0.7)]
+            if self._free(circles):
+                self.taken += circles
+                angle = -np.degrees(np.arctan2(dy, dx))
+                angle = angle - 180.0 if angle > 90.0 else angle + 180.0 if angle < -90.0 else angle
+                self.figure.add_annotation(
+                    x=cx / self.scale[0], y=cy / self.scale[1], text=text, textangle=float(angle), showarrow=False,
+                    font={"size": size, "color": color}, bgcolor="rgba(255,255,255,0.85)" if not beyond else None, borderpad=0)  # fmt: skip
+                return
 
     def family(self, kind: str, values: np.ndarray, name: str, color: str, width: float, dash: str, text: Callable[[float], str], at: float,
                beyond: float = 0.0, every: int = 1) -> None:  # fmt: skip
@@ -169,16 +193,16 @@ def _families(sheet: _Sheet, wet_at: float, volume_at: float) -> None:
     humid = [p for p in (0.01, 0.02, 0.05) if lines.T_high > 353.0] + [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
     sheet.family("enthalpy", nice_steps(*lines.range_of("enthalpy"), 16), _("enthalpy kJ/kg"), HEAT, 0.7, "solid",
                  lambda h: format_number(h / 1e3, 4), 0.0, beyond=16.0)  # fmt: skip
-    sheet.family("specific_volume", nice_steps(*lines.range_of("specific_volume"), 10), _("volume m³/kg"), OK, 0.8, "dashdot",
-                 lambda v: f"{format_number(v, 4)}", volume_at)  # fmt: skip
-    sheet.family("wet_bulb_temperature", nice_steps(lines.T_low - ZERO_CELSIUS, lines.range_of("wet_bulb")[1] - ZERO_CELSIUS, 12) + ZERO_CELSIUS,
-                 _("wet bulb °C"), "#6b46c1", 0.7, "dash", lambda T: f"{format_number(T - ZERO_CELSIUS, 3)}°", wet_at)  # fmt: skip
+    T, w = lines.line("relative_humidity", 1.0)
+    sheet.label(T, w, "100 %", INK, 0.75, size=11)
     sheet.family(
         "relative_humidity", np.array(humid), _("relative humidity"), LIQUID, 1.0, "solid", lambda f: f"{format_number(100 * f, 2)} %", 0.72
     )
-    T, w = lines.line("relative_humidity", 1.0)
+    sheet.family("wet_bulb_temperature", nice_steps(lines.T_low - ZERO_CELSIUS, lines.range_of("wet_bulb")[1] - ZERO_CELSIUS, 12) + ZERO_CELSIUS,
+                 _("wet bulb °C"), "#6b46c1", 0.7, "dash", lambda T: f"{format_number(T - ZERO_CELSIUS, 3)}°", wet_at)  # fmt: skip
+    sheet.family("specific_volume", nice_steps(*lines.range_of("specific_volume"), 10), _("volume m³/kg"), OK, 0.8, "dashdot",
+                 lambda v: f"{format_number(v, 4)}", volume_at)  # fmt: skip
     sheet.curve(T, w, _("saturation"), INK, 3.0, legend=True)
-    sheet.label(T, w, "100 %", INK, 0.75, size=11)
 
 
 @chart(source="ashrae2017, ch. 1", title="Psychrometric chart")
@@ -202,13 +226,15 @@ def psychrometric_chart(
     from granum.core.charts import axis_title
 
     states = _checked(temperature, humidity_ratio)
-    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 323.15, humidity_ratio_high, states)
+    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 323.15, humidity_ratio_high, states, pair)
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     drawing, height, share = _frame(_("Psychrometric chart"), states, pair, pressure)
     x, y = (temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS), (0.0, 1e3 * top)
     sheet = _Sheet(drawing, lines, lambda T, w: (T - ZERO_CELSIUS, 1e3 * w), x, y, height)
     drawing.update_xaxes(range=list(x), title=axis_title("temperature", "degC"), nticks=14, showgrid=True)
     drawing.update_yaxes(range=list(y), title=axis_title("humidity_ratio", "g/kg"), side="right", nticks=13)
+    if states is not None:
+        sheet.reserve(*states)
     _families(sheet, 0.8, 0.9)
     sheet.hover()
     if states is not None:
@@ -237,7 +263,7 @@ def mollier_chart(
     from granum.core.charts import INK, axis_title
 
     states = _checked(temperature, humidity_ratio)
-    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 333.15, humidity_ratio_high, states)
+    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 333.15, humidity_ratio_high, states, pair)
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     zero = (
         float(lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([1e-3]))[0] - lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([0.0]))[0])
@@ -257,6 +283,8 @@ def mollier_chart(
     drawing.update_yaxes(
         range=list(y), title=axis_title("temperature", "degC"), tickvals=at, ticktext=[format_number(t, 3) for t in ticks], showgrid=False
     )
+    if states is not None:
+        sheet.reserve(*states)
     fine = nice_steps(temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS, 28)
     first = True
     for t in fine:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 import granum.humid_gas.relations as rel
-from granum.core import formula
+from granum.core import flags, formula
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Fraction,
@@ -24,6 +24,7 @@ from granum.humid_gas.formulas.state import GasVaporPair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; keey1978"
+TOO_HOT = "The gas would be hotter than 1230 °C, where it dissociates: no temperature is given. Take more air."
 _WARM = {"temperature": (303.15, 343.15), "humidity_ratio": (0.005, 0.015), "pressure": (9e4, 2e5), "dry_gas_flow": (1.0, 2.0)}
 
 
@@ -342,6 +343,7 @@ def combustion_gas(
     h2 = (air * h1 + lower_heating_value * (1.0 - heat_loss_share) + latent * water) / dry
     w2 = (air * humidity_ratio + water) / dry
     out = after(AIR_WATER, w2, h2, P)
+    flags.limit_active(jnp.isnan(out.temperature), excess_air_ratio, "excess_air_ratio", TOO_HOT)
     return CombustionGas(out.temperature, w2 + 0.0 * h2, h2, air + 0.0 * h2, dry + 0.0 * h2)
 
 

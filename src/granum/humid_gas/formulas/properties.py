@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 import granum.humid_gas.relations as rel
-from granum.core import formula
+from granum.core import flags, formula
 from granum.core.constants import STANDARD_ATMOSPHERE, ZERO_CELSIUS
 from granum.core.kinds import (
     Density,
@@ -23,6 +23,7 @@ from granum.humid_gas.formulas.state import RANGE, GasVaporPair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; wagner2002; lemmon2000; iapwsif97, eq. 30"
+BOILS = "The limit is the boiling point."
 _WARM = {"temperature": (303.15, 363.15), "humidity_ratio": (0.002, 0.02), "pressure": (8e4, 2e5)}
 
 
@@ -52,6 +53,7 @@ def humidity_ratio(vapor_pressure: Pressure, pressure: Pressure = STANDARD_ATMOS
     0.0147
     """
     y = jnp.where(vapor_pressure < pressure, vapor_pressure / pressure, jnp.nan)
+    flags.impossible(vapor_pressure >= pressure, vapor_pressure, "vapor_pressure", 0.0, pressure)
     return pair.humidity_ratio(y)
 
 
@@ -76,6 +78,8 @@ def humidity_ratio_saturated(
     [0.0038, 0.0076, 0.0147, 0.0272]
     """
     y = rel.saturated_fraction(pair, jnp.asarray(temperature), pressure)
+    if flags.listening():
+        flags.impossible(y >= 1, temperature, "temperature", -jnp.inf, pair.boiling_temperature(jnp.asarray(pressure)), BOILS)
     return pair.humidity_ratio(jnp.where(y < 1, y, jnp.nan))
 
 

@@ -27,7 +27,7 @@ from granum.humid_gas.pairs import AIR_WATER
 
 GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
 NO_DEW_POINT = "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given instead."
-RANGE = {"temperature": (213.15, 623.15), "pressure": (1e3, 1e7)}
+RANGE = {"temperature": (213.0, 623.2), "pressure": (1e3, 1e7)}
 
 
 class HumidGasState(NamedTuple):
@@ -108,8 +108,10 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
     ys = rel.saturated_fraction(pair, T, P)
     adiabatic = rel.polished_wet_bulb(pair, T, P, y, None)
     wet = adiabatic if lewis is None else rel.polished_wet_bulb(pair, T, P, y, lewis)
-    outside = (T < pair.lowest_temperature) | (T > pair.highest_temperature)
-    flags.record(flags.EXTRAPOLATED, possible & outside, T, "temperature", "humid_gas.state", pair.lowest_temperature, pair.highest_temperature)
+    outside = (pair.lowest_temperature > T) | (pair.highest_temperature < T)
+    flags.record(
+        flags.EXTRAPOLATED, possible & outside, T, "temperature", "humid_gas.state", pair.lowest_temperature, pair.highest_temperature
+    )
     driest = y < rel.saturated_fraction(pair, jnp.asarray(pair.lowest_temperature), P)
     flags.limit_active(possible & driest, pair.lowest_temperature, "dew_point_temperature", NO_DEW_POINT)
     values = {
