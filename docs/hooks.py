@@ -1,6 +1,6 @@
 """Makes the generated part of the documentation while mkdocs builds: a page of cards per domain in both languages, and the
 plots and tables of the theory pages, which name them as ``[[validation NAME]]``, ``[[printed DOMAIN]]``, ``[[chart CARD name=value]]``,
-``[[card CARD]]``, ``[[source MODULE CLASS]]`` or ``[[include FILE]]``. Everything comes from the registry and from data of the repository; a name that does not exist ends the build.
+``[[card CARD]]``, ``[[source MODULE NAME]]`` or ``[[include FILE]]``. Everything comes from the registry and from data of the repository; a name that does not exist ends the build.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from granum.core.i18n import _, language
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import pretty_unit
 from granum.reports.mathml import mathml
-from granum.reports.terminal import value_text
+from granum.reports.quantities import value_text
 
 ROOT = Path(__file__).parent.parent
 WORDS = {
@@ -96,10 +96,8 @@ def _validation(name: str) -> str:
 
 def _printed(domain: str) -> str:
     rows = ["| worked example | printed | Granum | difference |", "|---|--:|--:|--:|"]
-    for row in validation.PRINTED[domain]:
-        rows.append(
-            f"| {row.what} | {row.printed:g} {row.unit} | {row.found:.4g} {row.unit} | {100 * (row.found / row.printed - 1):+.2g} % |"
-        )
+    for row in validation.printed(domain):
+        rows.append(f"| {_escape(row.what)} | {row.printed} | {row.found} | {100 * row.difference:+.2g} % |")
     return "\n".join(rows)
 
 
@@ -121,9 +119,9 @@ def _include(name: str) -> str:
 
 
 def _source(text: str) -> str:
-    """The source of a class of the package."""
+    """The source of a class or function of the package."""
     module, name = text.split()
-    return f"```python\n{inspect.getsource(getattr(importlib.import_module(module), name))}```"
+    return f"```python\n{inspect.getsource(inspect.unwrap(getattr(importlib.import_module(module), name)))}```"
 
 
 PARTS = {"include": _include, "source": _source, "validation": _validation, "printed": _printed, "chart": _chart, "card": _one_card}

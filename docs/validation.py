@@ -1,23 +1,27 @@
 """Validation shown in the documentation: the package's charts with published data in them, and printed worked examples recalculated.
 
-Every number called ``printed`` comes from the source named beside it; what Granum finds is calculated while the site is built.
+Printed numbers stand in ``docs/data``, ``examples`` and ``tests/references``, each file with its source beside it; what Granum finds is
+calculated while the site is built.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import csv
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import granum as gr
-from granum.core import charts
-from granum.core.units import format_number
+from granum.core import charts, registry
+from granum.core.units import format_number, from_si, pretty_unit, read_quantity
+from granum.reports.quantities import figure_named, value_text
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
+DATA = Path(__file__).parent / "data"
+TESTED = Path(__file__).parent.parent / "tests" / "references" / "worked_examples_opened2026.csv"
 ZERO = 273.15
 
 
@@ -32,17 +36,19 @@ class Shown:
 
 @dataclass(frozen=True)
 class Printed:
-    """One number of a worked example; ``find`` calculates it in the unit of the print."""
+    """One number of a worked example beside what Granum finds, as text with its unit."""
 
     what: str
-    printed: float
-    unit: str
-    find: Callable[[], Any]
+    printed: str
+    found: str
+    difference: float
 
-    @cached_property
-    def found(self) -> float:
-        """What Granum calculates."""
-        return float(self.find())
+
+def _data(name: str) -> dict[str, list[str]]:
+    """The columns of a file of ``docs/data`` as text."""
+    with (DATA / name).open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {head: [row[head] for row in rows] for head in rows[0]}
 
 
 def _table(heads: list[str], rows: list[list[str]]) -> str:
@@ -155,8 +161,7 @@ def drying_curve() -> Shown:
 
 def humid_gas_saturation() -> Shown:
     """Saturated humidity ratio against ASHRAE's table."""
-    celsius = np.array([-60.0, -40.0, -20.0, 0.0, 10.0, 20.0, 30.0, 50.0, 80.0, 90.0])
-    printed = np.array([0.0000067, 0.0000793, 0.0006373, 0.0037895, 0.0076606, 0.014758, 0.027329, 0.086858, 0.55295, 1.42031])
+    celsius, printed = (np.array(column, dtype=float) for column in _data("saturated_air_ashrae2017.csv").values())
     figure = charts.figure(charts.axis_title("temperature", "degC"), charts.axis_title("humidity_ratio", "kg/kg"), y_log=True)
     fine = np.linspace(-60, 92, 120)
     charts.add_line(figure, fine, np.asarray(gr.humid_gas.humidity_ratio_saturated(temperature=fine + ZERO)), "Granum, ideal gas")
@@ -172,15 +177,13 @@ def humid_gas_saturation() -> Shown:
 
 def materials_solubility() -> Shown:
     """Solubilities against a handbook that was not used for the fit."""
-    perry = {
-        "potassium nitrate": {0: 13.3, 10: 20.9, 20: 31.6, 30: 45.8, 40: 63.9, 50: 85.5, 60: 110, 70: 138, 80: 169, 90: 202, 100: 246},
-        "sodium sulfate": {20: 19.4, 30: 40.8, 40: 48.8, 60: 45.3, 80: 43.7, 100: 42.5},
-        "copper sulfate": {0: 14.3, 10: 17.4, 20: 20.7, 30: 25.0, 40: 28.5, 60: 40.0, 80: 55.0},
-        "sodium chloride": {0: 35.7, 20: 36.0, 40: 36.6, 60: 37.3, 80: 38.4, 100: 39.8},
-    }
+    names, temperatures, found = _data("solubility_perry2008.csv").values()
+    tables: dict[str, dict[float, float]] = {}
+    for name, celsius, value in zip(names, temperatures, found, strict=True):
+        tables.setdefault(name, {})[float(celsius)] = float(value)
     figure = charts.figure(charts.axis_title("temperature", "degC"), "solubility / g per 100 g of water", y_log=True)
     figure.update_yaxes(dtick=None)
-    for (name, table), color in zip(perry.items(), charts.LINES, strict=False):
+    for (name, table), color in zip(tables.items(), charts.LINES, strict=False):
         celsius = np.array(list(table), dtype=float)
         fine = np.linspace(celsius[0], celsius[-1], 60)
         charts.add_line(figure, fine, 100 * np.asarray(gr.materials.solute(name).solubility(fine + ZERO)), name, color=color)
@@ -190,11 +193,11 @@ def materials_solubility() -> Shown:
 
 def materials_water() -> Shown:
     """Vapor pressure of water."""
-    points = np.array([[300, 0.353658941e-2], [500, 0.263889776e1], [600, 0.123443146e2]])
+    kelvin, pressure = (np.array(column, dtype=float) for column in _data("vapor_pressure_iapws2012.csv").values())
     figure = charts.figure(charts.axis_title("temperature", "degC"), "vapor pressure / bar", y_log=True)
     fine = np.linspace(273.16, 640.0, 150)
     charts.add_line(figure, fine - ZERO, np.asarray(gr.materials.water_vapor_pressure(fine)) / 1e5, "Granum")
-    charts.add_points(figure, points[:, 0] - ZERO, points[:, 1] * 10, "IAPWS-IF97, table 35")
+    charts.add_points(figure, kelvin - ZERO, pressure * 10, "IAPWS-IF97, table 35")
     return Shown(figure, "Vapor pressure of water with the check values of the IAPWS release.")
 
 
@@ -223,13 +226,15 @@ def cyclones_grade() -> Shown:
 def comminution_energy() -> Shown:
     """Bond's law with two printed mills on it."""
     figure = charts.figure(charts.axis_title("product_size", "um"), "specific energy / kWh/t", x_log=True, y_log=True)
-    for (feed, product, index, printed), color in zip(
-        ((18e-3, 1.2e-3, 13.2, 2.83), (1.2e-3, 175e-6, 11.7, 5.46)), charts.LINES, strict=False
-    ):
+    mills = [row for row in _rows("comminution") if row["card"] == "comminution.specific_energy_bond" and row.get("what")]
+    for row, color in zip(mills, charts.LINES, strict=False):
+        card = registry.find(row["card"])
+        given = card.evaluate(**_inputs(row)).inputs
+        feed, product = given["feed_size"], given["product_size"]
         sizes = np.geomspace(product / 3, feed / 1.5, 50)
-        energy = np.asarray(gr.comminution.specific_energy_bond(feed_size=feed, product_size=sizes, work_index=index * 3600)) / 3600
-        charts.add_line(figure, sizes * 1e6, energy, f"feed {format_number(feed * 1e3)} mm, {index:g} kWh/t", color=color)
-        charts.add_points(figure, [product * 1e6], [printed], "printed", color=color, showlegend=False)
+        energy = np.asarray(card(**given | {"product_size": sizes})) / 3600
+        charts.add_line(figure, sizes * 1e6, energy, row["what"], color=color)
+        charts.add_points(figure, [product * 1e6], [float(row["printed"].split()[0])], "printed", color=color, showlegend=False)
     return Shown(figure, "Bond's law for the rod mill and the ball mill of Rowland and Kjos; points are the printed energies.")
 
 
@@ -242,127 +247,48 @@ FIGURES = {
 
 # ---- printed worked examples -----------------------------------------------------------------------
 @cache
-def _leaf() -> Any:
-    return gr.filtration.LeafTest.read(
-        EXAMPLES / "leaf-filter" / "leaf_geankoplis.csv",
-        area="0.0439 m2",
-        pressure_drop="338 kPa",
-        dynamic_viscosity="0.8937 cP",
-        dry_cake_per_filtrate=23.47,
-    ).fit()
+def _rows(domain: str) -> list[dict[str, str]]:
+    """The worked examples of a domain: those of ``docs/data`` and those that the tests recalculate."""
+    found = []
+    for path in (DATA / "worked_examples.csv", TESTED):
+        with path.open(encoding="utf-8") as file:
+            found += [row for row in csv.DictReader(file) if row["card"].startswith(f"{domain}.")]
+    return found
+
+
+def _inputs(row: dict[str, str]) -> dict[str, str]:
+    return dict(item.split("=", 1) for item in row["inputs"].split("; "))
 
 
 @cache
-def _urea() -> Any:
-    return gr.crystallization.MsmprAnalysis.read(
-        EXAMPLES / "msmpr-analysis" / "urea_bennett1969.csv", residence_time="3.38 hour", crystal_density=1335
-    ).fit()
+def _fitted(card: str, inputs: tuple[tuple[str, str], ...]) -> Any:
+    given = dict(inputs)
+    return registry.find(card).read(EXAMPLES / given.pop("file"), **given).fit()
 
 
-@cache
-def _tray() -> Any:
-    return gr.drying.DryingCurve.read(
-        EXAMPLES / "drying-curve" / "foodstuff_geankoplis.csv",
-        dry_solid_mass="3.765 kg",
-        area="0.186 m2",
-        equilibrium_moisture=0.190 / 3.765,
-        warm_up_time="0.4 h",
-    ).fit()
+def printed(domain: str) -> list[Printed]:
+    """Every printed result of a domain, recalculated."""
+    return [_compared(row) for row in _rows(domain)]
 
 
-def _bed_drop() -> float:
-    inlet, flux = 1.10 * 101325.0, 0.358 / (np.pi / 4 * 0.61**2)
-    return inlet - gr.porous.pressure_outlet_gas_bed(
-        mass_flux=flux, pressure_inlet=inlet, length=2.44, temperature=311.0, molar_mass="28.97 g/mol", dynamic_viscosity=1.90e-5,
-        particle_diameter="12.7 mm", void_fraction=0.38)  # fmt: skip
-
-
-@cache
-def _quartz() -> Any:
-    return gr.particles.SieveAnalysis.read(
-        EXAMPLES / "size-analysis" / "crushed_quartz_mccabe2005.csv", in_class=gr.particles.ArithmeticMidpoint()
-    ).distribution()
-
-
-@cache
-def _sigma() -> Any:
-    return gr.centrifuges.sigma_factor_tubular_half_thickness(
-        bowl_length="0.1970 m", radius_inner="7.16 mm", radius_outer="22.25 mm", rotation_speed="23000 rpm"
-    )
-
-
-@cache
-def _stairmand() -> tuple[float, ...]:
-    from granum.cyclones.geometry import StandardCyclone
-
-    return StandardCyclone()(1.0)
-
-
-@cache
-def _limestone() -> Any:
-    return gr.settling.BatchTest.read(
-        EXAMPLES / "batch-settling" / "limestone.csv", initial_concentration="236 g/L", underflow_concentration="550 g/L"
-    ).fit()
-
-
-SHARP = {"particle_diameter": 1.6e-4, "particle_density": 2600.0, "fluid_density": 1.2, "dynamic_viscosity": 1.8e-5}
-
-PRINTED: dict[str, list[Printed]] = {
-    "materials": [
-        Printed("Vapor pressure of water at 500 K (IAPWS-IF97, table 35)", 2.63889776, "MPa", lambda: gr.materials.water_vapor_pressure(500.0) / 1e6),
-        Printed("Viscosity of water, 298.15 K and 998 kg/m³ (IAPWS 2008, table 4)", 889.7351, "µPa·s", lambda: gr.materials.dynamic_viscosity_iapws(298.15, 998.0) * 1e6),
-        Printed("Enthalpy of liquid water at 300 K and 3 MPa (IAPWS-IF97, table 5)", 115.331273, "kJ/kg", lambda: gr.materials.water_enthalpy(300.0, 3e6) / 1e3),
-    ],
-    "particles": [
-        Printed("Sauter mean of crushed quartz (McCabe, Smith and Harriott)", 1.207, "mm", lambda: _quartz().mean(3, 2) * 1e3 / 0.9925),
-        Printed("Mass mean of the same quartz", 1.677, "mm", lambda: _quartz().mean(4, 3) * 1e3 * 0.9925),
-    ],
-    "porous": [Printed("Air through 2.44 m of 12.7 mm spheres (Geankoplis, example 3.1-4)", 4970, "Pa", _bed_drop)],
-    "humid_gas": [
-        Printed("Humidity ratio of saturated air at 20 °C (ASHRAE)", 0.014758, "kg/kg", lambda: gr.humid_gas.humidity_ratio_saturated(temperature=293.15)),
-        Printed("Enthalpy of the room air of the course notes (U V.7)", 47.8, "kJ/kg",
-                lambda: gr.humid_gas.state(temperature="22.2 degC", wet_bulb_temperature="17 degC").enthalpy / 1e3),
-    ],
-    "comminution": [
-        Printed("Rod mill, 18 to 1.2 mm at 13.2 kWh/t (Rowland and Kjos)", 2.83, "kWh/t", lambda: gr.comminution.specific_energy_bond(18e-3, 1.2e-3, 13.2 * 3600) / 3600),
-        Printed("Ball mill, 1.2 mm to 175 µm at 11.7 kWh/t (same)", 5.46, "kWh/t", lambda: gr.comminution.specific_energy_bond(1.2e-3, 175e-6, 11.7 * 3600) / 3600),
-        Printed("Mib 18.8, 750 to 106 µm (Morrell 2009)", 8.4, "kWh/t", lambda: gr.comminution.specific_energy_morrell(750e-6, 106e-6, 18.8 * 3600) / 3600),
-        Printed("Critical speed of a 1.2 m mill (Coulson and Richardson, example 2.3)", 4.04, "rad/s", lambda: gr.comminution.rotation_speed_critical(1.2, gravity=9.81)),
-        Printed("Effectiveness of a screen (McCabe, Smith and Harriott)", 0.669, "", lambda: gr.comminution.screening_effectiveness(0.47, 0.85, 0.195)),
-    ],
-    "settling": [Printed("Constant rate of a limestone slurry (Foust et al.; a tangent by hand)", 15.65, "cm/h", lambda: _limestone()["settling_velocity"].value * 3.6e5)],
-    "cyclones": [
-        Printed("Cut size of the exercise of the course notes (P V-1-6)", 28.6, "µm",
-                lambda: gr.cyclones.cut_size_turns(velocity="14.5 cm/s", diameter="0.7 m", particle_density="19 g/cm^3", fluid_density=1.2, dynamic_viscosity="0.018 mPa*s") * 1e6),
-        Printed("Inlet heads of Stairmand's design (Shepherd and Lapple)", 6.4, "", lambda: gr.cyclones.inlet_heads_shepherd_lapple(*_stairmand())),
-        Printed("Configuration number of Stairmand's design (Leith and Licht)", 551.3, "", lambda: gr.cyclones.configuration_number_leith_licht(*_stairmand())),
-    ],
-    "fluidization": [
-        Printed("Sharp sand of 160 µm, measured (Kunii and Levenspiel, chapter 3)", 4.0, "cm/s",
-                lambda: 100 * gr.fluidization.minimum_fluidization_velocity_ergun(**SHARP, void_fraction=0.55, sphericity=0.67)),
-        Printed("Spheres of 3 mm in a liquid (Coulson and Richardson, volume 2, example 6.1)", 0.0364, "m/s",
-                lambda: gr.fluidization.minimum_fluidization_velocity_ergun(particle_diameter=3e-3, particle_density=4200.0, fluid_density=1100.0, dynamic_viscosity=3e-3, void_fraction=0.4)),
-    ],
-    "filtration": [
-        Printed("Cake resistance (Geankoplis, example 14.2-1)", 1.863e11, "m/kg", lambda: _leaf()["cake_resistance"].value),
-        Printed("Medium resistance (same example)", 10.63e10, "1/m", lambda: _leaf()["medium_resistance"].value),
-    ],
-    "centrifuges": [
-        Printed("Sigma of a tubular bowl (Geankoplis, example 14.4-1)", 196.3, "m²", _sigma),
-        Printed("Critical diameter in that bowl", 0.746, "µm",
-                lambda: 1e6 * gr.centrifuges.cut_size_centrifuge(volume_flow="0.002832 m3/hour", sigma_factor=_sigma(), particle_density=1461, fluid_density=801,
-                                                                dynamic_viscosity="100 cP", flow_multiple=2.0)),
-        Printed("Interface of two liquids (Geankoplis, example 14.4-2; its data give 13.69)", 13.75, "mm",
-                lambda: 1e3 * gr.centrifuges.radius_interface(radius_heavy="10.414 mm", radius_light="10.160 mm", density_heavy=980.3, density_light=919.5)),
-    ],
-    "crystallization": [
-        Printed("Growth rate of urea (Bennett and Van Buren 1969, in Perry)", 0.0324, "mm/h", lambda: _urea()["growth_rate"].value * 3.6e6),
-        Printed("Decahydrate from 10 t of soda solution (Geankoplis, example 12.11-1)", 6630, "kg",
-                lambda: gr.crystallization.crystallizer_balance(mass_flow=10000.0, solute_mass_fraction=0.30, solubility_per_solvent=0.215,
-                                                               solute_fraction_of_crystal=106.0 / 286.2, evaporation=300.0).crystal_flow),
-    ],
-    "drying": [
-        Printed("Constant drying rate (Geankoplis, problem 9.7-2)", 0.996, "kg/(m² h)", lambda: 3600 * _tray()["drying_rate_constant"].value),
-        Printed("Critical free moisture (same problem, read by eye)", 0.12, "kg/kg", lambda: _tray()["critical_moisture"].value - 0.190 / 3.765),
-    ],
-}  # fmt: skip
+def _compared(row: dict[str, str]) -> Printed:
+    inputs, card = _inputs(row), registry.find(row["card"]).card
+    if "file" in inputs:
+        name = row["output"]
+        estimate = _fitted(row["card"], tuple(inputs.items()))[name]
+        found, figure = estimate.value, figure_named(name, estimate.unit, row["card"])
+    else:
+        result = registry.find(row["card"]).evaluate(**inputs)
+        name = row["output"] or card.outputs[0].name
+        found, figure = float(result.outputs[name]), next(p for p in card.outputs if p.name == name)
+    if row.get("less"):
+        less = next(p for p in card.parameters if p.name == row["less"])
+        found = abs(found - read_quantity(inputs[less.name], less.kind))
+    if "expected [SI]" in row:
+        wanted = float(row["expected [SI]"])
+        return Printed(f"{card.title} ({row['source']})", value_text(wanted, figure), value_text(found, figure), found / wanted - 1)
+    number, _blank, unit = row["printed"].partition(" ")
+    wanted = read_quantity(row["printed"], figure.kind)
+    shown = float(from_si(found, unit or "dimensionless", figure.kind))
+    texts = (f"{format_number(x, 5)} {pretty_unit(unit)}".strip() for x in (float(number), shown))
+    return Printed(f"{row['what']} ({row['source']})", *texts, found / wanted - 1)

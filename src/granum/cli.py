@@ -151,7 +151,7 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
 
         print_fit(found, saved=chart)
         if told is not None:
-            print_next(told)
+            print_next(told, found)
 
 
 @app.command()

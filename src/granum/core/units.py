@@ -307,7 +307,7 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    if 0.1 <= sizes[units[0]] < 10_000:
+    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):  # from 1 m/s on nobody writes mm/s
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:

@@ -77,10 +77,16 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
         console.print(_("saved to {path}").format(path=saved))
 
 
-def print_next(told: dict[str, Any]) -> None:
+def _error_text(value: float, figure: Parameter) -> str:
+    """A standard error: a difference, so a temperature keeps its kelvins."""
+    return f"{format_number(value, 3)} K" if figure.kind and figure.kind.unit == "K" else value_text(value, figure)
+
+
+def print_next(told: dict[str, Any], found: Any) -> None:
     """Where the next measurement tells most."""
     place = "; ".join(f"{label_of(name)} = {value_text(row['value'], figure_named(name, row['unit']))}" for name, row in told["at"].items())
-    errors = "; ".join(f"{name} ± {format_number(value, 3)}" for name, value in told["standard_errors"].items())
+    units = {name: estimate.unit for name, estimate in found.parameters.items()}
+    errors = "; ".join(f"{label_of(name)} ± {_error_text(value, figure_named(name, units[name]))}" for name, value in told["standard_errors"].items())
     console = _console()
     console.print(_("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
         place=place, share=format_number(100 * told["shrinkage"], 3)))  # fmt: skip
