@@ -74,9 +74,11 @@ class Anderson(AbstractMethod):
         x, best, base, points, residuals, rejected, number = carry
         slots = len(points)
         size = _size(r)
-        accepted = size <= 2.0 * best[1]
+        # the start is often an empty stream, whose residual says little: the first step from it may look far worse and be right
+        second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * best[1])
+        accepted = second | (size <= 2.0 * best[1])
         instructive = ~accepted & (size <= 10.0 * best[1]) & (rejected == 0)
-        best = _choose(size < best[1], (x, size), best)
+        best = _choose(second | (size < best[1]), (x, size), best)
         base = _choose(accepted, (x, r), base)
         rejected = jnp.where(accepted, 0, rejected + 1)
         slot = number % slots

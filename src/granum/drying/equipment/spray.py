@@ -28,7 +28,7 @@ class SprayDryer(Dryer):
     """Drops of a Rosin–Rammler spread around the atomizer's Sauter mean fall with the gas, shrink while they are full drops, and dry.
 
     The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or suspended, is shared out over them.
-    ``gas_dispersion`` mixes the gas along the chamber: exchange flow between cells over through-flow, zero for plug flow, up to some tens.
+    ``gas_dispersion`` mixes the gas along the chamber: exchange flow between cells over through-flow, up to some tens; plug flow without it.
     """
 
     length: Length
@@ -37,7 +37,7 @@ class SprayDryer(Dryer):
     kinetics: Annotated[Any, Law("drying_kinetics")]
     dry_density: Density = 1000.0
     drop_exponent: PositiveNumber = 2.5
-    gas_dispersion: Ratio = 0.0
+    gas_dispersion: Ratio | None = None
     dynamic_viscosity: DynamicViscosity = 0.01
     surface_tension: SurfaceTension = 0.06
     heat_loss: Power = 0.0
@@ -108,7 +108,9 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any
     drops = dryer.atomized(feed, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
-    network = Network.co_current(dryer.cells).dispersed(dryer.gas_dispersion)
+    network = Network.co_current(dryer.cells)
+    if dryer.gas_dispersion is not None:
+        network = network.dispersed(dryer.gas_dispersion)
     return convey(
         dryer.path(feed, gas), Matter.of(drops, gas), dryer.kinetics, feed, gas, inlet, drops.solid_by_size, network, dryer.heat_loss
     )

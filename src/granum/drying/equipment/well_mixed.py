@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
+from granum.drying.wet_surface import crystallized
 from granum.humid_gas.pairs import AirWater
 from granum.humid_gas.relations import saturated_fraction, wet_bulb_balance
 from granum.materials.library import fluid
@@ -152,13 +153,7 @@ class WellMixedDryer(Unit):
 def evaporate(wet: Stream, share: Any) -> Stream:
     """Move a share of the water into the gas; the same share of each solute crystallizes on the solid of its own name."""
     m = wet.mixture
-    vapor = m.index("gases", m.liquids[0].name)
-    gas = wet.gas.at[vapor].add(wet.liquid[0] * share)
-    solid, liquid = wet.solid, wet.liquid.at[0].multiply(1.0 - share)
-    for i, species in enumerate(m.liquids[1:], start=1):
-        row = m.index("solids", species.name)
-        there = jnp.sum(solid[row])
-        spread = jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size)
-        solid = solid.at[row].add(wet.liquid[i] * share * spread)
-        liquid = liquid.at[i].multiply(1.0 - share)
-    return wet.replace(gas=gas, solid=solid, liquid=liquid)
+    for solute in m.liquids[1:]:
+        m.index("solids", solute.name)  # says which one is missing
+    gas = wet.gas.at[m.index("gases", m.liquids[0].name)].add(wet.liquid[0] * share)
+    return crystallized(wet, share).replace(gas=gas)
