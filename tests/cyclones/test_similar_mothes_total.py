@@ -23,7 +23,8 @@ AIR = (2000.0, 1.2, 1.8e-5)
 
 
 def test_rhodes_example_and_stairmands_designs() -> None:
-    # Rhodes, worked example 9.1: 2 m³/s, 18.25 µPa s, 1000 kg/m³, 100 m of gas: 1.014 m and 4.34 µm; two of 0.717 m and 3.65 µm
+    # Rhodes, worked example 9.1, from memory, not opened: 2 m³/s, 18.25 µPa s, 1000 kg/m³, 100 m of gas:
+    # 1.014 m and 4.34 µm; two of 0.717 m and 3.65 µm
     for flow, D, cut in ((2.0, 1.014, 4.34e-6), (1.0, 0.717, 3.65e-6)):
         assert similar.diameter_similar(flow, 1177.0, 1.2) == pytest.approx(D, abs=1e-3)
         assert similar.cut_size_similar(flow, 1001.2, 1.2, 18.25e-6, D) == pytest.approx(cut, abs=5e-9)

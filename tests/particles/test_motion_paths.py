@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
+from granum.core.errors import ApplicabilityError
 from granum.particles.formulas import drag, drag_modern
 from granum.particles.formulas.trajectories import settling_distance, settling_distance_stokes, trajectory, trajectory_stokes
 from granum.particles.formulas.unsteady import approach_to_terminal, fall_newton, fall_stokes, relaxation_time, stopping_distance
@@ -71,7 +72,8 @@ def test_settling_distance():
         assert path[-1, 0] == pytest.approx(float(x), rel=1e-4)
     rising = settling_distance(**{**sand, "particle_density": 500.0}, height=0.5, stream_velocity=0.1)
     assert rising.time > 0
-    assert np.isnan(settling_distance(**{**sand, "particle_density": 1000.0}, height=0.5).time)
+    with pytest.raises(ApplicabilityError, match="settling distance is not a finite number"):
+        settling_distance(**{**sand, "particle_density": 1000.0}, height=0.5)
     thrown_up = settling_distance(**sand, height=0.1, initial_vertical_velocity=-1.0)
     assert thrown_up.time > several.time[0]
     slope = jax.grad(lambda d: settling_distance(**{**sand, "particle_diameter": d}, height=0.5, stream_velocity=0.1)[0])(1e-3)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.particles.formulas import criteria, drag, drag_modern, drag_nonspherical, terminal_explicit
 from granum.particles.formulas.terminal import terminal_diameter, terminal_velocity
 
@@ -71,15 +71,16 @@ def test_equal_densities_are_zero_and_flagged():
     result = terminal_velocity.evaluate(particle_diameter=1e-3, **same)
     assert result.value == 0.0
     assert [n["flag"] for n in result.notices] == ["limit active"]
-    assert np.isnan(terminal_diameter(velocity=0.1, **same))
+    with pytest.raises(ApplicabilityError, match="same density"):
+        terminal_diameter(velocity=0.1, **same)
     slope = jax.grad(lambda rho: terminal_velocity(particle_diameter=1e-5, **{**same, "particle_density": rho}))(1000.0)
     assert slope == pytest.approx(9.80665 * 1e-10 / 18e-3)
 
 
 def test_impossible_direction_has_no_size():
-    result = terminal_diameter.evaluate(velocity=-0.1, **SAND)
-    assert np.isnan(result.value)
-    assert "not finite" in [n["flag"] for n in result.notices]
+    with pytest.raises(ApplicabilityError, match=r"denser than the fluid falls.*Given: velocity = -100 mm/s"):
+        terminal_diameter(velocity=-0.1, **SAND)
+    assert np.isfinite(terminal_diameter(velocity=jnp.array([-0.1, 0.1]), **SAND)).tolist() == [False, True]
 
 
 def test_bad_input_names_what_is_wrong():

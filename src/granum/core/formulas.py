@@ -87,6 +87,15 @@ class Formula:
         return tuple(p.kind is None or p.sort is int for p in self.card.parameters)
 
     @functools.cached_property
+    def _series(self) -> tuple[tuple[int, ...], ...]:
+        """Places of the arguments that run along one and the same axis."""
+        along: dict[str, list[int]] = {}
+        for i, p in enumerate(self.card.parameters):
+            if p.series:
+                along.setdefault(p.series, []).append(i)
+        return tuple(tuple(group) for group in along.values() if len(group) > 1)
+
+    @functools.cached_property
     def _signature(self) -> inspect.Signature:
         return inspect.signature(self.function)
 
@@ -109,7 +118,17 @@ class Formula:
             if p.kind is None and not isinstance(value, (Formula, str, bool, int, type(None))):
                 traced = traced or any(map(is_tracer, jax.tree_util.tree_leaves(value)))
             batched = batched or (p.kind is not None and not p.series and getattr(value, "ndim", 0) > 0)
+        if self._series:
+            self._check_lengths(values)
         return values, traced, batched
+
+    def _check_lengths(self, values: list[Any]) -> None:
+        """Series along one axis are equally long; an optional one may be a single value for all."""
+        for group in self._series:
+            rows = [(self.card.parameters[i], np.shape(values[i])[-1]) for i in group if np.ndim(values[i])]
+            if len({count for p, count in rows if p.required or count > 1}) > 1:
+                shown = ", ".join(f"'{p.name}' ({count})" for p, count in rows)
+                raise InputError(_("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name)
 
     def _split(self, values: list[Any]) -> tuple[tuple[Any, ...], list[Any]]:
         """Static part (hashable key) and dynamic part of the arguments."""

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from granum.numerics.quick_roots import likely_root
 
 EQUAL_DENSITIES = "Particle and fluid have the same density: the particle neither falls nor rises."
+WRONG_WAY = "A particle denser than the fluid falls: its velocity, positive downwards, cannot be negative."
 LEAST = 1e-30  # criteria below this are in the limit of infinitely slow fall
 
 

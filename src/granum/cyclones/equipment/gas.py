@@ -23,7 +23,7 @@ from granum.streams.units import Check, Unit
 
 LEAST = 1e-9
 MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
-YEAR, ALLOWANCE = 8000.0 * 3600.0, 3.0  # s of operation, mm of steel that may be worn off in them
+YEAR, ALLOWANCE = 8000.0 * 3600.0, 3.0  # s of operation, and mm of steel worn off in them: our own choice, no printed limit
 
 
 class CycloneOutlets(NamedTuple):
