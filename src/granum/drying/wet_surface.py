@@ -16,13 +16,27 @@ PAIR = AirWater()
 def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: Any) -> tuple[Stream, Stream]:
     """Product of a moisture (never above the feed's), and what evaporates as a stream of vapor."""
     left = jnp.minimum(moisture * feed.solid_flow, feed.liquid[0])
-    liquid = feed.liquid.at[0].set(left)
     nothing = jnp.zeros_like(feed.gas)
-    product = feed.replace(liquid=liquid, gas=nothing, temperature=jnp.asarray(T_product, dtype=float))
+    rest = crystallized(feed, 1.0 - safe_divide(left, feed.liquid[0], 1.0))
+    product = rest.replace(gas=nothing, temperature=jnp.asarray(T_product, dtype=float))
     gas = feed.gas.at[feed.mixture.index("gases", feed.mixture.liquids[0].name)].add(feed.liquid[0] - left)
     vapor = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=jnp.zeros_like(feed.liquid), gas=gas,
                          temperature=jnp.asarray(T_vapor, dtype=float), pressure=jnp.asarray(pressure, dtype=float))  # fmt: skip
     return product, vapor
+
+
+def crystallized(wet: Stream, share: Any) -> Stream:
+    """Less a share of its water (the first liquid), with the same share of each solute on the solid of its own name, where there is one."""
+    m = wet.mixture
+    solid, liquid = wet.solid, wet.liquid.at[0].multiply(1.0 - share)
+    names = [species.name for species in m.solids]
+    for i, species in enumerate(m.liquids[1:], start=1):
+        if species.name in names:
+            row = names.index(species.name)
+            there = jnp.sum(solid[row])
+            spread = jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size)
+            solid, liquid = solid.at[row].add(wet.liquid[i] * share * spread), liquid.at[i].multiply(1.0 - share)
+    return wet.replace(solid=solid, liquid=liquid)
 
 
 def humidity(stream: Stream) -> Any:
