@@ -194,7 +194,9 @@ def test_equipment_closes_its_balances(kind):
             product_cut_size="400 um",
             **kinetics,
         ),
-        "batch": lambda: BatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, seed_mass_per_solvent=0.01, **kinetics),
+        "batch": lambda: BatchCrystallizer(
+            temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0), duration=10800.0, seed_mass_per_solvent=0.01, **kinetics
+        ),
     }[kind]()
     feed = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))
     out = unit(feed=feed)

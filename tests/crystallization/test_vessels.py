@@ -103,9 +103,10 @@ def test_vacuum_batch_pays_its_vapor_from_its_heat():
 
 FEED = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))
 UNITS = {
-    "jacketed": lambda: JacketedBatchCrystallizer(NaturalCooling(333.15, 288.15, 5400.0), 14400.0, 5.0, 12.0, 600.0, seed_mass_per_solvent=0.01, **LAWS),
-    "vacuum": lambda: VacuumBatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, **LAWS),
-    "tube": lambda: PlugFlowCrystallizer(PowerCooling(333.15, 293.15, 7200.0, 2.0), 12.0, **LAWS),
+    "jacketed": lambda: JacketedBatchCrystallizer(
+        jacket_program=NaturalCooling(333.15, 288.15, 5400.0), volume=5.0, area=12.0, heat_transfer_coefficient=600.0, duration=14400.0, seed_mass_per_solvent=0.01, **LAWS),
+    "vacuum": lambda: VacuumBatchCrystallizer(temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0), duration=10800.0, **LAWS),
+    "tube": lambda: PlugFlowCrystallizer(temperature_program=PowerCooling(333.15, 293.15, 7200.0, 2.0), volume=12.0, **LAWS),
 }  # fmt: skip
 
 
@@ -134,7 +135,7 @@ def test_equipment_closes_its_balances(kind):
 def test_tube_does_to_its_feed_what_the_batch_does():
     tube = UNITS["tube"]()
     T = tube._time(FEED)
-    vessel = BatchCrystallizer(tube.temperature_program, float(T), **LAWS)
+    vessel = BatchCrystallizer(temperature_program=tube.temperature_program, duration=float(T), **LAWS)
     np.testing.assert_allclose(tube(feed=FEED).product.solid, vessel(feed=FEED).product.solid, rtol=1e-10, atol=1e-15)
 
 
@@ -328,6 +329,14 @@ def test_bad_input_is_told():
         crystallizer_balance(mass_flow=1.0, solute_mass_fraction=1.2, solubility_per_solvent=0.2)
     with pytest.raises(InputError, match="per kg of solvent"):  # g per liter for kg per kg
         batch(**{**SEEDED, "solute_per_solvent": 493.0}, temperature_program=program)
+    with pytest.raises(InputError, match="g per kg"):
+        batch(
+            **{**SEEDED, "solubility": {"law": "polynomial_solubility", "coefficients": [128.6, 5.88, 0.1721]}}, temperature_program=program
+        )
+    with pytest.raises(InputError, match="unit"):
+        batch(**{**SEEDED, "seed_size": "100 m"}, temperature_program=program)
+    with pytest.raises(ApplicabilityError, match="132"):
+        batch(**{**SEEDED, "solubility": LibrarySolubility("KNO3")}, temperature_program=PowerCooling(405.15, 301.15, DURATION))
     with pytest.raises(InputError, match=r"must be|not possible|between|above"):
         batch(**{**SEEDED, "seed_mass_per_solvent": -1.0}, temperature_program=program)
     told = LibrarySolubility("potassium nitrate")
@@ -337,6 +346,8 @@ def test_bad_input_is_told():
     # Seeds larger than the size classes of the line: told by a check, not hidden.
     small = Mixture(mixture().solids, mixture().liquids, mixture().gases, (0.0, *map(float, np.geomspace(2e-5, 5e-5, 40))))
     feed = empty(small, 333.15).replace(liquid=jnp.array([1.0, 1.0]))
-    unit = BatchCrystallizer(PowerCooling(333.15, 293.15, 10800.0, 2.0), 10800.0, seed_mass_per_solvent=0.01, **LAWS)
+    unit = BatchCrystallizer(
+        temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0), duration=10800.0, seed_mass_per_solvent=0.01, **LAWS
+    )
     failed = [c.name for c in unit.checks({"feed": feed}, unit(feed=feed)) if not c.ok]
     assert any("largest size class" in name for name in failed)

@@ -20,7 +20,7 @@ from typing import Any
 
 import jax
 
-from granum.core import registry, units
+from granum.core import flags, registry, units
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.formulas import Formula
@@ -271,7 +271,7 @@ def _constant(function: Any, *values: Any) -> float:
     """A number worked out once, also when a material is first asked for inside a traced function."""
     if isinstance(function, Missing):
         return nan
-    with jax.ensure_compile_time_eval():
+    with flags.collect(), jax.ensure_compile_time_eval():  # flags of the build are nobody's inputs
         return float(function(*values))
 
 

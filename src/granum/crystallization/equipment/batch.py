@@ -39,6 +39,7 @@ from granum.crystallization.population.operations import Flashing, Jacketed, Ope
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
 
@@ -125,6 +126,16 @@ class PlugFlowFigures(NamedTuple):
 class _Batch(Unit):
     """What batches share; each says how long it runs and what drives it."""
 
+    solubility: Annotated[Any, Law("solubility_law")] = eqx.field(kw_only=True)
+    growth: Annotated[Any, Law("growth_rate")] = eqx.field(kw_only=True)
+    nucleation: Annotated[Any, Law("nucleation_rate")] = eqx.field(kw_only=True)
+    seed_mass_per_solvent: MassRatio = eqx.field(kw_only=True, default=0.0)
+    seed_size: Length = eqx.field(kw_only=True, default=100e-6)
+    seed_width: Distance = eqx.field(kw_only=True, default=0.0)
+    volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
+    solid: str = eqx.field(kw_only=True, static=True, default="")
+    solvent: str = eqx.field(kw_only=True, static=True, default="")
+
     @abstractmethod
     def _time(self, feed: Stream) -> Any:
         """Time from charge to product, s."""
@@ -148,6 +159,7 @@ class _Batch(Unit):
         number = entering.crystals / (cube * 0.25 * (low + high) * (low**2 + high**2))
         return held, Seeds(jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number))
 
+    @shared
     def _course(self, feed: Stream) -> tuple[Course, Roles, Any]:
         """The batch of one second of feed (everything is proportional to it), and the seed held back."""
         found = roles(feed.mixture, self.solid, self.solvent)
@@ -187,7 +199,13 @@ class _Batch(Unit):
             1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300), course, found,
         )  # fmt: skip
 
-    def _usual_checks(self, figures: Any, product: Stream) -> tuple[Check, ...]:
+    def _cooled(self, feed: Stream) -> BatchOutlets:
+        """The outlets of a vessel that gives up no vapor."""
+        product, _gone = self._product(feed, *self._course(feed))
+        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Any) -> tuple[Check, ...]:
+        figures, product = self.results(inlets, outlets), outlets.product
         return (
             Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
             Check(_HIGHEST, figures.relative_supersaturation_maximum, 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
@@ -195,9 +213,28 @@ class _Batch(Unit):
         )
 
 
+class _Cycled(_Batch):
+    """A batch vessel that works in cycles of batch and dead time."""
+
+    duration: Time = eqx.field(kw_only=True)
+    dead_time: Time = eqx.field(kw_only=True, default=3600.0)
+
+    @property
+    def cycle(self) -> Any:
+        """Time from charge to charge, s."""
+        return self.duration + self.dead_time
+
+    def _time(self, feed: Stream) -> Any:
+        return self.duration
+
+    def _seed(self, feed: Stream, found: Roles) -> Any:
+        """Mass of seed held back in each cycle of the whole flow, kg."""
+        return self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.cycle
+
+
 @equipment("batch_crystallizer", source="mullin2001, ch. 9; miller1994", title="Seeded batch crystallizer",
            equation=r"\dot m = m_{batch} / (t_f + t_{dead})")  # fmt: skip
-class BatchCrystallizer(_Batch):
+class BatchCrystallizer(_Cycled):
     """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over the cycle.
 
     Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut, which is taken from the product
@@ -205,41 +242,22 @@ class BatchCrystallizer(_Batch):
     """
 
     temperature_program: Annotated[Any, Law("program")]
-    duration: Time
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
-    dead_time: Time = 3600.0
-    seed_mass_per_solvent: MassRatio = 0.0
-    seed_size: Length = 100e-6
-    seed_width: Distance = 0.0
-    volume_shape_factor: PositiveNumber = 1.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
-
-    def _time(self, feed: Stream) -> Any:
-        return self.duration
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
 
     def __call__(self, feed: Stream) -> BatchOutlets:
-        product, _gone = self._product(feed, *self._course(feed))
-        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+        return self._cooled(feed)
 
     def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> BatchFigures:
         *figures, _course, found = self._figures(inlets["feed"], outlets.product)
-        cycle = self.duration + self.dead_time
-        seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
-        return BatchFigures._make((*figures, seed, outlets.product.slurry_volume_flow * cycle, outlets.heat_duty))
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
-        return self._usual_checks(self.results(inlets, outlets), outlets.product)
+        volume = outlets.product.slurry_volume_flow * self.cycle
+        return BatchFigures._make((*figures, self._seed(inlets["feed"], found), volume, outlets.heat_duty))
 
 
 @equipment("jacketed_batch_crystallizer", source="mullin2001, ch. 9; kern1950, ch. 20", title="Batch crystallizer cooled through a jacket",
            equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}")  # fmt: skip
-class JacketedBatchCrystallizer(_Batch):
+class JacketedBatchCrystallizer(_Cycled):
     """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature follows from the heat balance.
 
     The charge starts at the temperature of the feed. The wall is checked against encrustation: its undercooling should stay within the
@@ -247,33 +265,18 @@ class JacketedBatchCrystallizer(_Batch):
     """
 
     jacket_program: Annotated[Any, Law("program")]
-    duration: Time
     volume: Volume
     area: Area
     heat_transfer_coefficient: HeatTransferCoefficient
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
     heat_transfer_coefficient_inside: HeatTransferCoefficient = 1000.0
     metastable_width: TemperatureDifference = 5.0
-    dead_time: Time = 3600.0
-    seed_mass_per_solvent: MassRatio = 0.0
-    seed_size: Length = 100e-6
-    seed_width: Distance = 0.0
-    volume_shape_factor: PositiveNumber = 1.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
-
-    def _time(self, feed: Stream) -> Any:
-        return self.duration
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         exchange = self.heat_transfer_coefficient * self.area * feed.slurry_volume_flow / self.volume
         return Jacketed(feed.temperature, self.jacket_program, exchange, StreamHeat.of(feed, found))
 
     def __call__(self, feed: Stream) -> BatchOutlets:
-        product, _gone = self._product(feed, *self._course(feed))
-        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+        return self._cooled(feed)
 
     def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> JacketedBatchFigures:
         feed = inlets["feed"]
@@ -281,41 +284,25 @@ class JacketedBatchCrystallizer(_Batch):
         T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
         wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside)
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
-        count = feed.slurry_volume_flow * (self.duration + self.dead_time) / self.volume
-        seed = self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.volume / feed.slurry_volume_flow
-        return JacketedBatchFigures._make((*figures, seed, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty))
+        count = feed.slurry_volume_flow * self.cycle / self.volume
+        return JacketedBatchFigures._make(
+            (*figures, self._seed(feed, found) / count, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
+        )
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        return (
-            *self._usual_checks(figures, outlets.product),
-            Check(_CRUST, figures.undercooling_wall_maximum, -jnp.inf, self.metastable_width, "K", "mullin2001, ch. 9"),
-        )
+        coldest = self.results(inlets, outlets).undercooling_wall_maximum
+        return (*super().checks(inlets, outlets), Check(_CRUST, coldest, -jnp.inf, self.metastable_width, "K", "mullin2001, ch. 9"))
 
 
 @equipment("vacuum_batch_crystallizer", source="mullin2001, ch. 8 and 9", title="Batch crystallizer cooled by boiling under vacuum",
            equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c")  # fmt: skip
-class VacuumBatchCrystallizer(_Batch):
+class VacuumBatchCrystallizer(_Cycled):
     """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a continuous feed in cycles.
 
     The program is that of the boiling temperature; the feed flashes down to its start. Heat given back by the seeds that are held over is the small duty.
     """
 
     temperature_program: Annotated[Any, Law("program")]
-    duration: Time
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
-    dead_time: Time = 3600.0
-    seed_mass_per_solvent: MassRatio = 0.0
-    seed_size: Length = 100e-6
-    seed_width: Distance = 0.0
-    volume_shape_factor: PositiveNumber = 1.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
-
-    def _time(self, feed: Stream) -> Any:
-        return self.duration
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         if found.vapor is None:
@@ -336,14 +323,9 @@ class VacuumBatchCrystallizer(_Batch):
 
     def results(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> VacuumBatchFigures:
         *figures, course, found = self._figures(inlets["feed"], outlets.product)
-        cycle = self.duration + self.dead_time
-        seed = self.seed_mass_per_solvent * feed_of(inlets["feed"], found).solvent * cycle
-        fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * cycle  # after the first flash
-        gone = course.solvent[0] - course.solvent[-1]
-        return VacuumBatchFigures._make((*figures, seed, outlets.product.slurry_volume_flow * cycle, gone, fastest))
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> tuple[Check, ...]:
-        return self._usual_checks(self.results(inlets, outlets), outlets.product)
+        fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle  # after the first flash
+        gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
+        return VacuumBatchFigures._make((*figures, self._seed(inlets["feed"], found), volume, gone, fastest))
 
 
 @equipment("plug_flow_crystallizer", source="randolph1988, ch. 7; mullin2001, ch. 9", title="Plug flow crystallizer",
@@ -357,15 +339,6 @@ class PlugFlowCrystallizer(_Batch):
 
     temperature_program: Annotated[Any, Law("program")]
     volume: Volume
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
-    seed_mass_per_solvent: MassRatio = 0.0
-    seed_size: Length = 100e-6
-    seed_width: Distance = 0.0
-    volume_shape_factor: PositiveNumber = 1.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
 
     def _time(self, feed: Stream) -> Any:
         return self.volume / feed.slurry_volume_flow
@@ -374,12 +347,8 @@ class PlugFlowCrystallizer(_Batch):
         return Programmed(self.temperature_program)
 
     def __call__(self, feed: Stream) -> BatchOutlets:
-        product, _gone = self._product(feed, *self._course(feed))
-        return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
+        return self._cooled(feed)
 
     def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> PlugFlowFigures:
         *figures, _course, _found = self._figures(inlets["feed"], outlets.product)
         return PlugFlowFigures._make((*figures, self._time(inlets["feed"]), outlets.heat_duty))
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
-        return self._usual_checks(self.results(inlets, outlets), outlets.product)

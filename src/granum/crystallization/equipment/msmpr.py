@@ -71,6 +71,16 @@ def _median(masses: Any, edges: Any) -> Any:
 class _Continuous(Unit):
     """What the continuous crystallizers share; each says how much solvent evaporates."""
 
+    temperature: Temperature
+    volume: Volume
+    solubility: Annotated[Any, Law("solubility_law")]
+    growth: Annotated[Any, Law("growth_rate")]
+    nucleation: Annotated[Any, Law("nucleation_rate")]
+    volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
+    nucleus_size: Distance = eqx.field(kw_only=True, default=0.0)
+    solid: str = eqx.field(kw_only=True, static=True, default="")
+    solvent: str = eqx.field(kw_only=True, static=True, default="")
+
     @shared
     def _steady(self, feed: Stream) -> tuple[SteadyState, Roles]:
         found = roles(feed.mixture, self.solid, self.solvent)
@@ -128,30 +138,25 @@ class _Continuous(Unit):
         """Solvent evaporated, kg/s, and what is added to it per kg of crystals formed."""
 
 
-@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
-           equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
-class Msmpr(_Continuous):
-    """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
+class _Evaporating(_Continuous):
+    """A vessel from which a given flow of solvent evaporates."""
 
-    The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute balance leaves;
-    seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their water from the solvent.
-    """
-
-    temperature: Temperature
-    volume: Volume
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
-    volume_shape_factor: PositiveNumber = 1.0
-    nucleus_size: Distance = 0.0
-    evaporation: MassFlow = 0.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
+    evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         if found.vapor is None and not (isinstance(self.evaporation, float) and self.evaporation == 0.0):
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
         return self.evaporation, 0.0
+
+
+@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
+           equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
+class Msmpr(_Evaporating):
+    """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
+
+    The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute balance leaves;
+    seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their water from the solvent.
+    """
 
 
 @equipment(
@@ -160,35 +165,20 @@ class Msmpr(_Continuous):
     title="Continuous crystallizer with fines dissolution and classified product (Oslo)",
     equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
 )
-class ClassifiedCrystallizer(_Continuous):
+class ClassifiedCrystallizer(_Evaporating):
     """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts (R–Z model).
 
     A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product removal evens the sizes. A fluidized bed
     (Oslo) is one with a strong classification. The dissolved fines return with their solute, whose heat cancels.
     """
 
-    temperature: Temperature
-    volume: Volume
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
     fines_removal_ratio: PositiveNumber = 1.0
     fines_cut_size: Distance = 0.0
     product_removal_ratio: PositiveNumber = 1.0
     product_cut_size: Distance = 1.0
-    volume_shape_factor: PositiveNumber = 1.0
-    nucleus_size: Distance = 0.0
-    evaporation: MassFlow = 0.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
 
     def _removal(self) -> Removal:
         return Removal(self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size)
-
-    def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
-        if found.vapor is None and not (isinstance(self.evaporation, float) and self.evaporation == 0.0):
-            raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        return self.evaporation, 0.0
 
 
 @equipment("vacuum_crystallizer", source="mullin2001, ch. 8; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
@@ -200,16 +190,7 @@ class VacuumCrystallizer(_Continuous):
     adiabatic flash). The vapor pressure that the ejectors must hold follows from the temperature.
     """
 
-    temperature: Temperature
-    volume: Volume
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
-    volume_shape_factor: PositiveNumber = 1.0
-    nucleus_size: Distance = 0.0
     heat_duty: Power = 0.0
-    solid: str = eqx.field(static=True, default="")
-    solvent: str = eqx.field(static=True, default="")
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
         if found.vapor is None:

@@ -206,7 +206,7 @@ def crystallizer_balance_library(
         duty = sensible - found.crystal_flow / R * s.heat_of_crystallization(T) + evaporation * s.solvent.heat_of_vaporization(T)
     else:
         duty = jnp.nan + 0.0 * found.crystal_flow
-    return KnownSoluteBalance(*found, ratio, R, duty)
+    return KnownSoluteBalance._make((*found, ratio, R, duty))
 
 
 @formula(source="kern1950, ch. 5", equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",

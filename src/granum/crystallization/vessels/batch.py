@@ -7,7 +7,8 @@ from typing import Annotated, Any, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import procedure
+from granum.core import flags, procedure
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -35,6 +36,7 @@ from granum.numerics.smooth import safe_divide
 
 SEED_PACKETS = 16
 LARGEST, EMPTY_CLASSES = 15.0, 40  # agglomerates up to so many times the largest seed, in so many classes
+LARGEST_SEED, LARGEST_SOLUBILITY = 0.02, 50.0  # m, kg/kg
 BUSIEST = 0.5  # share of the crystals that may meet another in half a step
 
 
@@ -147,7 +149,7 @@ def batch(
     >>> round(float(out.solute_per_solvent[-1] + out.crystals_per_solvent[-1]), 6)
     0.49349
     """
-    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program(0.0))
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, along(temperature_program, duration))
     if growth_dispersion > 0 and dissolution is not None:
         raise ApplicabilityError(
             _("Crystals that grow at rates of their own are followed only while they grow: leave out the dissolution or the dispersion.")
@@ -224,7 +226,7 @@ def agglomerating_batch(
     >>> bool(out.crystals_number[-1] < out.crystals_number[0])
     True
     """
-    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program(0.0))
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, along(temperature_program, duration))
     crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
     model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density))
     seeds = narrow_seeds(seed_size, jnp.maximum(seed_width, 1e-3 * seed_size), seed_mass_per_solvent, crystal.mass_per_cube)
@@ -259,17 +261,35 @@ def median_size(packets: Any) -> Any:
     return jnp.interp(0.5 * below[-1], below, trial)
 
 
-def check_charge(size: Any, width: Any, steps: int, ratio: Any, solubility: Any, temperature: Any) -> None:
-    """What would give a result without meaning."""
+def along(program: Any, duration: Any) -> np.ndarray:
+    """Values of a program at a few times of the batch, the start first."""
+    return np.array([float(program(t)) for t in np.linspace(0.0, float(duration), 5)])
+
+
+def check_charge(size: Any, width: Any, steps: int, ratio: Any, solubility: Any, temperatures: Any) -> None:
+    """What would give a result without meaning: seeds, charge and the temperatures met, the first one being that of the start."""
+    if size > LARGEST_SEED:
+        raise InputError(_("Seeds of {size} mm are no crystals: check the unit.").format(size=round(size * 1e3, 1)), name="seed_size")
     if width >= 2.0 * size:
         raise InputError(_("Seeds of {size} µm cannot be {width} µm wide: the width must be below twice the size.").format(
             size=round(size * 1e6, 3), width=round(width * 1e6, 3)), name="seed_width")  # fmt: skip
     if steps < 2:
         raise InputError(_("'steps' = {value} is too few; give at least 2.").format(value=steps), name="steps")
-    saturated = float(np.asarray(solubility(temperature)))
+    with flags.collect() as records:
+        course = np.atleast_1d(np.asarray(solubility(jnp.asarray(temperatures, dtype=float))))
+    beyond = [row for row in flags.describe(records) if row["low"] and row["high"]]
+    if beyond:
+        met, low, high = (round(beyond[0][key] - ZERO_CELSIUS, 1) for key in ("worst", "low", "high"))
+        raise ApplicabilityError(
+            _("The batch meets {met} °C, but the solubility is known from {low} to {high} °C.").format(met=met, low=low, high=high)
+        )
+    saturated = float(course[0])
     if not np.isfinite(saturated) or saturated <= 0:
         raise InputError(_("The solubility at the start, {value}, is not a positive number: is the temperature within its data?").format(
             value=saturated), name="solubility")  # fmt: skip
+    if np.max(course) > LARGEST_SOLUBILITY:
+        raise InputError(_("A solubility of {value} kg per kg of solvent is beyond any solute: are its coefficients for g per kg?").format(
+            value=round(float(np.max(course)), 1)), name="solubility")  # fmt: skip
     if ratio > 3.0 * saturated:
         raise InputError(
             _("The solution holds {ratio} kg/kg against a solubility of {saturated}: check that both are per kg of solvent.").format(

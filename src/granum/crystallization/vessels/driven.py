@@ -35,7 +35,7 @@ from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume
 from granum.crystallization.population.operations import Flashing, HeatData, Jacketed
-from granum.crystallization.vessels.batch import check_charge, mass_mean, narrow_seeds, nuclei_share, simulated, yield_of
+from granum.crystallization.vessels.batch import along, check_charge, mass_mean, narrow_seeds, nuclei_share, simulated, yield_of
 from granum.crystallization.vessels.crystals import Crystal
 
 
@@ -178,7 +178,7 @@ def vacuum_batch(
     >>> round(float(out.evaporated_fraction[-1]), 3)
     0.009
     """
-    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, temperature_program(0.0))
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, along(temperature_program, duration))
     crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
     model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density))
     seeds = narrow_seeds(seed_size, seed_width, seed_mass_per_solvent, crystal.mass_per_cube)

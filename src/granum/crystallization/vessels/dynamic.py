@@ -256,7 +256,7 @@ def msmpr_over_time(
     if len(V) != len(T):
         raise InputError(_("{volumes} vessels need as many temperatures; {temperatures} were given.").format(volumes=len(V), temperatures=len(T)),
                          name="temperatures")  # fmt: skip
-    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, T[0])
+    check_charge(seed_size, seed_width, steps, solute_per_solvent, solubility, T)
     crystal = Crystal(crystal_density, volume_shape_factor, solute_fraction_of_crystal)
     model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density),
                   dispersion=GrowthDispersion(growth_dispersion) if growth_dispersion > 0 else None)  # fmt: skip
