@@ -10,10 +10,12 @@ import jax.numpy as jnp
 
 import granum.humid_gas.relations as rel
 from granum.core import flags
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
+from granum.numerics.blocks import blockwise
 from granum.numerics.quick_roots import falling_root
 from granum.numerics.roots import find_root
 
@@ -79,6 +81,18 @@ class Solver:
     def solve(self) -> tuple[Gas, Any]:
         """The state, and where it is possible."""
         check_pair_of_inputs(self.given)
+        names, lewis = list(self.given), self.lewis["wet_bulb_temperature"]
+        if flags.listening() or (lewis is not None and jnp.ndim(lewis) > 0):  # a block cannot tell what it has to say
+            return self._solve()
+
+        def one(P: Any, *values: Any) -> tuple[Gas, Any]:
+            gas, possible = Solver(self.pair, P, lewis, dict(zip(names, values, strict=True)))._solve()
+            shape = jnp.broadcast_shapes(*(jnp.shape(x) for x in (P, *values)))
+            return jax.tree.map(lambda x: jnp.broadcast_to(x, shape), (gas, possible))
+
+        return blockwise(one, self.P, *self.given.values())
+
+    def _solve(self) -> tuple[Gas, Any]:
         names = sorted(self.given, key=NAMES.index)
         roles = ["moisture" if n in MOISTURE else "wet_bulb" if n in WET else n for n in names]
         gas, possible = getattr(self, "_" + "_and_".join(roles))(*names)
@@ -234,19 +248,19 @@ class Solver:
     # --- wet bulb and another
 
     def _relative_humidity_and_wet_bulb(self, other: str, name: str) -> tuple[Gas, Any]:
-        pair, P, Ts, phi, lewis = self.pair, self.P, self.given[name], self.given[other], self.lewis[name]
-        frozen = pair.is_frozen(Ts)
+        pair, P, Ts, phi = self.pair, self.P, self.given[name], self.given[other]
+        surface = rel.wet_surface(pair, Ts, P, self.lewis[name])
 
         def fraction(T: Any) -> Any:
             return jnp.minimum(phi * self._ys(T), 1.0)
 
         def balance(T: Any) -> Any:
-            y = fraction(T)
-            return -rel.wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis)
+            return -surface.balance(pair.molar_enthalpy(T, P, fraction(T)), fraction(T))
 
         boiling = pair.boiling_temperature(P)
         self._tell(Ts >= boiling, name, lambda: (-jnp.inf, boiling), BELOW_BOILING)
-        T = self._falling(balance, Ts + 0.0 * phi * P, pair.highest_temperature)
+        top = self._holding(surface.ys, phi)
+        T = self._falling(balance, Ts + 0.0 * top, top, start=top)
         return Gas(T, fraction(T), jnp.zeros_like(T)), boiling > Ts
 
     def _wet_bulb_and_enthalpy(self, wet: str, name: str) -> tuple[Gas, Any]:
@@ -265,13 +279,13 @@ class Solver:
         return jnp.minimum(*ends), jnp.maximum(*ends)
 
     def _wet_bulb_and_specific_volume(self, wet: str, name: str) -> tuple[Gas, Any]:
-        pair, P, Ts, lewis = self.pair, self.P, self.given[wet], self.lewis[wet]
-        v = self.given[name]
+        pair, P, Ts, v = self.pair, self.P, self.given[wet], self.given[name]
+        surface = rel.wet_surface(pair, Ts, P, self.lewis[wet])
         driest = self._with_surface(jnp.zeros_like(Ts * P * v), wet)[0].T
         ends = Ts + 0.0 * P * v, jnp.where(jnp.isnan(driest), pair.highest_temperature, driest)
 
         def fraction(T: Any) -> Any:
-            return rel.fraction_at_wet_bulb(pair, T, P, Ts, lewis)
+            return rel.fraction_over(surface, pair, T, P)
 
         def balance(T: Any) -> Any:
             y = fraction(T)
@@ -287,6 +301,11 @@ class Solver:
         y = jnp.clip(fraction(T), 0.0, 1.0)
         return Gas(T, jnp.minimum(y, self._ys(T)), jnp.zeros_like(T)), jnp.asarray(True)
 
+    def _holding(self, y: Any, phi: Any) -> Any:
+        """Temperature at which gas of a relative humidity holds a vapor fraction; the highest of the pair for dry gas."""
+        T = rel.temperature_of_saturation(self.pair, self.P, y / jnp.maximum(phi, 1e-12), self.pair.highest_temperature)
+        return jnp.where(phi > 1e-9, T * (1 + 1e-6), self.pair.highest_temperature)
+
     # --- two of relative humidity, enthalpy and volume
 
     def _relative_humidity_and_enthalpy(self, other: str, name: str) -> tuple[Gas, Any]:
@@ -299,7 +318,12 @@ class Solver:
             return self._per_gas(self.given[name], fraction(T)) - of(T, self.P, fraction(T))
 
         low, high = self.pair.lowest_temperature, self.pair.highest_temperature
-        T = self._falling(balance, low + 0.0 * phi * self.P * self.given[name], high)
+        if name == "enthalpy":  # which is zero at 0 °C: no warmer than if the vapor alone held it
+            zero = ZERO_CELSIUS
+            vapor = self.pair.vapor_partial_enthalpy(jnp.asarray(zero, dtype=float), self.P, 1e-6) / self.pair.vapor_molar_mass
+            held = self.pair.fraction(jnp.maximum(self.given[name], 1.0) / vapor)
+            high = jnp.where(self.given[name] > 0, jnp.maximum(self._holding(held, phi), zero), zero) * (1 + SLACK)
+        T = self._falling(balance, low + 0.0 * phi * self.P * self.given[name], high, start=high)
         return Gas(T, fraction(T), jnp.zeros_like(T)), jnp.asarray(True)
 
     _relative_humidity_and_specific_volume = _relative_humidity_and_enthalpy

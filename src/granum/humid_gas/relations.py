@@ -84,14 +84,17 @@ def wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
 
 def polished_wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
     """The wet bulb to the last digit, by one more Newton step: beside an enthalpy it fixes the state a million times less sharply."""
-    Ts = wet_bulb(pair, T, P, y, lewis)
-    h = pair.molar_enthalpy(T, P, y)
-    value, slope = jax.jvp(
-        lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, jax.lax.stop_gradient(pair.is_frozen(Ts)), lewis), (Ts,), (jnp.ones_like(Ts),)
-    )
-    slope = jax.lax.stop_gradient(slope)
-    step = jnp.where(slope < 0, value / jnp.where(slope < 0, slope, -1.0), 0.0)
-    return Ts - jnp.where(abs(step) < 1e-9 * Ts, step, 0.0)
+
+    def one(T: Any, P: Any, y: Any, *factor: Any) -> Any:
+        lewis = factor[0] if factor else None
+        Ts, h = _wet_bulb(pair, T, P, y, lewis), pair.molar_enthalpy(T, P, y)
+        frozen = jax.lax.stop_gradient(pair.is_frozen(Ts))
+        value, slope = jax.jvp(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, frozen, lewis), (Ts,), (jnp.ones_like(Ts),))
+        slope = jax.lax.stop_gradient(slope)
+        step = jnp.where(slope < 0, value / jnp.where(slope < 0, slope, -1.0), 0.0)
+        return Ts - jnp.where(abs(step) < 1e-9 * Ts, step, 0.0)
+
+    return blockwise(one, T, P, y) if lewis is None else blockwise(one, T, P, y, lewis)
 
 
 def wet_bulb_of_total(pair: AbstractPair, T: Any, P: Any, w: Any, lewis: Any) -> Any:
@@ -180,17 +183,6 @@ def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) ->
     return R - d / (b + d / R)
 
 
-def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any) -> Any:
-    """Vapor fraction of gas at T whose wet bulb is Ts; negative where even dry gas is wetter than that. Nearly linear in y."""
-    frozen = pair.is_frozen(Ts)
-    ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
-
-    def balance(y: Any) -> Any:
-        return wet_bulb_balance(pair, Ts, pair.molar_enthalpy(T, P, y), P, y, frozen, lewis)
-
-    return newton_root(balance, ys + 0.0 * T, NEARLY_LINEAR)
-
-
 class WetSurface(NamedTuple):
     """What a wet surface of known temperature asks of the gas, all molar: h (1 − ys) + (ys − y) taken = (1 − y) saturated."""
 
@@ -198,6 +190,10 @@ class WetSurface(NamedTuple):
     saturated: Any
     taken: Any
     latent: Any
+
+    def balance(self, h: Any, y: Any) -> Any:
+        """Zero where gas of a molar enthalpy and a vapor fraction has this wet surface; it rises with both."""
+        return (1.0 - self.ys) * h + (self.ys - y) * self.taken - (1.0 - y) * self.saturated
 
     def enthalpy(self, y: Any) -> Any:
         """Molar enthalpy of the gas of vapor fraction y with this wet surface."""
@@ -219,6 +215,16 @@ def wet_surface(pair: AbstractPair, Ts: Any, P: Any, lewis: Any) -> WetSurface:
     latent = pair.vapor_partial_enthalpy(Ts, P, ys) - condensate
     taken = condensate if lewis is None else condensate + (1.0 - 1.0 / lewis) * latent
     return WetSurface(ys, pair.molar_enthalpy(Ts, P, ys), taken, latent)
+
+
+def fraction_over(surface: WetSurface, pair: AbstractPair, T: Any, P: Any) -> Any:
+    """Vapor fraction of gas at T with a wet surface; negative where even dry gas is wetter than that. Nearly linear in y."""
+    return newton_root(lambda y: surface.balance(pair.molar_enthalpy(T, P, y), y), surface.ys + 0.0 * T, NEARLY_LINEAR)
+
+
+def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any) -> Any:
+    """Vapor fraction of gas at T whose wet bulb is Ts."""
+    return fraction_over(wet_surface(pair, Ts, P, lewis), pair, T, P)
 
 
 def fraction_at_volume(pair: AbstractPair, T: Any, P: Any, v: Any) -> Any:
