@@ -8,6 +8,7 @@ from typing import Any
 
 import networkx as nx
 
+from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.units import show
 from granum.flowsheet.plan import Link
@@ -149,7 +150,8 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
         f'<marker id="tip-{c[1:]}" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0 L8 4 L0 8 z" fill="{c}"/></marker>'
         for c in PHASE_COLORS.values()
     )
+    name = escape(_("Flow diagram"))
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif" '
-        f'style="width:100%;max-width:{width}px"><defs>{tips}</defs>{"".join(parts)}</svg>'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height}" role="group" aria-label="{name}" font-family="system-ui, sans-serif" '
+        f'style="width:100%;max-width:{width:g}px"><defs>{tips}</defs>{"".join(parts)}</svg>'
     )

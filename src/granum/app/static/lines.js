@@ -168,7 +168,7 @@ function put(rows, key, label, index, value) {
 }
 
 function UnitPanel({ name, unit, cases }) {
-  return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide"><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
+  return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide" tabindex="0" role="region" aria-label=${name}><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
     ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? number(c.units[name]?.results[figure]?.value)}</td>`)}</tr>`)}
     ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.text} <span class="dim">(${c.allowed})</span></td></tr>`)}</tbody></table></div>`;
 }
