@@ -84,7 +84,7 @@ def on_page_markdown(markdown: str, **_more: Any) -> str:
 def _figure(figure: Any, label: str) -> str:
     data = figure.to_json().replace("</", "<\\/")
     return (
-        f'<div class="plot" role="figure" aria-label="{html.escape(label)}"><script type="application/json">{data}</script>'
+        f'<div class="plot" role="group" aria-label="{html.escape(label)}"><script type="application/json">{data}</script>'
         f"<noscript>{html.escape(label)}</noscript></div>"
     )
 

@@ -137,5 +137,5 @@ export function Plot({ figure, label, onPoint }) {
     });
     return () => { alive = false; };
   }, [figure]);
-  return html`<div class="plot" ref=${place} role="figure" aria-label=${label || t('Chart')}></div>`;
+  return html`<div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div>`;
 }
