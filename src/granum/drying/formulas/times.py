@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import flags, formula
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
     Area,
@@ -38,6 +38,7 @@ from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.numerics import gauss_legendre
 
 Curve = Annotated[Any, Law("characteristic_rate")]
+NEVER = "Equilibrium is approached without end: dry to a moisture above it."
 
 
 @formula(source="treybal1980, ch. 12", equation=r"N_c = \frac{h\,(T_g - T_h)}{L_v}",
@@ -119,6 +120,7 @@ def drying_time_falling_rate(
     possible = (Xe < X2) & (Xe < X1)
     ratio = jnp.where(possible, X1 - Xe, 1.0) / jnp.where(possible, X2 - Xe, 1.0)
     t = dry_solid_mass / (area * drying_rate_constant) * (critical_moisture - Xe) * jnp.log(ratio)
+    flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
     return jnp.where(possible, t, jnp.nan)
 
 
@@ -158,6 +160,7 @@ def drying_time(
     falling = upper > X2
     possible = (~falling) | (Xe < X2)
     ratio = jnp.where(falling & possible, upper - Xe, 1.0) / jnp.where(falling & possible, X2 - Xe, 1.0)
+    flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
     t2 = jnp.where(possible, scale * (Xc - Xe) * jnp.log(ratio), jnp.nan)
     return DryingTime(t1 + t2, t1 + 0.0 * t2, t2 + 0.0 * t1)
 
@@ -190,6 +193,7 @@ def drying_time_characteristic(
     high = jnp.clip((jnp.minimum(X1, Xc) - Xe) / jnp.where(span > 0, span, 1.0), 1e-9, 1.0)
     above = jnp.maximum(X1 - jnp.maximum(Xc, X2), 0.0)
     integral = gauss_legendre(lambda s: jnp.exp(s) / characteristic_rate.rate(jnp.exp(s)), jnp.log(low), jnp.log(high), order=32)
+    flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
     return jnp.where(possible, dry_solid_mass / (area * drying_rate_constant) * (above + span * integral), jnp.nan)
 
 
