@@ -24,7 +24,7 @@ from granum.crystallization.equipment.batch import (
 from granum.crystallization.formulas.balances import crystallizer_balance
 from granum.crystallization.formulas.encrustation import temperature_difference_encrustation, wall_temperature_jacket
 from granum.crystallization.formulas.nucleation import NoNucleation
-from granum.crystallization.formulas.programs import ConstantFlow, NaturalCooling, PowerCooling, TemperaturePoints
+from granum.crystallization.formulas.programs import ConstantFlow, NaturalCooling, PowerCooling
 from granum.crystallization.formulas.solubility_laws import LibrarySolubility, PolynomialSolubility
 from granum.crystallization.lab_tests.next_batch import next_batch
 from granum.crystallization.population.lagrangian import Model, SolventVolume, SuspensionVolume, march
@@ -246,13 +246,13 @@ def test_dispersion_of_zero_is_none():
 
 
 def test_agglomerating_batch_asks_for_enough_steps():
-    program = TemperaturePoints([0.0, DURATION], [305.15, 301.15])
+    program = PowerCooling(305.15, 301.15, DURATION)
     kernel = {"law": "constant_kernel", "agglomeration_coefficient": 3e-9}
     with pytest.raises(InputError, match="at least"):
         agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=kernel, steps=50)
-    plain = batch(**SEEDED, temperature_program=program, steps=100)
+    plain = batch(**SEEDED, temperature_program=program, steps=50)
     none = {**kernel, "agglomeration_coefficient": 0.0}
-    same = agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=none, steps=100)
+    same = agglomerating_batch(**SEEDED, temperature_program=program, agglomeration_kernel=none, steps=50)
     assert same.mean_diameter == pytest.approx(plain.mean_diameter, rel=1e-9)
     assert sum(same.class_fractions) == pytest.approx(1.0)
 
