@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from string import Formatter
 
@@ -36,6 +37,16 @@ def test_messages_have_french(package: str) -> None:
     messages = {m for _f, _n, m, _c, _x in found if isinstance(m, str)}
     missing = sorted(m for m in messages if m not in catalog("fr"))
     assert not missing, f"{len(missing)} messages without French: {missing}"
+
+
+def test_titles_of_the_examples_have_french() -> None:
+    titles = {
+        tomllib.loads(p.read_text(encoding="utf-8")).get("title", "")
+        for p in (SOURCE.parents[1] / "examples").rglob("*.toml")
+        if "[units." in p.read_text(encoding="utf-8")
+    }
+    assert len(titles) > 30
+    assert titles - set(catalog("fr")) == set()
 
 
 def test_french_keeps_the_placeholders() -> None:

@@ -142,6 +142,10 @@ def _failure(found: Any, bad: list[str], targets: tuple[Target, ...], reach: Cal
         ).format(stream=place["stream"], unit=place["unit"], residual=f"{place['residual']:.2g}")
     for t in targets:
         low, high = reach(t)
+        if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
+            return _(
+                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI units). Vary another parameter."
+            ).format(result=t.so_that, vary=t.vary, value=f"{low:.6g}")
         if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
             return _(
                 "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at {upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
@@ -209,8 +213,8 @@ class Run:
 
     @property
     def title(self) -> str:
-        """Title of the case."""
-        return self.line.title
+        """Title of the case; that of a shipped example in the current language."""
+        return _(self.line.title)
 
     @property
     def streams(self) -> dict[str, Stream]:
