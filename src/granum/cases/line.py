@@ -27,7 +27,7 @@ from granum.flowsheet.packing import compiled
 from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.specifications import Designed, Target, design, figure
 from granum.numerics import Anderson, Newton
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check
 
 
@@ -290,15 +290,6 @@ class Run:
         from granum.reports.sheets import write_tables
 
         write_tables(self, Path(path))
-
-
-def median_size(stream: Stream) -> float | None:
-    """Mass median size of a stream's solid, m, by log-linear interpolation; None without solid."""
-    shares = np.asarray(stream.size_fractions)
-    if shares.sum() <= 0 or float(stream.solid_flow) < 1e-12 * float(stream.mass_flow):
-        return None
-    edges = np.maximum(stream.mixture.edges, 1e-12)
-    return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
 
 
 def course_json(course: Course) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import field_units, format_number, from_si, pretty_unit, show
+from granum.streams.stream import median_size
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -187,8 +188,6 @@ class StreamTable(NamedTuple):
 
 def stream_table(run: Any) -> StreamTable:
     """Flows of the phases, temperature and median size of every stream, a unit a column."""
-    from granum.cases.line import median_size
-
     flow, length, degrees = (KINDS[name] for name in ("MassFlow", "Length", "Temperature"))
     streams = run.streams
     phases = {_("solid"): "solid_flow", _("liquid"): "liquid_flow", _("gas"): "gas_flow"}

@@ -86,7 +86,9 @@ def print_next(told: dict[str, Any], found: Any) -> None:
     """Where the next measurement tells most."""
     place = "; ".join(f"{label_of(name)} = {value_text(row['value'], figure_named(name, row['unit']))}" for name, row in told["at"].items())
     units = {name: estimate.unit for name, estimate in found.parameters.items()}
-    errors = "; ".join(f"{label_of(name)} ± {_error_text(value, figure_named(name, units[name]))}" for name, value in told["standard_errors"].items())
+    errors = "; ".join(
+        f"{label_of(name)} ± {_error_text(value, figure_named(name, units[name]))}" for name, value in told["standard_errors"].items()
+    )
     console = _console()
     console.print(_("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
         place=place, share=format_number(100 * told["shrinkage"], 3)))  # fmt: skip

@@ -7,6 +7,7 @@ from typing import Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.errors import InputError
@@ -271,3 +272,12 @@ def empty(mixture: Mixture, temperature: Any = 298.15, pressure: Any = STANDARD_
         pressure=jnp.asarray(pressure, dtype=float),
         mixture=mixture,
     )
+
+
+def median_size(stream: Stream) -> float | None:
+    """Mass median size of a stream's solid, m, by log-linear interpolation; None without solid."""
+    shares = np.asarray(stream.size_fractions)
+    if shares.sum() <= 0 or float(stream.solid_flow) < 1e-12 * float(stream.mass_flow):
+        return None
+    edges = np.maximum(stream.mixture.edges, 1e-12)
+    return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
