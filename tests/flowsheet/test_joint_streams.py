@@ -85,6 +85,11 @@ POWDER = {
     "comminution.triple_deck_screen": {"upper_deck": PARTITION | {"cut_size": "600 um"}, "middle_deck": PARTITION, "lower_deck": PARTITION | {"cut_size": "100 um"}},
     "comminution.vibrating_screen": {"aperture": "300 um", "screen_area": 1.0},
     "streams.agglomerator": {"agglomeration_kernel": {"law": "constant_kernel", "agglomeration_coefficient": 1e-13}, "holdup_mass": 50.0, "volume": 1.0},
+    "drying.closed_dryer": {
+        "drying_circuit": {"law": "circuit_steam", "temperature_outlet": "105 degC"},
+        "temperature_inlet": "150 degC",
+        "moisture_outlet": 0.02,
+    },
     "drying.drum_dryer": {"diameter": 1.0, "width": 2.0, "rotation_speed": "3 rpm", "pressure_steam": "5 bar"},
     "drying.paddle_dryer": {"wall_temperature": "130 degC", "moisture_outlet": 0.02, "pressure": "1 atm", "particle_diameter": "0.5 mm", "rotation_speed": "15 rpm", "diameter": 0.6},
 }  # fmt: skip

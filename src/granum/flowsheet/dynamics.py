@@ -42,7 +42,7 @@ class Course(NamedTuple):
     ----------
     times: s. streams: by name, arrays with a leading axis of times.
     holdups: the state of each unit that has one, at the end.
-    converged: whether the loops converged at each time. balance: relative mass imbalance of feeds, products and holdups over the whole run.
+    converged: whether the loops converged at each time, all streams being finite. balance: relative mass imbalance of feeds, products and holdups over the whole run.
     """
 
     times: Any
@@ -191,4 +191,5 @@ def _instant(
         found.streams.update(made.streams)
         found.states.update(made.states)
     streams = {k.name: jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), found.streams[k.name]) for k in line.links}
-    return _Instant(streams, found.states), good
+    finite = jnp.isfinite(jnp.stack([s.mass_flow + s.temperature for s in streams.values()]))  # too long a step may burst a holdup
+    return _Instant(streams, found.states), good & jnp.all(finite)
