@@ -130,7 +130,7 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
         heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %"]
         tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
         chances = [
-            [figures[p].label if p else _("all limits"), f"{100 * c['probability']:.3g} %"]
+            [figures[p].label if p else _("all limits"), f"{format_number(100 * c['probability'], 3)} %"]
             for p, c in found["limits"].items()
             if "probability" in c
         ]

@@ -28,6 +28,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )
+from granum.core.units import format_number
 from granum.crystallization.formulas.programs import TemperaturePoints
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
@@ -176,7 +177,7 @@ def choose(
     crop = 1.0 - cold / hot
     slope = np.log(hot / cold) / (temperature_hot - temperature_cold)
     shown = _("Solubility {cold} → {hot} kg/kg: cooling alone gives {crop} %.").format(
-        cold=round(cold, 3), hot=round(hot, 3), crop=round(100 * crop)
+        cold=format_number(cold, 3), hot=format_number(hot, 3), crop=format_number(100 * crop, 2)
     )
     steep = float(np.clip((slope - FLAT) / (STEEP - FLAT), 0.0, 1.0))
     between = 1.0 - abs(2.0 * steep - 1.0)
@@ -194,7 +195,7 @@ def choose(
     ]  # fmt: skip
     large = crystal_flow >= TONNAGE_CONTINUOUS
     tonnage = _("{rate} t/d against about 10 t/d, below which lines of continuous crystallizers clog.").format(
-        rate=round(crystal_flow * 86.4, 1)
+        rate=format_number(crystal_flow * 86.4, 3)
     )
     operations = [
         (_("continuous"), 0.9 if large else 0.25, [tonnage]),
