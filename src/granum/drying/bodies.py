@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -56,10 +57,10 @@ class BodyDrying(NamedTuple):
 
 
 class Body(NamedTuple):
-    """Everything the balance needs."""
+    """Everything the balance needs: arrays, so that bodies of all shapes share one compiled integration."""
 
     shares: Any  # dry-solid mass of each cell per unit of surface (plate), length/(2π) (cylinder) or 4π (sphere)
-    geometry: int
+    geometry: Any  # 0 plate, 1 cylinder, 2 sphere
     dry_density: Any
     shrinkage: Any
     diffusivity: Any
@@ -80,7 +81,8 @@ def _shape(X: Any, b: Body) -> tuple[Any, Any, Any]:
     n = b.geometry + 1
     cubes = jnp.concatenate([jnp.zeros(1), jnp.cumsum(volume)]) * n
     r = jnp.concatenate([jnp.zeros(1), cubes[1:] ** (1.0 / n)])
-    return r, r**b.geometry, jnp.diff(r)
+    area = jnp.where(b.geometry == 0, 1.0, jnp.where(b.geometry == 1, r, r * r))  # a power of zero has no derivative
+    return r, area, jnp.diff(r)
 
 
 def surface_flux(X: Any, T: Any, b: Body) -> Any:
@@ -112,6 +114,22 @@ def rates(_t: Any, state: tuple[Any, Any], b: Body) -> tuple[Any, Any]:
     capacity = b.solid_heat + X * LIQUID_HEAT_CAPACITY
     dT = (-jnp.diff(heat) / b.shares - LIQUID_HEAT_CAPACITY * (T - 273.15) * dX) / capacity
     return dX, dT
+
+
+def _scaled(t: Any, state: tuple[Any, Any], b: Body) -> tuple[Any, Any]:
+    dX, dT = rates(t, (state[0], SCALE * state[1]), b)
+    return dX, dT / SCALE
+
+
+@eqx.filter_jit
+def _integrated(start: tuple[Any, Any], times: Any, body: Body) -> tuple[Any, tuple[Any, ...]]:
+    """Whether it went to the end, and the columns of the result."""
+    found = integrate(_scaled, start, times, body, stiff=True, rtol=1e-6, atol=1e-7, max_steps=20000)
+    X, T = found.states[0], SCALE * found.states[1]
+    flux = jax.vmap(lambda x, t: surface_flux(x[-1], t[-1], body))(X, T)
+    radius = jax.vmap(lambda x: _shape(x, body)[0][-1])(X)
+    mean = (X @ body.shares) / body.shares.sum()
+    return found.converged, (mean, X[:, 0], X[:, -1], T[:, 0], T[:, -1], flux, radius)
 
 
 @procedure(source="keey1978; crank1975; mayor2004", title="Drying of a body, heat and moisture coupled")
@@ -166,20 +184,8 @@ gas_density=(1 - y) * STANDARD_ATMOSPHERE * AIR_WATER.gas_molar_mass / (GAS_CONS
     )  # fmt: skip
     start = (jnp.full(cells, float(initial_moisture)), jnp.full(cells, float(initial_temperature) / SCALE))
 
-    @jax.jit
-    def run(start: tuple[Any, Any], times: Any) -> Any:
-        def scaled(t: Any, state: tuple[Any, Any], _args: Any) -> tuple[Any, Any]:
-            dX, dT = rates(t, (state[0], SCALE * state[1]), body)
-            return dX, dT / SCALE
-
-        return integrate(scaled, start, times, stiff=True, rtol=1e-6, atol=1e-7, max_steps=20000)
-
-    found = run(start, jnp.asarray(times))
-    if not bool(found.converged):
+    numbers = {name: value if name == "isotherm" else jnp.asarray(value, dtype=float) for name, value in body._asdict().items()}
+    converged, columns = _integrated(start, jnp.asarray(times), Body(**numbers))
+    if not bool(converged):
         raise ConvergenceError(_("The drying of the body could not be integrated to the end; check the diffusivity and the isotherm."))
-    X, T = found.states[0], SCALE * found.states[1]
-    flux = jax.vmap(lambda x, t: surface_flux(x[-1], t[-1], body))(X, T)
-    radius = jax.vmap(lambda x: _shape(x, body)[0][-1])(X)
-    mean = (X @ body.shares) / body.shares.sum()
-    columns = (mean, X[:, 0], X[:, -1], T[:, 0], T[:, -1], flux, radius)
     return BodyDrying(times, *(np.asarray(c) for c in columns))
