@@ -16,7 +16,7 @@ from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.population.packets import Packets
-from granum.crystallization.vessels.batch import narrow_seeds
+from granum.crystallization.vessels.batch import classes_of, narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 
 STEPS = 300
@@ -140,11 +140,12 @@ def size_distribution_chart(
     )
     highest = 0.0
     for k, color in zip(np.linspace(0, STEPS, 5).astype(int), (GAS, LIQUID, ACCENT, SOLID, HEAT), strict=True):
+        there = np.arange(STEPS) < k  # births so far; the others have no number
+        low, high = (np.where(there, path[k] - end, 0.0) for end in (path[1:], path[:-1]))
         here = Packets(
-            jnp.concatenate([seeds.low + path[k], path[k] - path[1 : k + 1]]), jnp.concatenate([seeds.high + path[k], path[k] - path[:k]]),
-            jnp.concatenate([seeds.number, born[:k]]),
-        )  # fmt: skip
-        mass = np.asarray(here.in_classes(edges)) * crystal_density * volume_shape_factor
+            np.append(seeds.low + path[k], low), np.append(seeds.high + path[k], high), np.append(seeds.number, np.where(there, born, 0.0))
+        )
+        mass = np.asarray(classes_of(here, edges)) * crystal_density * volume_shape_factor
         density = mass * 1e3 / (np.diff(edges) * 1e6)
         highest = max(highest, float(density.max()))
         add_line(drawing, middle, np.where(density > 0, density, np.nan), f"{float(course.time[k]) / 60:.0f} min", color=color)

@@ -27,6 +27,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.grid import Collisions, check_classes
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Addition, Operation, Programmed
@@ -240,7 +241,7 @@ def agglomerating_batch(
         raise InputError(_("{share} % of the crystals collide within one time step: give at least {steps} steps, or check the unit of the kernel.").format(
             share=round(200 * busiest), steps=int(np.ceil(steps * busiest / BUSIEST / 100) * 100)), name="steps")  # fmt: skip
     edges = np.geomspace(1e-6, float(course.final.high[-1]), 61)
-    cubes = np.asarray(course.final.in_classes(edges))
+    cubes = np.asarray(classes_of(course.final, edges))
     return AgglomeratingCourse(
         course.time, course.temperature, course.solute_per_solvent, course.solute_per_solvent / course.solubility_per_solvent - 1.0,
         course.crystals, course.moments[:, 0], edges, cubes / max(cubes.sum(), 1e-300), mass_mean(course), float(median_size(course.final)),
@@ -253,10 +254,17 @@ def _cubes(packets: Any) -> Any:
     return 0.25 * (low + high) * (low**2 + high**2)
 
 
+@compiled
+def classes_of(packets: Any, edges: Any) -> Any:
+    """Third moment in each size class."""
+    return packets.in_classes(edges)
+
+
+@compiled
 def median_size(packets: Any) -> Any:
     """Size that halves the crystal mass; zero without crystals."""
     low, high = packets.sizes()
-    trial = jnp.unique(jnp.concatenate([low, high]), size=low.shape[0] * 2, fill_value=jnp.max(high))
+    trial = jnp.sort(jnp.concatenate([low, high]))
     below = packets.below(trial)
     return jnp.interp(0.5 * below[-1], below, trial)
 
