@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -63,7 +62,8 @@ class Page:
     def settle(self) -> None:
         ready = "return Boolean(document.querySelector('h1')) && !document.querySelector('[aria-busy=true]')"
         self.until(lambda: self.browser.execute_script(ready))
-        time.sleep(0.2)
+        drawn = "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(arguments[0], 30)))"
+        self.browser.execute_async_script(drawn)  # what the answer sets off has begun by then
         self.until(lambda: self.browser.execute_script(ready))
 
     def until(self, condition: Callable[[], Any]) -> Any:
