@@ -14,11 +14,11 @@ from granum.crystallization.equipment.batch import BatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
 from granum.crystallization.formulas.classified import population_density_classified, population_density_second_stage
+from granum.crystallization.formulas.critical_nucleus import critical_radius
 from granum.crystallization.formulas.film import film_growth
 from granum.crystallization.formulas.growth import PowerLawDissolution, growth_rate_birth_and_spread, growth_rate_spiral
 from granum.crystallization.formulas.msmpr import dominant_size_changed, population_density, population_density_size_dependent
 from granum.crystallization.formulas.nucleation import (
-    critical_radius,
     heterogeneous_factor,
     interfacial_energy_mersmann,
     nucleation_rate_classical,

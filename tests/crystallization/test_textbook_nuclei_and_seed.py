@@ -9,9 +9,9 @@ from granum.core.errors import ApplicabilityError
 from granum.crystallization.formulas.balances import crystallizer_balance_library
 from granum.crystallization.formulas.batch_balances import crystallizer_batch_balance
 from granum.crystallization.formulas.classified import population_density_classified, production_classifying
-from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt
+from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt, critical_radius
 from granum.crystallization.formulas.msmpr import nucleation_rate_msmpr, nuclei_population_density, population_density
-from granum.crystallization.formulas.nucleation import critical_radius, nucleation_barrier, nucleation_rate_secondary
+from granum.crystallization.formulas.nucleation import nucleation_barrier, nucleation_rate_secondary
 from granum.crystallization.formulas.seeding import grown_seed, product_size_from_seed
 
 

@@ -67,6 +67,31 @@ def critical_nucleus(
 
 @formula(
     source="mullin2001, ch. 5",
+    equation=r"r_c = \frac{2\gamma v_m}{\nu k T \ln\beta}",
+    typical={"supersaturation_ratio": (1.5, 10.0)},
+)
+def critical_radius(
+    supersaturation_ratio: PositiveNumber,
+    interfacial_energy: SurfaceTension,
+    crystal_density: Density,
+    molar_mass: MolarMass,
+    temperature: Temperature = 298.15,
+    ions_per_formula: PositiveNumber = 1.0,
+) -> Length:
+    """Radius of the critical nucleus of classical nucleation theory.
+
+    Smaller clusters dissolve, larger ones grow. There is none in a solution that is not supersaturated.
+
+    >>> round(critical_radius(supersaturation_ratio=4.0, interfacial_energy="100 mN/m", crystal_density=2000,
+    ...                       molar_mass=0.0361328) * 1e9, 3)
+    1.051
+    """
+    given = (supersaturation_ratio, interfacial_energy, crystal_density, molar_mass, temperature, ions_per_formula)
+    return critical_nucleus.function(*given).critical_radius
+
+
+@formula(
+    source="mullin2001, ch. 5",
     equation=r"r_c = \frac{2\gamma T_m M}{\rho_c \Delta H_f\,\Delta T},\quad \Delta G^* = \tfrac{4\pi}{3}\gamma r_c^2",
     title="Critical nucleus in an undercooled melt",
     typical={"undercooling": (5.0, 60.0), "melting_temperature": (270.0, 1300.0), "enthalpy_of_fusion": (5e3, 2e4)},

@@ -17,7 +17,6 @@ from granum.core.kinds import (
     Density,
     Fraction,
     Law,
-    Length,
     MassRatio,
     MolarConcentration,
     MolarEnergy,
@@ -50,33 +49,6 @@ class NucleationLaw(eqx.Module):
         self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
     ) -> NucleationRate:
         """Nucleation rate; zero where the solution is not supersaturated."""
-
-
-@formula(
-    source="mullin2001, ch. 5",
-    equation=r"r_c = \frac{2\gamma v_m}{\nu k T \ln\beta}",
-    typical={"supersaturation_ratio": (1.5, 10.0)},
-)
-def critical_radius(
-    supersaturation_ratio: PositiveNumber,
-    interfacial_energy: SurfaceTension,
-    crystal_density: Density,
-    molar_mass: MolarMass,
-    temperature: Temperature = 298.15,
-    ions_per_formula: PositiveNumber = 1.0,
-) -> Length:
-    """Radius of the critical nucleus of classical nucleation theory.
-
-    Smaller clusters dissolve, larger ones grow. There is none in a solution that is not supersaturated.
-
-    >>> round(critical_radius(supersaturation_ratio=4.0, interfacial_energy="100 mN/m", crystal_density=2000,
-    ...                       molar_mass=0.0361328) * 1e9, 3)
-    1.051
-    """
-    log_ratio = safe_log(supersaturation_ratio, otherwise=jnp.nan)
-    positive = log_ratio > 0
-    work = ions_per_formula * BOLTZMANN * temperature * jnp.where(positive, log_ratio, 1.0)
-    return jnp.where(positive, 2.0 * interfacial_energy * molecular_volume(crystal_density, molar_mass) / work, jnp.nan)
 
 
 @formula(source="volmer1939; mullin2001, ch. 5", equation=r"\phi = \tfrac14 (2+\cos\theta)(1-\cos\theta)^2")
