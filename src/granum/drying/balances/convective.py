@@ -37,6 +37,7 @@ from granum.numerics import find_root, safe_divide
 
 PAIR = AirWater()
 COLDEST, WARMEST, HOTTEST = 223.15, 673.15, 1400.0
+HIGHEST_PRESSURE = 2e7  # Pa, below the critical point of water
 WETTEST = 50.0  # kg/kg, nearly pure steam
 POINTS = ("fresh", "inlet", "outlet")
 
@@ -64,7 +65,8 @@ def temperature_of(P: Any, w: Any = None, phi: Any = None, h: Any = None) -> Any
         return find_root(
             lambda T: jnp.log(phi * rel.saturated_fraction(PAIR, T, P) / PAIR.fraction(w)), COLDEST, HOTTEST, tolerance=1e-12
         ).value
-    top = PAIR.boiling_temperature(P) * (1.0 - 1e-9)
+    # unsaturated air may be hotter than boiling water: up to where its vapor alone would have the whole pressure
+    top = PAIR.boiling_temperature(jnp.minimum(P / jnp.maximum(phi, 1e-6), HIGHEST_PRESSURE)) * (1.0 - 1e-9)
     return find_root(lambda T: enthalpy(T, humidity_at(T, phi, P), P) - h, COLDEST, top, tolerance=1e-12).value
 
 
@@ -193,14 +195,15 @@ def _finished(v: Values, activity: Any) -> DryerBalance:
     return DryerBalance(*(jnp.where(possible, values[name], jnp.nan) for name in DryerBalance._fields))
 
 
-# The first that fails tells why: air that must leave beyond saturation, air that cools without being able to carry the water, and so on.
+LEAST_WATER = 1e-8  # kg/s: without evaporation there is no dryer, and knowns that say the same thing twice end there
+# The first that fails tells why: a dryer that wets, air that must leave beyond saturation, air too cold to carry the water, and so on.
 _LIMITS = (
+    ("evaporation_rate", LEAST_WATER, np.inf),
     ("relative_humidity_outlet", 0.0, 1.0),
     ("relative_humidity_inlet", 0.0, 1.0),
     ("relative_humidity_fresh", 0.0, 1.0),
     ("dry_gas_flow", 0.0, np.inf),
     ("moisture_dry_basis_outlet", 0.0, np.inf),
-    ("evaporation_rate", 0.0, np.inf),
     ("recirculated_fraction", 0.0, 1.0),
     ("leak_fraction", 0.0, np.inf),
     ("heat_duty", 0.0, np.inf),
