@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from granum.core.errors import ApplicabilityError
 from granum.crystallization.formulas.balances import (
     area_jacket,
     crystallizer_balance,
+    evaporation_for_yield,
     heat_duty_crystallizer,
     log_mean_temperature_difference,
     vacuum_crystallizer_balance,
@@ -55,3 +57,13 @@ def test_log_mean_and_area():
     assert log_mean_temperature_difference(20.0, 20.0) == pytest.approx(20.0)
     assert log_mean_temperature_difference(20.0, 19.9999) == pytest.approx(19.99995, rel=1e-9)
     assert area_jacket(-100e3, 500.0, 20.0, 10.0) == pytest.approx(100e3 / 500 / 14.4269504, rel=1e-8)
+
+
+def test_evaporation_for_a_yield():
+    """By hand: 1000 kg/h of 20 % brine, 70 % of the salt: 140 kg/h crystals, 60 kg/h in liquor of 0.384/1.384, the rest is vapor; hydrates by the balance."""
+    assert evaporation_for_yield(1000.0, 0.7, 0.2, 0.384) == pytest.approx(1000 - 140 - 60 * 1.384 / 0.384)
+    x = 142.04 / 322.2
+    V = evaporation_for_yield(1000.0, 0.6, 0.15, 0.09, x)
+    assert crystallizer_balance(1000.0, 0.15, 0.09, x, V).yield_fraction == pytest.approx(0.6)
+    with pytest.raises(ApplicabilityError):
+        evaporation_for_yield(1000.0, 0.3, 0.3, 0.09, x)  # cooling alone gives more
