@@ -58,7 +58,7 @@ class Schedule(NamedTuple):
             start += cycle.length
         for bar in chart.data:
             bar.y, bar.x, bar.base = bars[bar.legendgroup]
-        chart.update_yaxes(autorange="reversed")
+        chart.update_yaxes(type="category", autorange="reversed", automargin=True)
         return chart
 
 

@@ -12,11 +12,12 @@ import numpy as np
 import granum
 from granum.core import charts
 from granum.core.i18n import _, current_language
+from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.registry import find
 from granum.core.results import Result
 from granum.core.sources import cite
-from granum.core.units import format_number
+from granum.core.units import format_number, from_si
 from granum.flowsheet.drawing import draw, main_phase
 from granum.reports.mathml import mathml
 from granum.reports.quantities import check_row, estimate_rows, label_of, statistics_text, stream_table, value_text
@@ -95,13 +96,48 @@ def size_chart(run: Any) -> Any:
     return figure if drawn else None
 
 
+def course_chart(run: Any) -> Any:
+    """Mass flow of every stream over the time of a run; None for a line that only stands."""
+    if run.line.case is None or run.line.case.dynamic is None:
+        return None
+    course = run.line.march()
+    flows = {
+        name: sum(np.asarray(x).reshape(len(course.times), -1).sum(axis=1) for x in (s.solid, s.liquid, s.gas))
+        for name, s in course.streams.items()
+    }
+    axes = (Parameter("time", KINDS["Time"]), Parameter("mass_flow", KINDS["MassFlow"]))
+    columns = (np.asarray(course.times), np.concatenate([*flows.values()]))
+    across, upward = (p.display_unit(values) for p, values in zip(axes, columns, strict=True))
+    figure = charts.figure(charts.axis_title("time", across), charts.axis_title("mass_flow", upward))
+    for i, (name, flow) in enumerate(flows.items()):
+        color, dash = charts.LINES[i % len(charts.LINES)], charts.DASHES[i // len(charts.LINES) % len(charts.DASHES)]
+        charts.add_line(
+            figure, from_si(columns[0], across, KINDS["Time"]), from_si(flow, upward, KINDS["MassFlow"]), name, color=color, dash=dash
+        )
+    return figure
+
+
+def _charts(run: Any) -> list[tuple[str, str]]:
+    """Headings and charts of a report; the first carries Plotly."""
+    cycles = run.schedule()
+    found = {
+        _("Particle sizes"): size_chart(run),
+        _("Run in time"): course_chart(run),
+        _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
+    }
+    drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
+    return [
+        (heading, figure.to_html(full_html=False, include_plotlyjs=i == 0, config={"displaylogo": False}))
+        for i, (heading, figure) in enumerate(drawn)
+    ]
+
+
 def line_report(run: Any) -> str:
     """HTML of the report."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     case = run.line.case
     units = [_unit_sheet(run, name) for name in run.sheet.order]
-    sizes = size_chart(run)
     keys = {p for name in run.sheet.order for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
@@ -123,6 +159,6 @@ def line_report(run: Any) -> str:
         audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
         diagram=draw(run.sheet, run.streams), streams=stream_table(run), fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
-        charts=[sizes.to_html(full_html=False, include_plotlyjs=True, config={"displaylogo": False})] if sizes else [],
+        charts=_charts(run),
         sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,
     )  # fmt: skip
