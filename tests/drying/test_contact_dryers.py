@@ -212,3 +212,24 @@ def test_what_cannot_be_is_said() -> None:
     inlets = {"feed": feed, "gas": little}
     failed = {c.name for c in hot.checks(inlets, hot(feed, little)) if not c.ok}
     assert "product temperature over its limit" in failed
+
+
+def test_flash_dryer_in_a_recycle() -> None:
+    """Half of the product goes back to the feed; the loop starts from an empty stream, whose residual says little."""
+    from granum.flowsheet import Flowsheet
+    from granum.flowsheet.packing import compiled
+    from granum.flowsheet.solving import solve
+    from granum.streams.equipment.basics import Mixer, Splitter
+
+    units = {"mixer": Mixer(), "flash": FlashDryer(25.0, 1.4, KINETICS, feed_velocity=3.0, cells=20), "splitter": Splitter(0.5)}
+    feeds = {"wet": wet(0.8, 0.7), "air": air(24.0, 0.01, 458.0)}
+    links = {
+        "wet": ("", "mixer.fresh"), "air": ("", "flash.gas"), "mixed": ("mixer", "flash.feed"), "dry": ("flash.product", "splitter"),
+        "back": ("splitter.side", "mixer.back"), "product": ("splitter.product", ""),
+    }  # fmt: skip
+    sheet = Flowsheet(units, feeds, links)
+    found = compiled(solve)(sheet)
+    assert bool(found.converged)
+    product, fed = found.streams["product"], feeds["wet"]
+    assert float(product.solid_flow) == pytest.approx(float(fed.solid_flow), rel=1e-9)
+    assert float(found.streams["dry"].solid_flow) == pytest.approx(2.0 * float(fed.solid_flow), rel=1e-9)

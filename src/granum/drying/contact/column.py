@@ -19,7 +19,7 @@ class Zone(NamedTuple):
 
     duration: Any
     gas_per_solid: Any
-    backwards: bool
+    backwards: Any  # whether
     humidity: Any
     temperature: Any
 
@@ -46,7 +46,10 @@ def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int)
     def through(carry: tuple[Any, Any], zone: Zone) -> tuple[tuple[Any, Any], tuple[Profile, Any]]:
         X, T = carry
         network = Network(
-            *(jnp.where(zone.backwards, getattr(up, k), getattr(down, k)) for k in ("from_before", "from_after", "inlet", "outlet"))
+            jnp.where(zone.backwards, up.from_before, down.from_before),
+            jnp.where(zone.backwards, up.from_after, down.from_after),
+            jnp.where(zone.backwards, up.inlet, down.inlet),
+            jnp.where(zone.backwards, up.outlet, down.outlet),
         )
         column = Contact(
             like.matter, like.kinetics, like.solid, jnp.zeros((n, 1)), zone.gas_per_solid, network, like.exchange,

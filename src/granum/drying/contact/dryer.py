@@ -11,6 +11,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 from scipy.optimize import root_scalar
 
 from granum.core.errors import ApplicabilityError
@@ -33,11 +34,15 @@ PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level":
 
 def ready(solve: Callable[..., Any]) -> Callable[..., Any]:
     """Compiled when called from outside of compiled code, quickly rather than for speed: a dryer's arrays are small."""
-    quick = eqx.filter_jit(solve, compiler_options=PLAIN if jax.default_backend() == "cpu" else None)
+    built: list[Callable[..., Any]] = []
 
     def call(*given: Any) -> Any:
-        inside = isinstance(jnp.zeros(()) + 0.0, jax.core.Tracer)
-        return (solve if inside else quick)(*given)
+        if isinstance(jnp.zeros(()) + 0.0, Tracer):  # inside compiled code, which has options of its own
+            return solve(*given)
+        if not built:
+            options: dict[str, Any] = {"compiler_options": PLAIN} if jax.default_backend() == "cpu" else {}
+            built.append(eqx.filter_jit(solve, **options))
+        return built[0](*given)
 
     return call
 

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
+from granum.drying.contact.dryer import Dried
 from granum.drying.wet_surface import crystallized
 from granum.humid_gas.pairs import AirWater
 from granum.humid_gas.relations import saturated_fraction, wet_bulb_balance
@@ -20,14 +21,6 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 COLDEST_FILM = 230.0  # K
-
-
-class Dried(NamedTuple):
-    """Dried solid, exhaust gas and the heat taken up from outside (negative: the loss)."""
-
-    product: Stream
-    exhaust: Stream
-    heat_duty: Any
 
 
 class WellMixedFigures(NamedTuple):
