@@ -9,7 +9,7 @@ import pytest
 
 from granum.comminution.formulas import energy, machines, rowland, screening
 from granum.comminution.work_indices import work_index, work_indices
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 
 KWH_T = 3600.0
 
@@ -69,8 +69,9 @@ def test_hukki_joins_the_laws_and_adds_up() -> None:
 @pytest.mark.parametrize("name", ["specific_energy_rittinger", "specific_energy_kick", "specific_energy_bond", "specific_energy_hukki"])
 def test_a_product_coarser_than_the_feed_has_no_value(name) -> None:
     law = getattr(energy, name)
-    assert np.isnan(law(1e-3, 2e-3, 1e4))
-    assert law.evaluate(1e-3, 2e-3, 1e4).notices
+    with pytest.raises(ApplicabilityError, match=r"product size = 2.* outside what is possible"):
+        law(1e-3, 2e-3, 1e4)
+    assert np.isfinite(law(1e-3, np.array([2e-3, 5e-4]), 1e4)).tolist() == [False, True]
     with pytest.raises(InputError, match="coarser"):
         energy.energy_law(1e-3, 2e-3)
 
@@ -102,7 +103,8 @@ def test_rowland_factors_as_printed() -> None:
     assert rowland.efficiency_factor_oversize(1e-2, 175e-6, 13 * energy.KWH_PER_SHORT_TON) == pytest.approx(1 + 9 * 0.175 / 10, rel=1e-9)
     assert rowland.efficiency_factor_fineness(75e-6) == 1.0
     assert rowland.efficiency_factor_fineness(40e-6) == pytest.approx(50.3 / 45.8, rel=1e-9)
-    assert np.isnan(rowland.efficiency_factor_low_ratio(1e-4, 1e-4))
+    with pytest.raises(ApplicabilityError, match="product size"):
+        rowland.efficiency_factor_low_ratio(1e-4, 1e-4)
     assert rowland.efficiency_factor_low_ratio(1e-3, 1e-4) == 1.0
     # best ratio 8 + 5 * 1.5 = 15.5; 15 lies in the band
     assert rowland.efficiency_factor_rod_ratio(18e-3, 1.2e-3, 5.4, 3.6) == 1.0
@@ -129,5 +131,6 @@ def test_screen_effectiveness_of_a_textbook_example() -> None:
     f, p = 100.0, 100.0 * screening.product_yield(*x)
     assert p * 0.85 + (f - p) * 0.195 == pytest.approx(f * 0.47, rel=1e-12)
     assert screening.screening_effectiveness(0.5, 1.0, 0.0) == pytest.approx(1.0)
-    assert np.isnan(screening.screening_effectiveness(0.9, 0.85, 0.2))  # feed richer than both products
-    assert np.isnan(screening.product_yield(0.5, 0.5, 0.5))
+    for law, x in ((screening.screening_effectiveness, (0.9, 0.85, 0.2)), (screening.product_yield, (0.5, 0.5, 0.5))):
+        with pytest.raises(ApplicabilityError, match="desired fraction of the feed"):  # richer than both products; no difference
+            law(*x)

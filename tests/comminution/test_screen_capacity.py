@@ -15,7 +15,7 @@ from granum.comminution.equipment.vibrating_screen import VibratingScreen
 from granum.comminution.formulas import screen_capacity as karra
 from granum.comminution.population import rate_matrix
 from granum.comminution.transients import mill_response
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.particles.partition import LogisticPartition
 from granum.streams.audit import closure
 
@@ -63,7 +63,8 @@ def test_the_two_printed_forms_of_the_near_size_effect_are_one() -> None:
 def test_throughfall_aperture() -> None:
     assert karra.throughfall_aperture(10e-3, 2e-3, 0.0) == pytest.approx(10e-3)
     assert karra.throughfall_aperture(10e-3, 2e-3, np.radians(20)) == pytest.approx(12e-3 * np.cos(np.radians(20)) - 2e-3)
-    assert np.isnan(karra.throughfall_aperture(1e-3, 5e-3, 1.2))
+    with pytest.raises(ApplicabilityError, match="inclination of the deck"):
+        karra.throughfall_aperture(1e-3, 5e-3, 1.2)
 
 
 def test_a_larger_screen_passes_more_and_loses_nothing() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from granum.cases import read
+from granum.core.errors import ApplicabilityError
 from granum.fluidization.equipment.liquid import LiquidFluidizedBed
 from granum.fluidization.formulas import expansion, two_phase
 from granum.streams.mixture import Mixture, Species
@@ -68,7 +69,8 @@ def test_graded_bed() -> None:
     both = expansion.graded_bed_expansion(np.array([6e-4, 5e-3]), np.array([0.25, 0.75]), 0.7, 0.01, **sand)
     assert both.bed_void_fraction[1] == pytest.approx(0.42)
     assert both.bed_expansion == pytest.approx(0.25 * one.bed_expansion, rel=1e-9)
-    assert np.isnan(expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, 900.0, 1000.0, 1e-3).bed_expansion)
+    with pytest.raises(ApplicabilityError, match="particle density = 900"):
+        expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), 0.7, 0.01, 900.0, 1000.0, 1e-3)
     # between its two ends the law passes through both
     at = {"superficial_velocity": 0.004696, "height": 1.0, **sand}
     assert expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), **at).bed_void_fraction[0] == pytest.approx(0.42, abs=1e-3)

@@ -8,7 +8,7 @@ _HOME = {
     "formula": "formulas", "Formula": "formulas", "record_steps": "formulas",
     "law": "declarations", "equipment": "declarations", "lab_test": "declarations",
     "chart": "procedures", "procedure": "procedures",
-    "watch": "flags", "unconverged": "flags", "limit_active": "flags",
+    "watch": "flags", "unconverged": "flags", "limit_active": "flags", "impossible": "flags",
     "Result": "results", "Card": "cards", "Parameter": "parameters",
 }  # fmt: skip
 

@@ -13,7 +13,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 
 SAMPLES = 400
@@ -121,6 +121,7 @@ def limiting_flux_underflow(
     Cu, Cf = jnp.asarray(underflow_concentration), jnp.asarray(feed_concentration)
     top = Cu * (1.0 - 1e-9)
     possible = Cf < top
+    impossible(~possible, Cu, "underflow_concentration", Cf, jnp.inf)
     low = jnp.where(possible, Cf, 0.5 * Cu)
 
     def flux(C: Any) -> Any:

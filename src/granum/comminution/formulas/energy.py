@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.comminution.kinds import EnergyPerSurface, MassPerRevolution, RittingerConstant, WorkIndex
-from granum.core import formula, procedure
+from granum.core import formula, impossible, procedure
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Density, Length, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, SpecificSurface, Within
@@ -21,6 +21,7 @@ _SMALL = 1e-9
 
 def _reduction(energy: Any, feed_size: Any, product_size: Any) -> Any:
     """No value where the product is coarser than the feed."""
+    impossible(product_size > feed_size, product_size, "product_size", 0.0, feed_size)
     return jnp.where(product_size <= feed_size, energy, jnp.nan)
 
 
@@ -51,7 +52,8 @@ def specific_energy_rittinger_surface(
     2000.0
     """
     energy = surface_energy * (specific_surface_product - specific_surface_feed) / solid_density
-    return jnp.where(specific_surface_product >= specific_surface_feed, energy, jnp.nan)
+    impossible(energy < 0.0, specific_surface_product, "specific_surface_product", specific_surface_feed, jnp.inf)
+    return jnp.where(energy >= 0.0, energy, jnp.nan)
 
 
 @formula(source="kick1885; coulson2002, ch. 2", equation=r"E = K_K f_c \ln\frac{L_1}{L_2}", fitted={"product_size": (1e-2, jnp.inf)},
@@ -104,6 +106,7 @@ def work_index_operating(feed_size: Length, product_size: Length, specific_energ
     """
     d = HUNDRED_MICROMETERS
     fall = jnp.sqrt(d / product_size) - jnp.sqrt(d / feed_size)
+    impossible(fall <= 0.0, product_size, "product_size", 0.0, feed_size)
     return jnp.where(fall > 0, safe_divide(specific_energy, fall), jnp.nan)
 
 
@@ -125,6 +128,7 @@ def work_index_ball_mill_test(
     """
     p1, g = closing_aperture * 1e6, net_undersize_per_revolution * 1e3
     fall = 10.0 / jnp.sqrt(product_size * 1e6) - 10.0 / jnp.sqrt(feed_size * 1e6)
+    impossible(fall <= 0.0, product_size, "product_size", 0.0, feed_size)
     return jnp.where(fall > 0, safe_divide(44.5, p1**0.23 * g**0.82 * fall), jnp.nan) * KWH_PER_SHORT_TON
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Angle, Distance, Fraction, Length, RotationSpeed, VolumeFlow
 
@@ -20,6 +20,7 @@ def rotation_speed_critical(
     4.04
     """
     gap = mill_diameter - ball_diameter
+    impossible(gap <= 0.0, ball_diameter, "ball_diameter", 0.0, mill_diameter)
     return jnp.where(gap > 0, jnp.sqrt(2.0 * gravity / jnp.where(gap > 0, gap, 1.0)), jnp.nan)
 
 

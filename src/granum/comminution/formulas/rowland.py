@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from granum.comminution.formulas.energy import KWH_PER_SHORT_TON, specific_energy_bond
 from granum.comminution.kinds import WorkIndex
-from granum.core import formula, procedure
+from granum.core import formula, impossible, procedure
 from granum.core.kinds import Fraction, Length, MassFlow, PositiveNumber, Power, SpecificEnergy, Within
 from granum.numerics.interpolation import interpolate_linear
 
@@ -90,6 +90,7 @@ def efficiency_factor_low_ratio(feed_size: Length, product_size: Length) -> Posi
     1.0788
     """
     above = feed_size / product_size - 1.35
+    impossible(above <= 0.0, product_size, "product_size", 0.0, feed_size / 1.35)
     low = (above > 0.0) & (above < 6.0 - 1.35)
     factor = 1.0 + 0.13 / jnp.where(low, above, 1.0)
     return jnp.where(above > 0.0, jnp.where(low, factor, 1.0), jnp.nan)

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Angle, Area, Density, Distance, Fraction, Length, MassFlow, MassFlux, OpenFraction, PositiveNumber, Within
 
 TONNE_PER_HOUR = 1000.0 / 3600.0  # kg/s; the source counts t/(h m²), openings in mm
@@ -28,6 +28,7 @@ def throughfall_aperture(aperture: Length, wire_diameter: Distance = 0.0, deck_i
     23.19
     """
     h = (aperture + wire_diameter) * jnp.cos(deck_inclination) - wire_diameter
+    impossible(h <= 0.0, deck_inclination, "deck_inclination", 0.0, jnp.arccos(wire_diameter / (aperture + wire_diameter)))
     return jnp.where(h > 0.0, h, jnp.nan)
 
 

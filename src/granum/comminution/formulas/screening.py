@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Fraction, MassFraction, OpenFraction, Ratio
 from granum.numerics.smooth import safe_divide
 
@@ -16,7 +16,9 @@ _TYPICAL = {"desired_fraction_feed": (0.4, 0.6), "desired_fraction_product": (0.
 def _yield(x_f: Any, x_p: Any, x_r: Any) -> Any:
     """Product per feed; no value unless the feed lies between the two products."""
     share = safe_divide(x_f - x_r, x_p - x_r, jnp.nan)
-    return jnp.where((share >= 0.0) & (share <= 1.0), share, jnp.nan)
+    possible = (share >= 0.0) & (share <= 1.0)
+    impossible(~possible, x_f, "desired_fraction_feed", jnp.minimum(x_r, x_p), jnp.maximum(x_r, x_p))
+    return jnp.where(possible, share, jnp.nan)
 
 
 @formula(

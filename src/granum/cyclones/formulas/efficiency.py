@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Fraction, Length, MassRatio, PositiveNumber, Ratio, Speed, Temperature, VolumeFlow
 from granum.cyclones.geometry import Dimensions, takes_lengths
@@ -27,7 +27,7 @@ def smooth_grade(d: Any, cut: Any, m: Any) -> Any:
 def heavier(rho_p: Any, rho: Any) -> Any:
     """Density above that of the gas; NaN with a flag where there is none."""
     difference = jnp.asarray(rho_p - rho, dtype=float)
-    limit_active(difference <= 0.0, rho_p, "particle_density")
+    impossible(difference <= 0.0, rho_p, "particle_density", rho, jnp.inf)
     return jnp.where(difference > 0.0, difference, jnp.nan)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Distance, DynamicViscosity, Length, PressureDrop, Speed
 from granum.filtration.quantities import ResidualDrag
 from granum.numerics import find_root
@@ -18,6 +18,7 @@ _PLEAT = {"superficial_velocity": (0.5, 3.0), "pleat_height": (0.02, 0.1), "plea
 
 def _parts(v: Any, h: Any, p: Any, t: Any, eta: Any, k: Any) -> tuple[Any, Any]:
     gap = p / 2.0 - t
+    impossible(gap <= 0.0, p, "pleat_pitch", 2.0 * t, jnp.inf)
     safe = jnp.where(gap > 0, gap, jnp.nan)
     return k * v * p / (2.0 * h), 8.0 * eta * v * p * h / safe**3
 

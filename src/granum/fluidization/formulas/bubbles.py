@@ -90,6 +90,8 @@ def bubble_diameter_mori_wen(
     """Bubble diameter at a height above the distributor by Mori and Wen, growing from the plate to the largest the vessel allows.
 
     Orifices per square meter of plate; left out, a porous plate. In the print's centimeters the constants are 0.652, 0.347 and 0.00376.
+    Kunii and Levenspiel put 1.30/g^0.2 for 0.347, and start from 2.78 (U - U_mf)²/g where the first bubbles would overlap: their
+    example 6.2 has 20 cm for 18.6 cm here.
 
     Far above the plate only the largest size is left:
 

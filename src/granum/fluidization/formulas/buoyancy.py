@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import limit_active
+from granum.core import impossible
 
 TYPICAL = {"particle_diameter": (5e-5, 1e-3), "fluid_density": (0.4, 5.0), "dynamic_viscosity": (1.5e-5, 4e-5)}
 FINE = {**TYPICAL, "particle_diameter": (4e-5, 2e-4)}
@@ -15,7 +15,7 @@ FINE = {**TYPICAL, "particle_diameter": (4e-5, 2e-4)}
 def excess(rho_p: Any, rho: Any) -> Any:
     """Density above that of the fluid; NaN with a flag where there is none."""
     difference = jnp.asarray(rho_p - rho, dtype=float)
-    limit_active(difference <= 0.0, rho_p, "particle_density")
+    impossible(difference <= 0.0, rho_p, "particle_density", rho, jnp.inf)
     return jnp.where(difference > 0.0, difference, jnp.nan)
 
 

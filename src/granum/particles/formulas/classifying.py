@@ -6,8 +6,10 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible
 from granum.core.kinds import Density, PositiveNumber, Within
+
+BETWEEN = "The density of the fluid lies between those of the particles: they move in opposite directions."
 
 Regime = Annotated[PositiveNumber, Within(0.5, 1.0)]
 TYPICAL = {"particle_density_heavy": (4000.0, 7500.0), "particle_density_light": (2500.0, 3500.0), "fluid_density": (1000.0, 1500.0)}
@@ -30,7 +32,7 @@ def settling_ratio(
     light = jnp.asarray(particle_density_light - fluid_density, dtype=float)
     ratio = (particle_density_heavy - fluid_density) / jnp.where(light == 0.0, jnp.nan, light)
     possible = ratio > 0.0
-    limit_active(~possible, fluid_density, "fluid_density")
+    impossible(~possible, fluid_density, "fluid_density", reason=BETWEEN)
     return jnp.where(possible, jnp.where(possible, ratio, 1.0) ** settling_ratio_exponent, jnp.nan)
 
 
@@ -56,5 +58,7 @@ def fluid_density_equal_settling(
     r = settling_ratio ** (1.0 / settling_ratio_exponent)
     density = (r * particle_density_light - particle_density_heavy) / jnp.where(r > 1.0, r - 1.0, jnp.nan)
     possible = density > 0.0
-    limit_active(~possible, settling_ratio, "settling_ratio")
+    impossible(
+        ~possible, settling_ratio, "settling_ratio", (particle_density_heavy / particle_density_light) ** settling_ratio_exponent, jnp.inf
+    )
     return jnp.where(possible, density, jnp.nan)

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active, unconverged
+from granum.core import formula, impossible, limit_active, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Length, Sphericity, Velocity
 from granum.particles.falling import EQUAL_DENSITIES, LEAST, WRONG_WAY, drag_of_shape, reynolds_from_size, reynolds_from_velocity
@@ -75,7 +75,7 @@ def terminal_diameter(
     rho, eta = fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
     limit_active(excess == 0.0, particle_density, "particle_density", EQUAL_DENSITIES)
-    limit_active((velocity < 0.0) & (excess > 0.0), velocity, "velocity", WRONG_WAY)
+    impossible((velocity < 0.0) & (excess > 0.0), velocity, "velocity", reason=WRONG_WAY)
     possible = (excess != 0.0) & (velocity != 0.0) & ((velocity > 0.0) | (excess < 0.0))
     speed = jnp.where(possible, abs(velocity), 1.0)
     weight = jnp.where(possible, abs(excess), 1.0)

@@ -10,10 +10,11 @@ from typing import Annotated, Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.core import formula, unconverged
+from granum.core import formula, impossible, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, Position, Ratio, Series, Time, Velocity
 from granum.numerics import find_root
+from granum.particles.falling import EQUAL_DENSITIES
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
 from granum.particles.paths import Motion
@@ -132,6 +133,7 @@ def settling_distance_stokes(
     tau = (particle_density + added_mass_coefficient * fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
     terminal = gravity * abs(particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
     heavy = terminal > 0.0
+    impossible(~heavy, particle_density, "particle_density", reason=EQUAL_DENSITIES)
     ratio = height / (jnp.where(heavy, terminal, 1.0) * tau)
     # t/τ − (1 − e^−t/τ) = h/(v_t τ): between the start's parabola and the late straight line
     root = find_root(
@@ -182,6 +184,7 @@ def settling_distance(
         moves = rho_p != rho
         return jnp.where(moves, state[0], jnp.nan), jnp.where(moves, time, jnp.nan)
 
+    impossible(particle_density == fluid_density, particle_density, "particle_density", reason=EQUAL_DENSITIES)
     distance, time = jnp.vectorize(one)(
         particle_diameter, particle_density, fluid_density, dynamic_viscosity, height, initial_horizontal_velocity,
         initial_vertical_velocity, stream_velocity, gravity, added_mass_coefficient,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -21,6 +21,8 @@ from granum.core.kinds import (
     Velocity,
     Within,
 )
+
+AGAINST = "Velocity and pressure drop have opposite signs, or one of them is zero."
 
 
 @formula(source="darcy1856; scheidegger1974", equation=r"\Delta p = \frac{\eta L}{B}U")
@@ -59,6 +61,7 @@ def permeability_darcy(
     9.869232667160...e-13
     """
     measured = pressure_drop * superficial_velocity > 0.0
+    impossible(~measured, pressure_drop, "pressure_drop", reason=AGAINST)
     B = dynamic_viscosity * length * superficial_velocity / jnp.where(measured, pressure_drop, 1.0)
     return jnp.where(measured, B, jnp.nan)
 

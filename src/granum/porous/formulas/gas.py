@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, unconverged
+from granum.core import formula, impossible, unconverged
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
     DynamicViscosity,
@@ -23,6 +23,8 @@ from granum.core.kinds import (
 from granum.numerics import find_root
 from granum.porous.formulas.inverse import BedLaw
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
+
+CHOKED = "The gas chokes: its pressure falls to zero before the end of the bed."
 
 
 @formula(
@@ -46,6 +48,7 @@ def permeability_gas(
     """
     difference = pressure_inlet**2 - pressure_outlet**2
     driven = difference > 0.0
+    impossible(~driven, pressure_outlet, "pressure_outlet", 0.0, pressure_inlet)
     B = 2.0 * dynamic_viscosity * length * superficial_velocity * pressure_outlet / jnp.where(driven, difference, 1.0)
     return jnp.where(driven, B, jnp.nan)
 
@@ -90,6 +93,7 @@ def pressure_outlet_gas_bed(
     drop = _resistance(mass_flux, particle_diameter, void_fraction, dynamic_viscosity, sphericity, pressure_gradient)
     square = pressure_inlet**2 - 2.0 * GAS_CONSTANT * temperature / molar_mass * length * drop
     possible = square > 0.0
+    impossible(~possible, mass_flux, "mass_flux", reason=CHOKED)
     return jnp.where(possible, jnp.sqrt(jnp.where(possible, square, 1.0)), jnp.nan)
 
 
@@ -119,6 +123,7 @@ def mass_flux_gas_bed(
     d, e, eta = sphericity * particle_diameter, void_fraction, dynamic_viscosity
     difference = pressure_inlet**2 - pressure_outlet**2
     driven = difference > 0.0
+    impossible(~driven, pressure_outlet, "pressure_outlet", 0.0, pressure_inlet)
     wanted = jnp.where(driven, difference, 1.0) * molar_mass / (2.0 * GAS_CONSTANT * temperature * length)
     creeping = wanted * e**3 * d**2 / (150.0 * eta * (1.0 - e) ** 2)
     turbulent = jnp.sqrt(wanted * e**3 * d / (1.75 * (1.0 - e)))

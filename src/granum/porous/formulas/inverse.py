@@ -6,10 +6,12 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, unconverged
+from granum.core import formula, impossible, unconverged
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, PressureDrop, Speed, Sphericity, VoidFraction
 from granum.numerics import find_root
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
+
+AT_REST = "Without flow a bed cannot be told from its pressure drop."
 
 BedLaw = Annotated[Any, Law("pressure_gradient")]
 LOGIT = 16.0  # porosities searched: 1e-7 to 1 − 1e-7
@@ -93,6 +95,7 @@ def particle_diameter_packed_bed(
     U, e, rho, eta = superficial_velocity, void_fraction, fluid_density, dynamic_viscosity
     wanted = pressure_drop / length
     flows = U > 0.0
+    impossible(~flows, U, "superficial_velocity", reason=AT_REST)
     speed = jnp.where(flows, U, 1.0)
     creeping = jnp.sqrt(150.0 * eta * speed * (1.0 - e) ** 2 / (wanted * e**3))
     turbulent = 1.75 * rho * speed**2 * (1.0 - e) / (wanted * e**3)
@@ -131,6 +134,7 @@ def void_fraction_packed_bed(
     """
     wanted = pressure_drop / length
     flows = superficial_velocity > 0.0
+    impossible(~flows, superficial_velocity, "superficial_velocity", reason=AT_REST)
     speed = jnp.where(flows, superficial_velocity, 1.0)
 
     def porosity(y: Any) -> Any:

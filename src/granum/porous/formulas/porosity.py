@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible
 from granum.core.kinds import Area, Density, Length, Mass, Ratio, VoidFraction, Within
 
 WallRatio = Annotated[Ratio, Within(0.0, 1.0)]
@@ -25,7 +25,7 @@ def void_fraction_from_mass(mass: Mass, solid_density: Density, area: Area, leng
     """
     e = 1.0 - mass / (solid_density * area * length)
     possible = (e > 0.0) & (e < 1.0)
-    limit_active(~possible, e, "void_fraction")
+    impossible(~possible, mass, "mass", 0.0, solid_density * area * length)
     return jnp.where(possible, e, jnp.nan)
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -23,6 +23,8 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.settling.quantities import UnitArea
+
+SAME = "Both layers have one concentration: there is no boundary between them."
 
 _TANGENT = {"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)}
 _BETWEEN = {"underflow_concentration": (300.0, 600.0)}
@@ -68,6 +70,7 @@ def shock_velocity_kynch(
     """
     fall = solids_concentration_below * settling_velocity_below - solids_concentration_above * settling_velocity_above
     gap = solids_concentration_below - solids_concentration_above
+    impossible(gap == 0.0, solids_concentration_below, "solids_concentration_below", reason=SAME)
     return fall / jnp.where(gap == 0, jnp.nan, gap)
 
 
