@@ -163,6 +163,22 @@ def test_a_fit_of_exact_data_gives_the_resistances_back(client: httpx.Client) ->
     assert data["chart"]["data"]
 
 
+def test_a_table_is_shown_as_text_whatever_it_was(client: httpx.Client) -> None:
+    import io
+
+    import openpyxl
+
+    book = openpyxl.Workbook()
+    for row in (("t / s", "V (L)"), (1.5, 2), (3, 4.25)):
+        book.active.append(row)
+    sheet = io.BytesIO()
+    book.save(sheet)
+    semicolons = "t / s;V (L)\n1,5;2\n3;4,25\n".encode("cp1252")
+    for name, content in (("a.csv", semicolons), ("a.xlsx", sheet.getvalue())):
+        answer = client.post("/api/table", files={"file": (name, content)})
+        assert answer.json()["text"] == "t / s,V (L)\n1.5,2\n3,4.25\n"
+
+
 def test_a_line_is_solved_and_reported(client: httpx.Client) -> None:
     case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
     data = client.post("/api/run", json={"case": case}).json()

@@ -189,4 +189,7 @@ def test_cycles_of_batch_units() -> None:
     assert plan.cycles["crystallizer"].length == pytest.approx(7200.0)
     for cycle in plan.cycles.values():
         assert sum(p.duration for p in cycle.phases) == pytest.approx(cycle.length)
-    assert len(plan.chart().data) >= 4
+    chart = plan.chart()
+    assert chart.layout.yaxis.type == "category"  # on an axis of numbers bars with names are not drawn
+    assert all(len(bar.y) for bar in chart.data)
+    assert len(chart.data) >= 4
