@@ -128,8 +128,14 @@ def test_wrong_sets_are_named(given, words):
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        ({"temperature_inlet": 323.15, "temperature_outlet": 295.0}, "relative humidity of the outlet air"),  # would leave beyond saturation
-        ({"temperature_inlet": 323.15, "dry_gas_flow": 1080.0}, "relative humidity of the outlet air"),  # too little air, too cold for the water
+        (
+            {"temperature_inlet": 323.15, "temperature_outlet": 295.0},
+            "relative humidity of the outlet air",
+        ),  # would leave beyond saturation
+        (
+            {"temperature_inlet": 323.15, "dry_gas_flow": 1080.0},
+            "relative humidity of the outlet air",
+        ),  # too little air, too cold for the water
         ({"temperature_inlet": 303.15, "temperature_outlet": 303.2}, "dry-gas flow"),  # the outlet cannot be hotter than the inlet
         ({"temperature_inlet": 323.15, "relative_humidity_outlet": 1.0, "moisture_dry_basis_outlet": 0.6}, "evaporation rate"),  # wets
     ],

@@ -274,7 +274,10 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
     async def examples() -> Response:
         """Case files shipped with the package."""
         return Answer(
-            {"files": sorted(_examples()), "titles": {name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()}}
+            {
+                "files": sorted(_examples()),
+                "titles": {name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()},
+            }
         )
 
     @app.get("/api/examples/{name:path}")
