@@ -233,3 +233,10 @@ def test_flash_dryer_in_a_recycle() -> None:
     product, fed = found.streams["product"], feeds["wet"]
     assert float(product.solid_flow) == pytest.approx(float(fed.solid_flow), rel=1e-9)
     assert float(found.streams["dry"].solid_flow) == pytest.approx(2.0 * float(fed.solid_flow), rel=1e-9)
+
+
+def test_a_layer_in_too_long_steps_fails_its_check() -> None:
+    """A belt a hundred times too large in twelve steps: its numbers mean nothing, and the check says so."""
+    dryer, feed, gas = BeltDryer(100.0, 0.05, 500.0, KINETICS, layers=6, steps=12), wet(0.05, 0.8), air(5.0, 0.01, 380.0)
+    assert not bool(dryer.profile(feed, gas).converged)
+    assert bool(BeltDryer(0.5, 0.05, 500.0, KINETICS, layers=6, steps=60).profile(feed, air(0.5, 0.01, 380.0)).converged)
