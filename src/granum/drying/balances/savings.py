@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import flags, formula
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Fraction,
@@ -184,6 +184,7 @@ def heat_pump_dryer(
 
     T2 = find_root(mismatch, COLDEST, jnp.minimum(temperature_inlet, PAIR.boiling_temperature(P) * (1 - 1e-9)), tolerance=1e-15).value
     w1, w2 = inlet(T2)
+    flags.impossible(~(w2 > w1), coil_temperature, "coil_temperature", reason="The coil is too warm to take water from the air.")
     taken = jnp.where(w2 > w1, w2 - w1, jnp.nan)
     liquid = PAIR.condensate_molar_enthalpy(jnp.asarray(coil_temperature), P, False) / PAIR.vapor_molar_mass
     cold = BF * enthalpy(T2, w2, P) + (1.0 - BF) * enthalpy(coil_temperature, coil, P)
@@ -229,6 +230,7 @@ def superheated_steam_drying(
     out = steam_enthalpy.function(jnp.asarray(temperature_outlet), p)
     energy = out - water_enthalpy.function(jnp.asarray(temperature_product), p)
     possible = boiling <= temperature_outlet
+    flags.impossible(~possible, temperature_outlet, "temperature_outlet", boiling)
     ratio = energy / (steam_enthalpy.function(jnp.asarray(temperature_inlet), p) - out)
     return SteamDrying(
         jnp.where(possible, ratio, jnp.nan), energy, boiling + 0.0 * energy, out - water_enthalpy.function(boiling * (1.0 - 1e-9), p)
@@ -322,17 +324,22 @@ def direct_firing(
     True
     """
     P = jnp.asarray(pressure, dtype=float)
-    just = combustion_gas.function(fuel_fraction_carbon, fuel_fraction_hydrogen, lower_heating_value, 1.0, temperature_fresh,
-                                   humidity_ratio_fresh, heat_loss_share=heat_loss_share, pressure=P)  # fmt: skip
+    with flags.collect():  # without excess air it is hotter than it will ever be here
+        just = combustion_gas.function(fuel_fraction_carbon, fuel_fraction_hydrogen, lower_heating_value, 1.0, temperature_fresh,
+                                       humidity_ratio_fresh, heat_loss_share=heat_loss_share, pressure=P)  # fmt: skip
     # dilution: flue gas of one kilogram of fuel and m kilograms of dry air meet at the inlet temperature; enthalpies are linear in vapor
     at_inlet = enthalpy(temperature_inlet, just.humidity_ratio, P)
     air = just.dry_gas_per_fuel * (just.enthalpy - at_inlet)
     air = air / (enthalpy(temperature_inlet, humidity_ratio_fresh, P) - enthalpy(temperature_fresh, humidity_ratio_fresh, P))
+    flags.impossible(
+        ~(air >= 0), temperature_inlet, "temperature_inlet", reason="The fuel without excess air does not give gas as hot as that."
+    )
     air = jnp.where(air >= 0, air, jnp.nan)
     gas = just.dry_gas_per_fuel + air
     w1 = (just.dry_gas_per_fuel * just.humidity_ratio + air * humidity_ratio_fresh) / gas
     dry = enthalpy(temperature_outlet, 0.0, P)
     w2 = (enthalpy(temperature_inlet, w1, P) - dry) / (enthalpy(temperature_outlet, 1.0, P) - dry)
+    flags.impossible(~(w2 > w1), temperature_outlet, "temperature_outlet", high=temperature_inlet)
     taken = jnp.where(w2 > w1, w2 - w1, jnp.nan)
     phi = humidity_share(temperature_outlet, w2, P)
     return DirectFiring(1.0 + air / just.air_per_fuel, w1, w2, phi, 1.0 / (gas * taken), 1.0 / taken, lower_heating_value / (gas * taken))

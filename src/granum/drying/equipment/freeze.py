@@ -26,7 +26,8 @@ from granum.core.kinds import (
     Time,
     Volume,
 )  # fmt: skip
-from granum.drying.formulas.freeze_drying import SUBLIMATION_HEAT, choked_flow_rate, primary_drying, secondary_drying_time
+from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
+from granum.drying.formulas.vials import SUBLIMATION_HEAT
 from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
