@@ -39,14 +39,13 @@ def test_messages_have_french(package: str) -> None:
     assert not missing, f"{len(missing)} messages without French: {missing}"
 
 
-def test_titles_of_the_examples_have_french() -> None:
-    titles = {
-        tomllib.loads(p.read_text(encoding="utf-8")).get("title", "")
-        for p in (SOURCE.parents[1] / "examples").rglob("*.toml")
-        if "[units." in p.read_text(encoding="utf-8")
-    }
-    assert len(titles) > 30
-    assert titles - set(catalog("fr")) == set()
+def test_titles_and_descriptions_of_the_examples_have_french() -> None:
+    files = [p.read_text(encoding="utf-8") for p in (SOURCE.parents[1] / "examples").rglob("*.toml")]
+    cases = [tomllib.loads(text) for text in files if "[units." in text]
+    for key in ("title", "description"):
+        words = {case[key] for case in cases if key in case}
+        assert len(words) > 30
+        assert words - set(catalog("fr")) == set()
 
 
 def test_french_keeps_the_placeholders() -> None:

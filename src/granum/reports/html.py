@@ -151,7 +151,7 @@ def line_report(run: Any) -> str:
     audit = run.audit
     numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
     return environment.get_template("line.html.j2").render(
-        _=_, lang=current_language(), run=run, description=case.description if case else "",
+        _=_, lang=current_language(), run=run, description=_(case.description) if case and case.description else "",
         title_block=[(label, value) for label, value in block if value], units=units,
         checks=sum(len(u["checks"]) for u in units),
         failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
