@@ -291,7 +291,10 @@ class JacketedBatchCrystallizer(_Cycled):
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
         coldest = self.results(inlets, outlets).undercooling_wall_maximum
-        return (*super().checks(inlets, outlets), Check(_CRUST, coldest, -jnp.inf, self.metastable_width, "K", "mullin2001, ch. 9"))
+        return (
+            *super().checks(inlets, outlets),
+            Check(_CRUST, coldest, -jnp.inf, self.metastable_width, "delta_degC", "mullin2001, ch. 9"),
+        )
 
 
 @equipment("vacuum_batch_crystallizer", source="mullin2001, ch. 8 and 9", title="Batch crystallizer cooled by boiling under vacuum",

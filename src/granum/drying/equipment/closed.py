@@ -253,5 +253,5 @@ class ClosedDryer(Unit):
         found = [Check(name, margin, 0.0, 1e9, "dimensionless", "mujumdar2014") for name, margin in c.margins]
         found.append(Check(_MET, c.product.moisture_dry_basis - self.moisture_outlet, -1e-9, 1e-9, "kg/kg", "keey1978"))
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, c.product.temperature - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+            found.append(Check(_LIMIT, c.product.temperature - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)

@@ -248,7 +248,7 @@ class ConvectiveDryer(Unit):
             rest = self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
             found.append(Check(_PRODUCT, X - rest, 0.0, 1e3, "kg/kg", "keey1978"))
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)
 
 

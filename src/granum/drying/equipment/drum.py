@@ -176,5 +176,5 @@ class DrumDryer(Unit):
             Check(_RATIO, figures.steam_per_water, 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
         ]
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, outlets.product.temperature - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+            found.append(Check(_LIMIT, outlets.product.temperature - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)

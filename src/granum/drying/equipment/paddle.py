@@ -183,5 +183,5 @@ class PaddleDryer(Unit):
             Check(_DRY, self.moisture_outlet - self.equilibrium_moisture, 0.0, 1e3, "kg/kg", "keey1978"),
         ]
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)

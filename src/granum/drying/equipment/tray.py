@@ -161,5 +161,5 @@ class TrayDryer(Unit):
             Check(_RECYCLE, figures.recirculated_fraction, 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         ]
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, self.temperature_inlet - self.temperature_limit, -1e3, 0.0, "delta_degC", "bonazzi2003"))
+            found.append(Check(_LIMIT, self.temperature_inlet - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)
