@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from granum.core.errors import InputError, UnitError
+from granum.core.errors import ApplicabilityError, InputError, UnitError
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.mass_balance import dry_cake_per_filtrate
+from granum.filtration.formulas.readings import ruth_constants_readings
 from granum.filtration.lab_tests.leaf_test import LeafTest
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "leaf-filter"
@@ -105,3 +106,9 @@ def test_clear_messages():
         LeafTest(time=[1, 2, 4, 7], filtrate_volume=[1, 2, 3, 4], first_points_excluded=2, **CONDITIONS).fit()
     with pytest.raises(InputError, match="no column 'filtrate_volume"):
         LeafTest.read(io.StringIO("time [s],volume [L]\n1,2\n2,3\n3,4\n"), **CONDITIONS)
+
+
+@pytest.mark.parametrize("readings", [("3 min", "5 L"), ("3 12 min", "5 5 L"), ("3 4 min", "5 10 L")])
+def test_readings_without_a_cake_are_refused(readings) -> None:
+    with pytest.raises(ApplicabilityError, match="rising line"):
+        ruth_constants_readings(*readings)

@@ -261,7 +261,10 @@ class Formula:
 
     def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
         """What single inputs gave, unless they contradict one another: that raises. No number in, as from a failed root, gives none out."""
-        lost = any(type(x) is float and x != x for x in (out if isinstance(out, tuple) else (out,)))
+        lost = any(
+            not is_tracer(x) and (x != x if type(x) is float else bool(np.isnan(x).all()))
+            for x in (out if isinstance(out, tuple) else (out,))
+        )
         if lost and not any(hasattr(value, "at") and bool(jnp.isnan(value).any()) for value in (*args, *kwargs.values())):
             self.evaluate(*args, **kwargs)
         return out

@@ -65,7 +65,7 @@ class Result:
             ranked = sorted(self.notices, key=lambda n: n["flag"] != WORDS[OUTSIDE_DOMAIN])
             cause = ranked[0]["message"] if ranked else _("{card} gave no finite value.").format(card=self.card.key)
             given = ", ".join(self._given())
-            raise ApplicabilityError(f"{cause} " + _("Given: {given}. Change one of these.").format(given=given))
+            raise ApplicabilityError(cause + (" " + _("Given: {given}. Change one of these.").format(given=given) if given else ""))
         return self
 
     def _given(self) -> Iterator[str]:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import BOLTZMANN
 from granum.core.kinds import (
     Density,
@@ -60,6 +60,7 @@ def critical_nucleus(
     >>> round(out.critical_radius * 1e9, 2), round(out.molecules_in_nucleus)
     (0.87, 91)
     """
+    impossible(~(jnp.asarray(supersaturation_ratio) > 1.0), supersaturation_ratio, "supersaturation_ratio", 1.0, jnp.inf)
     v = molecular_volume(crystal_density, molar_mass)
     work = ions_per_formula * BOLTZMANN * temperature * safe_log(supersaturation_ratio, otherwise=0.0)
     return _nucleus(interfacial_energy, work / v, v)
@@ -113,5 +114,6 @@ def critical_nucleus_melt(
     >>> round(gold.critical_radius * 1e9, 2)
     1.32
     """
+    impossible(~(jnp.asarray(undercooling) > 0.0), undercooling, "undercooling", 0.0, jnp.inf)
     per_volume = enthalpy_of_fusion * crystal_density / molar_mass * undercooling / melting_temperature
     return _nucleus(interfacial_energy, per_volume, molecular_volume(crystal_density, molar_mass))

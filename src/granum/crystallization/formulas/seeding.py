@@ -6,7 +6,7 @@ from typing import Annotated, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Density,
     Distance,
@@ -147,6 +147,7 @@ def grown_seed(
     w = raw / jnp.sum(raw, axis=-1, keepdims=True)
     R = jnp.asarray(product_mass / seed_mass)
     grows = R >= 1.0
+    impossible(~grows, product_mass, "product_mass", seed_mass, jnp.inf)
     R = jnp.where(grows, R, 1.0)
 
     def excess(gain, ratio):

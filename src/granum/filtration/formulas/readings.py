@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Area,
     CakeResistance,
@@ -25,11 +25,17 @@ from granum.filtration.quantities import RuthConstant
 _SMALL = {"time": (60.0, 600.0), "filtrate_volume": (1e-3, 1e-2), "area": (0.01, 0.1), "pressure_drop": (1e4, 1e5)}
 
 
+NO_CAKE = "The readings do not lie on a rising line: at least two different ones are needed, of a cake that grows."
+
+
 def _line(x: Any, y: Any) -> tuple[Any, Any]:
-    """Slope and intercept."""
+    """Slope and intercept; without a slope upwards there is no cake to speak of."""
     u, v = jnp.asarray(x), jnp.asarray(y)
     away = u - jnp.mean(u)
-    slope = jnp.sum(away * v) / jnp.sum(away**2)
+    spread = jnp.sum(away**2)
+    slope = jnp.sum(away * v) / jnp.where(spread > 0, spread, jnp.nan)
+    impossible(~(slope > 0), slope, "time", reason=NO_CAKE)
+    slope = jnp.where(slope > 0, slope, jnp.nan)
     return slope, jnp.mean(v) - slope * jnp.mean(u)
 
 

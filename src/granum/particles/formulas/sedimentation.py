@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Concentration, Density, DynamicViscosity, Fraction, Length, Series, Time
 from granum.particles.formulas.sizes import equivalent_diameter_stokes
@@ -19,6 +19,17 @@ class SedimentationSizes(NamedTuple):
 
     particle_diameter: Annotated[Length, Series("readings")]
     cumulative_fraction: Annotated[Fraction, Series("readings")]
+
+
+LATER = "The times do not rise from reading to reading."
+LESS = "What has settled cannot become less."
+
+
+def _falling(particle_density: Any, fluid_density: Any) -> Any:
+    """Whether the particles fall at all."""
+    falling = jnp.asarray(particle_density) > fluid_density
+    impossible(~falling, particle_density, "particle_density", fluid_density, jnp.inf)
+    return falling
 
 
 def _slopes(x: Any, y: Any) -> Any:
@@ -50,9 +61,13 @@ def size_distribution_pipette(
     >>> [round(1e6 * float(d), 2) for d in sizes.particle_diameter], [round(float(q), 3) for q in sizes.cumulative_fraction]
     ([18.97, 9.49], [0.6, 0.2])
     """
-    velocity = depth / jnp.asarray(time)
-    diameter = equivalent_diameter_stokes(velocity, particle_density, fluid_density, dynamic_viscosity, gravity)
-    return SedimentationSizes(diameter, jnp.asarray(solids_concentration) / initial_concentration)
+    falling, concentration = _falling(particle_density, fluid_density), jnp.asarray(solids_concentration)
+    there = concentration <= initial_concentration
+    impossible(~there, concentration, "solids_concentration", 0.0, initial_concentration)
+    diameter = equivalent_diameter_stokes(depth / jnp.asarray(time), particle_density, fluid_density, dynamic_viscosity, gravity)
+    return SedimentationSizes(
+        jnp.where(falling, diameter, jnp.nan), jnp.where(falling & there, concentration / initial_concentration, jnp.nan)
+    )
 
 
 @formula(source="allen1997", title="Size distribution by sedimentation balance", typical=_CLAY,
@@ -75,7 +90,11 @@ def size_distribution_balance(
     >>> [round(1e6 * float(d), 1) for d in sizes.particle_diameter], [round(float(q), 3) for q in sizes.cumulative_fraction]
     ([60.0, 42.4, 30.0], [1.0, 0.967, 0.767])
     """
-    t, m = jnp.asarray(time), jnp.asarray(deposited_fraction)
-    slopes = _slopes(jnp.insert(t, 0, 0.0), jnp.insert(m, 0, 0.0))
-    diameter = equivalent_diameter_stokes(depth / t, particle_density, fluid_density, dynamic_viscosity, gravity)
-    return SedimentationSizes(diameter, 1.0 - (m - t * slopes))
+    t, m = jnp.insert(jnp.asarray(time), 0, 0.0), jnp.insert(jnp.asarray(deposited_fraction), 0, 0.0)
+    later, more = jnp.all(jnp.diff(t) > 0), jnp.all(jnp.diff(m) >= 0)
+    impossible(~later, jnp.nan, "time", reason=LATER)
+    impossible(~more, jnp.nan, "deposited_fraction", reason=LESS)
+    possible = _falling(particle_density, fluid_density) & later & more
+    slopes = _slopes(t, m)
+    diameter = equivalent_diameter_stokes(depth / t[1:], particle_density, fluid_density, dynamic_viscosity, gravity)
+    return SedimentationSizes(jnp.where(possible, diameter, jnp.nan), jnp.where(possible, 1.0 - (m[1:] - t[1:] * slopes), jnp.nan))
