@@ -43,15 +43,13 @@ def _traced(tree: Any) -> Any:
 
 
 @compiled
-def _solved_patiently(sheet: Flowsheet, start: dict[str, Stream]) -> Designed:
-    solution = solve(sheet, start, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
-    return Designed(sheet, solution, {}, solution.converged)
+def _solved_patiently(sheet: Flowsheet, targets: tuple[Target, ...], start: dict[str, Stream]) -> Designed:
+    return design(sheet, targets, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
 
 
 @compiled
-def _solved_by_newton(sheet: Flowsheet, start: dict[str, Stream]) -> Designed:
-    solution = solve(sheet, start, sheets=True, method=Newton(), max_steps=50)
-    return Designed(sheet, solution, {}, solution.converged)
+def _solved_by_newton(sheet: Flowsheet, targets: tuple[Target, ...], start: dict[str, Stream]) -> Designed:
+    return design(sheet, targets, sheets=True, start=start, method=Newton(), max_steps=50)
 
 
 @compiled
@@ -78,14 +76,19 @@ class Line:
         bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
         if bool(found.converged) and not bad:
             return run
-        for again in (_solved_patiently, _solved_by_newton) if not bad and not bool(found.solution.converged) and not self.targets else ():
+        for again in (_solved_patiently, _solved_by_newton) if self._loops_fail(found, bad) else ():
             torn = {n: found.solution.streams[n] for block in self.sheet.blocks for n in block.tears}
-            start = torn if again is _solved_by_newton else {}
-            found = again(_traced(self.sheet), start)
-            run = Run(self, found.line, found.solution, {})
+            found = again(_traced(self.sheet), self.targets, torn)
+            run = Run(self, found.line, found.solution, {k: float(v) for k, v in found.values.items()})
             if bool(found.converged):
                 return run
         raise ConvergenceError(_failure(found, bad, self.targets, self._reach), last=run, **_place(found, bad))
+
+    def _loops_fail(self, found: Designed, bad: list[str]) -> bool:
+        """Whether it is a loop that does not come to rest, rather than a specification that is out of reach."""
+        if not bad:
+            return not bool(found.solution.converged)
+        return any(not np.isfinite(sum(self._reach(t))) for t in self.targets)
 
     def _reach(self, target: Target) -> tuple[float, float]:
         """What the result of a specification is at both ends of the varied parameter, the other specifications left out."""

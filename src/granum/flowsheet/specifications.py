@@ -44,17 +44,20 @@ def outlets_of(line: Flowsheet, solution: Solution, unit: str) -> Any:
     return thing.outlet_type()(**made, **solution.powers[unit])
 
 
-def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False) -> Designed:
-    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from mid-range."""
+def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False, **how: Any) -> Designed:
+    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from mid-range.
+
+    ``how`` says how its loops are solved, as for ``solve``.
+    """
     if not targets:
-        solution = solve(line, sheets=sheets)
+        solution = solve(line, sheets=sheets, **how)
         return Designed(line, solution, {}, solution.converged)
     if len(targets) == 1:
         target = targets[0]
 
         def miss(x: Any) -> Any:
             changed = line.with_values({target.vary: x})
-            return (figure(changed, solve(changed), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
+            return (figure(changed, solve(changed, **how), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
 
         root = find_root(miss, target.lower, target.upper)
         values, found = {target.vary: root.value}, root.converged
@@ -64,7 +67,7 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
 
         def misses(x: Any, _args: Any) -> Any:
             changed = line.with_values({t.vary: low[i] + width[i] * x[i] for i, t in enumerate(targets)})
-            solution = solve(changed)
+            solution = solve(changed, **how)
             return jnp.stack([(figure(changed, solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets])
 
         outcome = solve_system(misses, jnp.full((len(targets),), 0.5))
@@ -72,5 +75,5 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
         values = {t.vary: low[i] + width[i] * outcome.state[i] for i, t in enumerate(targets)}
         found = outcome.converged & inside
     final = line.with_values(values)
-    solution = solve(final, sheets=sheets)
+    solution = solve(final, sheets=sheets, **how)
     return Designed(final, solution, values, found & solution.converged)

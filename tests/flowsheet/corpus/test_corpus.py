@@ -12,9 +12,12 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.flowsheet import closures, solve
+from granum.cases.line import Line
+from granum.flowsheet import Flowsheet, closures, solve
 from granum.flowsheet.packing import compiled
+from granum.flowsheet.specifications import Target
 from granum.numerics import Anderson, Newton
+from granum.streams.equipment.basics import Mixer, Splitter
 
 _spec = importlib.util.spec_from_file_location("corpus_cases", Path(__file__).with_name("cases.py"))
 assert _spec is not None
@@ -65,6 +68,18 @@ def test_newton_finds_the_same(name: str) -> None:
     assert one[0][-1] == other[0][-1] == 1.0
     assert np.allclose(one[0], other[0], rtol=1e-9)
     assert np.allclose(one[1], other[1], rtol=1e-7, atol=1e-9)
+
+
+def test_specification_on_a_loop_that_only_newton_solves() -> None:
+    """Twelve components that turn into one another, 999 of 1000 going round: by hand the flow is 1/(1 - share)."""
+    fresh, units, links = np.eye(12)[0], {"mix": Mixer(), "reactor": corpus.Reactor(np.roll(np.eye(12), 1, axis=0)), "split": Splitter(0.999)}, {
+        "f": ("", "mix.f"), "m": ("mix", "reactor"), "r": ("reactor", "split"), "back": ("split.side", "mix.back"),
+    }  # fmt: skip
+    line = Flowsheet(units, {"f": corpus.feed(*fresh)}, links)
+    assert not bool(_solve(jax.tree.map(np.asarray, line)).converged)
+    run = Line("Loop", line, (Target("split.side_fraction", "mix.mass_flow", 2000.0, 0.999, 0.9998),)).solve()
+    assert run.found["split.side_fraction"] == pytest.approx(0.9995, rel=1e-9)
+    assert run.figure("mix.mass_flow") == pytest.approx(2000.0, rel=1e-7)
 
 
 def test_pass_rate() -> None:
