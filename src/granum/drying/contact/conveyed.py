@@ -69,14 +69,14 @@ class Flight(NamedTuple):
 
 
 def convey(
-    path: Path, matter: Matter, kinetics: AbstractKinetics, feed: Stream, gas: Stream, inlet: Inlet, solid_flow: Any, network: Network,
+    path: Path, matter: Matter, kinetics: AbstractKinetics, gas: Stream, inlet: Inlet, solid_flow: Any, network: Network,
     heat_loss: Any,
 ) -> tuple[Profile, Any]:  # fmt: skip
     """Steady state of particles carried by gas; their speeds are unknowns beside moisture and temperature. Also the dry solid under way, kg.
 
     Without dispersion of the gas every cell depends on the one before alone, and they are solved one after the other.
     """
-    n, m = path.steps.shape[0], len(feed.mixture.sizes)
+    n, m = path.steps.shape[0], path.dry_size.shape[0]
     dry = gas.gas_flow - gas.gas[matter.vapor]
     shape = (m,)
     viscosity_of, conductivity_of = gas.mixture.gas_viscosity, gas.mixture.gas_conductivity

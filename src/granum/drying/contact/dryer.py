@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
@@ -19,6 +20,7 @@ from granum.core.i18n import _
 from granum.core.kinds import HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, Ratio, Temperature, Time
 from granum.drying.contact.cells import Contact, Inlet, Profile
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
+from granum.drying.contact.liquor import composition, counted, moistened
 from granum.drying.contact.matter import Matter, temperature_at
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
@@ -117,12 +119,12 @@ class Dryer(Unit):
         return dried(feed, gas, self.profile(feed, gas))
 
     def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> DryerFigures:
-        feed, gas, exhaust = inlets["feed"], inlets["gas"], outlets.exhaust
-        found, matter = self.profile(feed, gas), Matter.of(feed, gas)
+        feed, gas, exhaust = counted(inlets["feed"]), inlets["gas"], outlets.exhaust
+        found, matter = self.profile(inlets["feed"], gas), Matter.of(feed, gas)
         humidity = safe_divide(exhaust.gas[matter.vapor], jnp.sum(exhaust.gas) - exhaust.gas[matter.vapor])
         some = found.shares > 1e-9
         evaporated = feed.liquid[0] - outlets.product.liquid[0]
-        holdup = self.holdup(feed, gas)
+        holdup = self.holdup(inlets["feed"], gas)
         return DryerFigures(
             evaporation_rate=evaporated,
             moisture_dry_basis=outlets.product.moisture_dry_basis,
@@ -165,7 +167,11 @@ class ContactDryer(Dryer):
 
     @abstractmethod
     def contact(self, feed: Stream, gas: Stream) -> Contact:
-        """The core's view of the dryer with these inlets."""
+        """The core's view of the dryer with these inlets, the feed ``counted`` as dry matter and water."""
+
+    def core(self, feed: Stream, gas: Stream) -> Contact:
+        """The same for a feed whose moisture may be a solution."""
+        return solved(self.contact(counted(feed), gas), feed)
 
     def inlet(self, feed: Stream, gas: Stream) -> Inlet:
         """What enters the core: every class of the solid brings the same moisture."""
@@ -176,13 +182,13 @@ class ContactDryer(Dryer):
         return _steady(self, feed, gas)
 
     def holdup(self, feed: Stream, gas: Stream) -> Any:
-        return jnp.sum(self.contact(feed, gas).solid)
+        return jnp.sum(self.contact(counted(feed), gas).solid)
 
     def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
         """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets that change from step to step."""
-        core = self.contact(feed, gas)
+        core = self.core(feed, gas)
         if start is None:
-            found = core.steady(self.inlet(feed, gas))
+            found = core.steady(self.inlet(counted(feed), gas))
             start = core.state(found.moisture, found.temperature, found.humidity, found.gas_temperature)
         return core.dynamic(start, inlets, step)
 
@@ -195,15 +201,27 @@ def humidity_of(gas: Stream) -> Any:
 
 @recalled
 def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Profile:
-    return dryer.contact(feed, gas).steady(dryer.inlet(feed, gas))
+    return dryer.core(feed, gas).steady(dryer.inlet(counted(feed), gas))
+
+
+def solved(core: Contact, feed: Stream) -> Contact:
+    """The core with what the moisture of a feed holds in solution."""
+    if len(feed.mixture.liquids) < 2:
+        return core
+    return replace(core, matter=replace(core.matter, dissolved=composition(feed)))
 
 
 def dried(feed: Stream, gas: Stream, found: Profile) -> Dried:
     """Streams from what leaves the core. Gas that came with the feed, and dust with the gas, pass to the exhaust."""
+    return parted(counted(feed), composition(feed), gas, found)
+
+
+def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:
+    """The same for a feed already ``counted``."""
     vapor = feed.mixture.index("gases", "water")
     dry = gas.gas.at[vapor].set(0.0)
     stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
-    product = feed.replace(liquid=jnp.sum(found.water)[None], gas=0.0 * feed.gas, pressure=gas.pressure)
+    product = moistened(feed, jnp.sum(found.water), dissolved).replace(gas=0.0 * feed.gas, pressure=gas.pressure)
     exhaust = gas.replace(
         gas=dry.at[vapor].set(found.vapor) + stray_feed.gas,
         solid=stray_gas.solid,
@@ -223,6 +241,7 @@ def warmed(stream: Stream, enthalpy: Any) -> Stream:
 
 def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
     """Moisture of the product in equilibrium with the gas that enters."""
+    feed = counted(feed)
     matter = Matter.of(feed, gas)
     Y = humidity_of(gas)
     X = jnp.full((1,), 1.0) * feed.moisture_dry_basis
@@ -243,7 +262,7 @@ def sized(dryer: Any, name: str, target: Any, low: float, high: float, feed: Str
                 "A moisture of {value} kg/kg cannot be reached: equilibrium with the inlet gas is {limit} kg/kg; take drier or hotter gas."
             ).format(value=shown, limit=f"{least:.4g}")
         )
-    if float(target) >= float(feed.moisture_dry_basis):
+    if float(target) >= float(counted(feed).moisture_dry_basis):
         raise ApplicabilityError(_("The feed is already as dry as {value} kg/kg.").format(value=shown))
     # numbers as arrays, so that dryers of one shape share compiled code; a zero may switch a part off and stays
     given = jax.tree.map(lambda x: np.asarray(x, dtype=float) if isinstance(x, float) and x else x, (dryer, feed, gas, gas_velocity))
@@ -277,4 +296,5 @@ def _moisture(name: str, x: Any, dryer: Any, feed: Stream, gas: Stream, gas_velo
     changed = eqx.tree_at(lambda d: getattr(d, name), dryer, jnp.exp(x))
     if gas_velocity is not None:
         gas = gas.part(gas=gas_velocity * changed.extent() * gas.gas_density / gas.gas_flow)
-    return jnp.sum(changed.profile(feed, gas).water) / feed.solid_flow
+    water, dissolved = jnp.sum(changed.profile(feed, gas).water), jnp.sum(composition(feed))
+    return water * (1.0 + dissolved) / (counted(feed).solid_flow - water * dissolved)

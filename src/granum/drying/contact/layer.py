@@ -9,7 +9,8 @@ import jax.numpy as jnp
 
 from granum.drying.contact.cells import Contact, Network, Profile
 from granum.drying.contact.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.contact.dryer import Dryer, recalled
+from granum.drying.contact.dryer import Dryer, recalled, solved
+from granum.drying.contact.liquor import counted
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
 
@@ -48,8 +49,9 @@ class LayerDryer(Dryer):
 
     def passages(self, feed: Stream, *gases: Stream) -> tuple[Contact, list[Passage]]:
         """The column and its way through the zones."""
-        like = self.column(feed, gases[0])
-        return like, pass_zones(like, feed.moisture_dry_basis, feed.temperature, self.zones(feed, *gases), self.resolution()[1])
+        dry = counted(feed)
+        like = solved(self.column(dry, gases[0]), feed)
+        return like, pass_zones(like, dry.moisture_dry_basis, feed.temperature, self.zones(dry, *gases), self.resolution()[1])
 
     def profile(self, feed: Stream, gas: Stream) -> Profile:
         return _passed(self, feed, gas)
@@ -58,7 +60,7 @@ class LayerDryer(Dryer):
 @recalled
 def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Profile:
     like, found = dryer.passages(feed, *gases)
-    return joined(like, found, feed.solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+    return joined(like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
 
 
 def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_enthalpy: Any) -> Profile:

@@ -12,6 +12,7 @@ import jax.numpy as jnp
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
+from granum.drying.contact.liquor import crystals
 from granum.materials.formulas.water import water_vapor_pressure
 from granum.numerics import safe_divide
 from granum.streams.mixture import Mixture
@@ -30,13 +31,15 @@ class Matter(eqx.Module):
     solid_shares: Any  # species × classes, each class adding up to 1
     gas_shares: Any  # of the dry gas; the vapor's share is zero
     pressure: Any
+    dissolved: Any = ()  # per kg of water, one for each further liquid: what leaves the water as crystal when that evaporates
 
     @classmethod
     def of(cls, feed: Stream, gas: Stream) -> Matter:
-        """The matter of two inlets; the mixture must have water as its only liquid and as one of its gases."""
+        """The matter of two inlets, the feed ``counted`` as dry matter and water; the mixture must have water as its first liquid and among
+        its gases."""
         m = feed.mixture
-        if len(m.liquids) != 1 or m.liquids[0].name != "water" or "water" not in [g.name for g in m.gases] or not m.solids:
-            raise InputError(_("A dryer needs a mixture with solids, water as its only liquid, and a gas with water vapor."))
+        if not m.liquids or m.liquids[0].name != "water" or "water" not in [g.name for g in m.gases] or not m.solids:
+            raise InputError(_("A dryer needs a mixture with solids, water as its first liquid, and a gas with water vapor."))
         vapor = m.index("gases", "water")
         by_class = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         overall = safe_divide(jnp.sum(by_class, axis=1), jnp.sum(by_class), 1.0 / len(m.solids))
@@ -56,8 +59,11 @@ class Matter(eqx.Module):
         return jnp.einsum("s...m,sm->...m", self.mixture.enthalpies("solids", T), self.solid_shares)
 
     def liquid_enthalpy(self, T: Any) -> Any:
-        """Water."""
-        return self.mixture.liquids[0].enthalpy(T)
+        """Water, with what it costs to keep in solution what is dissolved in it."""
+        found = self.mixture.liquids[0].enthalpy(T)
+        for i, row in enumerate(crystals(self.mixture) if len(self.dissolved) else ()):
+            found += self.dissolved[i] * (self.mixture.liquids[i + 1].enthalpy(T) - self.mixture.solids[row].enthalpy(T))
+        return found
 
     def vapor_enthalpy(self, T: Any) -> Any:
         """Vapor."""

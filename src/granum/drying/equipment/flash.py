@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from typing import Annotated, Any
 
@@ -14,6 +15,7 @@ from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey
 from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
 from granum.streams.units import Check
@@ -75,9 +77,8 @@ class FlashDryer(Dryer):
 
 @recalled
 def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
-    X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
+    dry = counted(feed)
+    X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
-    flow = feed.solid_by_size
-    return convey(
-        dryer.path(feed), Matter.of(feed, gas), dryer.kinetics, feed, gas, inlet, flow, Network.co_current(dryer.cells), dryer.heat_loss
-    )
+    matter = replace(Matter.of(dry, gas), dissolved=composition(feed))
+    return convey(dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, Network.co_current(dryer.cells), dryer.heat_loss)

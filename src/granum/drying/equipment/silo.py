@@ -23,6 +23,7 @@ from granum.drying.contact.column import Zone
 from granum.drying.contact.dryer import NOTES, DryerFigures, dried, humidity_of, recalled, sized, warmed
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer, joined
+from granum.drying.contact.liquor import counted
 from granum.drying.contact.matter import Matter
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
 from granum.streams.cakes import solid_diameter
@@ -135,6 +136,6 @@ def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) 
     """The profile, and vapor and enthalpy of the cooling air."""
     gases = (gas,) if cooling is None else (gas, cooling)
     like, found = dryer.passages(feed, *gases)
-    flow = feed.solid_flow
+    flow = counted(feed).solid_flow
     profile = joined(like, found, flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
     return profile, flow * found[-1].vapor, flow * found[-1].gas_enthalpy

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from typing import Annotated, Any
 
@@ -13,8 +14,9 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature
 from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey, drop_ratio
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, dried, humidity_of, recalled, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, parted, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import Liquor
 from granum.streams.stream import Stream
@@ -80,7 +82,7 @@ class SprayDryer(Dryer):
         return _sprayed(self, feed, gas)[1]
 
     def __call__(self, feed: Stream, gas: Stream) -> Dried:
-        return dried(self.atomized(feed, gas), gas, self.profile(feed, gas))
+        return parted(self.atomized(counted(feed), gas), composition(feed), gas, self.profile(feed, gas))
 
     @classmethod
     def size(
@@ -105,12 +107,12 @@ class SprayDryer(Dryer):
 
 @recalled
 def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
-    drops = dryer.atomized(feed, gas)
-    X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
+    dry = counted(feed)
+    drops = dryer.atomized(dry, gas)
+    X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
+    matter = replace(Matter.of(drops, gas), dissolved=composition(feed))
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
     network = Network.co_current(dryer.cells)
     if dryer.gas_dispersion is not None:
         network = network.dispersed(dryer.gas_dispersion)
-    return convey(
-        dryer.path(feed, gas), Matter.of(drops, gas), dryer.kinetics, feed, gas, inlet, drops.solid_by_size, network, dryer.heat_loss
-    )
+    return convey(dryer.path(dry, gas), matter, dryer.kinetics, gas, inlet, drops.solid_by_size, network, dryer.heat_loss)

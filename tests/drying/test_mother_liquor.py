@@ -1,0 +1,62 @@
+"""Dryers in cells fed with crystals wet with their mother liquor, and with a solution: what was dissolved stays as crystal."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import pytest
+
+from granum.core.errors import GranumError
+from granum.drying.contact.kinetics import SurfaceKinetics
+from granum.drying.equipment.atomizers import GivenDrops
+from granum.drying.equipment.rotary import RotaryDryer
+from granum.drying.equipment.spray import SprayDryer
+from granum.streams.audit import closure
+from granum.streams.from_materials import mixture_of
+from granum.streams.stream import Stream, empty
+
+SALT = mixture_of(["water", "potassium nitrate"], ["quartz", "potassium nitrate"], ["dry air", "water"], [1e-4, 3e-4, 9e-4])
+KINETICS = SurfaceKinetics(critical_moisture=0.02)
+DISSOLVED = 0.37  # per kg of water, potassium nitrate at 25 °C
+DRYERS = {
+    "rotary": (RotaryDryer(8.0, 1.5, KINETICS, cells=6), 1.0),
+}
+
+
+def cake(crystals: float, water: float) -> Stream:
+    solid = jnp.array([[0.0, 0.0], [0.4, 0.6]]) * crystals
+    return empty(SALT, 298.15).replace(solid=solid, liquid=water * jnp.array([1.0, DISSOLVED]))
+
+
+@pytest.mark.parametrize("name", DRYERS)
+def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
+    dryer, flow = DRYERS[name]
+    feed, gas = cake(0.3, 0.02), empty(SALT, 400.0).replace(gas=flow * jnp.array([1.0, 0.01]))
+    out = dryer(feed, gas)
+    closed = closure([feed, gas], [out.product, out.exhaust], out.heat_duty)
+    assert float(closed.mass) < 1e-12
+    assert float(closed.energy) < 1e-12
+    water, salt = out.product.liquid
+    assert 0.0 < float(water) < 0.015
+    assert float(salt / water) == pytest.approx(DISSOLVED, rel=1e-12)  # the liquor left is still the saturated one
+    assert float(jnp.sum(out.product.solid[1]) + salt) == pytest.approx(0.3 + 0.02 * DISSOLVED, rel=1e-12)
+    some = {c.name: c.ok for c in dryer.checks({"feed": feed, "gas": gas}, out)}
+    assert some["solution of the dryer found"]
+
+
+def test_a_solution_is_spray_dried_to_powder() -> None:
+    """No solid enters; the drops' classes take the crystals."""
+    dryer = SprayDryer(12.0, 2.0, GivenDrops("100 um"), KINETICS, dry_density=1500.0, cells=20)
+    feed, gas = cake(0.0, 0.1), empty(SALT, 450.0).replace(gas=jnp.array([4.0, 0.04]))
+    out = dryer(feed, gas)
+    closed = closure([feed, gas], [out.product, out.exhaust], out.heat_duty)
+    assert float(closed.mass) < 1e-12
+    assert float(closed.energy) < 1e-12
+    solid = float(jnp.sum(out.product.solid))
+    assert 0.9 * 0.1 * DISSOLVED < solid <= 0.1 * DISSOLVED * (1.0 + 1e-12)
+
+
+def test_a_solute_without_crystals_is_named() -> None:
+    mixture = mixture_of(["water", "potassium nitrate"], ["quartz"], ["dry air", "water"], [1e-4, 1e-3])
+    feed = empty(mixture).replace(solid=jnp.array([[1.0]]), liquid=jnp.array([0.1, 0.03]))
+    with pytest.raises(GranumError, match="potassium nitrate"):
+        DRYERS["rotary"][0](feed, empty(mixture, 400.0).replace(gas=jnp.array([1.0, 0.01])))
