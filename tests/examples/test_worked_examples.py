@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +12,10 @@ from granum.core import registry
 from granum.filtration.lab_tests.leaf_test import LeafTest
 
 TABLE = Path(__file__).parent.parent / "references" / "worked_examples_opened2026.csv"
+ROWS: dict[str, list[dict[str, str]]] = {}
 with TABLE.open(encoding="utf-8") as file:
-    ROWS = {domain: list(rows) for domain, rows in groupby(csv.DictReader(file), lambda row: row["card"].split(".")[0])}
+    for row in csv.DictReader(file):
+        ROWS.setdefault(row["card"].split(".")[0], []).append(row)
 
 
 @pytest.mark.parametrize("domain", ROWS)
