@@ -22,7 +22,7 @@ from granum.particles import reynolds_number
         ("0,8 bar", "Pressure", 8e4), ("1 atm", "Pressure", 101325.0), ("0 barg", "Pressure", 101325.0), ("1 psi", "Pressure", 6894.757293168),
         ("20 degC", "Temperature", 293.15), ("20 °C", "Temperature", 293.15), ("68 degF", "Temperature", 293.15), ("300", "Temperature", 300.0),
         ("10 degC", "TemperatureDifference", 10.0), ("1.2 cP", "DynamicViscosity", 1.2e-3), ("1 darcy", "Permeability", 9.869232667160130e-13),
-        ("12 %", "VolumeFraction", 0.12), ("20 t/hour", "MassFlow", 20000 / 3600), ("2630kg/m3", "Density", 2630.0), ("1 kcal/kg", "SpecificEnergy", 4184.0),
+        ("12 %", "VolumeFraction", 0.12), ("60 g", "Amount", 0.06), ("40 %", "Amount", 0.4), ("20 t/hour", "MassFlow", 20000 / 3600), ("2630kg/m3", "Density", 2630.0), ("1 kcal/kg", "SpecificEnergy", 4184.0),
         ("3000 rpm", "RotationSpeed", 314.159265358979), ("25 cm2/g", "SpecificSurfaceMass", 2.5), ("0.5 m²", "Area", 0.5),
         ("14.7 psia", "Pressure", 101352.932209), ("0 psig", "Pressure", 101325.0), ("4 in. H2O", "PressureDrop", 996.35564), ("1.2 bara", "Pressure", 1.2e5),
         ("62.4 lbm/ft^3", "Density", 999.552114), ("1 gpm", "VolumeFlow", 6.30901964e-5), ("1 US gal/min", "VolumeFlow", 6.30901964e-5),

@@ -18,13 +18,10 @@ PEERS = {
     "swamee_ojha": "Swamee_Ojha", "haider_levenspiel": "Haider_Levenspiel", "cheng": "Cheng", "barati": "Barati",
     "mikhailov_freire": "Mikhailov_Freire", "clift_grace_weber": "Clift", "almedeij": "Almedeij", "morrison": "Morrison",
 }  # fmt: skip
-# Largest deviation that each law may show inside its range from the smooth table of measurements. The table itself takes 24/Re
-# up to Re = 0.3, where inertia already adds 5 %.
-STATED = {
-    "brown_lawler": 0.08, "clift_gauvin": 0.08, "clift_grace_weber": 0.08, "cheng": 0.08, "barati": 0.08, "turton_levenspiel": 0.10,
-    "haider_levenspiel": 0.10, "schiller_naumann": 0.08, "morsi_alexander": 0.05, "flemmer_banks": 0.10, "stokes": 0.01, "oseen": 0.08,
-    "khan_richardson": 0.10,
-}  # fmt: skip
+# One limit for all laws that claim the whole curve or its slow end: ten percent, our own choice, about what measurements of different
+# authors differ by. No author states his accuracy against this table, which takes 24/Re up to Re = 0.3, where inertia adds 5 %.
+TENTH = ("brown_lawler", "clift_gauvin", "clift_grace_weber", "cheng", "barati", "turton_levenspiel", "haider_levenspiel", "schiller_naumann",
+         "morsi_alexander", "flemmer_banks", "stokes", "oseen", "khan_richardson", "proudman_pearson")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", PEERS)
@@ -35,13 +32,13 @@ def test_same_equation_as_the_peer_library(name):
     np.testing.assert_allclose(law(Re), [peer(float(r)) for r in Re], rtol=1e-12)
 
 
-@pytest.mark.parametrize("name", STATED)
-def test_within_stated_accuracy_of_measured_drag(name):
+@pytest.mark.parametrize("name", TENTH)
+def test_within_a_tenth_of_measured_drag(name):
     Re, measured = measured_drag("morsi1972")
     low, high = LAWS[name].card.fitted["reynolds"]
     inside = (low <= Re) & (high >= Re)
     assert inside.any()
-    assert np.max(abs(np.asarray(LAWS[name](Re[inside])) / measured[inside] - 1.0)) < STATED[name]
+    assert np.max(abs(np.asarray(LAWS[name](Re[inside])) / measured[inside] - 1.0)) < 0.10
 
 
 def test_own_measurements_of_roos_and_willmarth():

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.particles import charts_sizes
+from granum.particles.formulas import means
 from granum.particles.in_class import ArithmeticMidpoint
 from granum.particles.lab_tests.instruments import ImageAnalysis, LaserDiffraction, ParticleCounter
 from granum.particles.lab_tests.sieve_analysis import SieveAnalysis
@@ -88,8 +89,15 @@ def test_wet_sieving_counts_what_was_washed_away_as_fines() -> None:
         SieveAnalysis([5e-4, 2.5e-4, 1.25e-4], [0.0, 0.05, 0.03], washed=True).distribution()
 
 
-def test_surface_of_crushed_quartz_as_printed() -> None:
+def test_surface_and_number_of_crushed_quartz_as_printed() -> None:
     # McCabe, Smith and Harriott, screen analysis of crushed quartz: 3.309 mm2/mg for the sieved part, sphericity 0.571, 2650 kg/m3
+    # and 4148 particles in the 0.9925 g of it that a gram holds, of volume 0.8 D³; masses of the classes in grams
+    sizes = "4.013 2.8445 2.0065 1.4095 1.0005 0.711 0.503 0.356 0.2515 0.1775 0.1255 0.089 mm"
+    masses = "2.51 12.5 32.07 25.7 15.9 5.38 2.1 1.02 0.77 0.58 0.41 0.31 g"
+    number = means.number_per_mass(sizes, masses, particle_density=2650, volume_shape_factor=0.8)
+    assert 0.9925 * float(number) == pytest.approx(4148e3, rel=0.005)
+    with pytest.raises(ApplicabilityError, match="amounts of all classes are zero"):
+        means.mean_diameter_harmonic([1e-3, 2e-3], [0.0, 0.0])
     data = Path(__file__).parents[2] / "examples" / "size-analysis" / "crushed_quartz_mccabe2005.csv"
     test = SieveAnalysis.read(data, in_class=ArithmeticMidpoint(), sphericity=0.571, solid_density=2650)
     assert test.fit()["specific_surface_mass"].value == pytest.approx(3.309, abs=2e-3)

@@ -137,6 +137,7 @@ Concentration = Annotated[Any, _nonnegative("mass concentration", "kg/m^3", "g/L
 NumberDensity = Annotated[Any, _nonnegative("number per volume", "1/m^3", "1/cm^3", "1/L")]
 MolarConcentration = Annotated[Any, _positive("molar concentration", "mol/m^3", "mol/L", "mmol/L", "mol/m^3")]
 Molality = Annotated[Any, _nonnegative("molality", "mol/kg", "mol/kg", "mmol/kg")]
+NumberPerMass = Annotated[Any, _nonnegative("number per mass", "1/kg", "1/g", "1/kg")]
 PopulationDensity = Annotated[Any, _nonnegative("population density", "1/m^4", "1/(m^3*um)")]
 DynamicViscosity = Annotated[Any, _positive("dynamic viscosity", "Pa*s", "mPa*s", "cP", "P")]
 KinematicViscosity = Annotated[Any, _positive("kinematic viscosity", "m^2/s", "mm^2/s", "cSt")]
@@ -177,6 +178,7 @@ MassPrice = Annotated[Any, _nonnegative("price per mass", "USD/kg", "USD/kg", "U
 # numbers
 Number = Annotated[Any, _any("number", "dimensionless", "dimensionless")]
 Ratio = Annotated[Any, _nonnegative("ratio", "dimensionless", "dimensionless", "percent")]
+Amount = Annotated[Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")]  # masses too: only their ratios count
 PositiveNumber = Annotated[Any, _positive("positive number", "dimensionless", "dimensionless")]
 Fraction = Annotated[Any, Kind("fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
 OpenFraction = Annotated[

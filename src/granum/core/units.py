@@ -77,7 +77,8 @@ def parse_unit(text: str) -> Any:
     for written, meant in _SPELLINGS.items():
         spelled = spelled.replace(written, meant)
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
-    spelled = re.sub(r"/\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?$", r"/\1*percent", spelled)  # g/100 g of water
+    # g/100 g of water, g per 100 g, g/(100 g)
+    spelled = re.sub(r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled)
     # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
     spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
     try:
@@ -138,6 +139,8 @@ def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
         unit = _DEGREES.get(unit.strip(), unit)
     if kind.unit == "delta_degC":
         return _affine(unit, "K")[0], 0.0
+    if kind.name == "relative amount" and _fits(unit, "kg"):
+        return _affine(unit, "kg")
     factor, offset = _affine(unit, kind.unit)
     if kind.unit == "radian/s" and not _angles(unit):
         factor *= math.tau

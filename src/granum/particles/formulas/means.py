@@ -5,20 +5,32 @@ For classes with limits rather than sizes see ``class_means`` and ``SizeDistribu
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated, Any, Literal
 
 import jax.numpy as jnp
 
-from granum.core import formula
-from granum.core.kinds import Length, Number, PositiveNumber, Ratio, Series, Within
+from granum.core import formula, impossible
+from granum.core.kinds import Amount, Density, Length, Number, NumberPerMass, PositiveNumber, Ratio, Series, Within
 from granum.particles.distributions import order_of
 
 Sizes = Annotated[Length, Series("classes")]
 Amounts = Annotated[Ratio, Series("classes")]
+Masses = Annotated[Amount, Series("classes")]
+NOTHING = "The amounts of all classes are zero: there is nothing to take a mean of."
+
+
+def weighted(amounts: Any, values: Any, name: str) -> Any:
+    """Mean of class values weighted by amounts, which are the input ``name``."""
+    total = jnp.sum(amounts, axis=-1)
+    impossible(~(total > 0), total, name, reason=NOTHING)
+    return jnp.sum(amounts * values, axis=-1) / jnp.where(total > 0, total, jnp.nan)
 
 
 def _ratio(x: Any, n: Any, p: float, q: float) -> Any:
-    return jnp.sum(n * x**p, axis=-1) / jnp.sum(n * x**q, axis=-1)
+    """Σ n x^p / Σ n x^q of numbers."""
+    w = n * x**q
+    return weighted(w, x ** (p - q), "class_numbers")
 
 
 @formula(
@@ -89,23 +101,37 @@ def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
 
 
 @formula(source="allen1997; iso9276-2", equation=r"D_{4,3} = \sum x_i\,d_i \Big/ \sum x_i", title="Mass mean D[4,3]")
-def mean_diameter_mass(class_sizes: Sizes, class_masses: Amounts) -> Length:
+def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Arithmetic mean diameter by mass (or volume).
 
     >>> mean_diameter_mass(class_sizes=[1.0, 2.0], class_masses=[3.0, 1.0])
     1.25
     """
-    return _ratio(class_sizes, class_masses, 1, 0)
+    return weighted(class_masses, class_sizes, "class_masses")
 
 
 @formula(source="allen1997; iso9276-2", equation=r"\bar d = \frac{1}{\sum x_i/d_i}", title="Harmonic mean by mass")
-def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Amounts) -> Length:
+def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Harmonic mean diameter by mass: the Sauter diameter of a mass analysis.
 
     >>> mean_diameter_harmonic(class_sizes=[1.0, 2.0], class_masses=[0.5, 0.5])
     1.3333333333333333
     """
-    return 1.0 / _ratio(class_sizes, class_masses, -1, 0)
+    return 1.0 / weighted(class_masses, 1.0 / class_sizes, "class_masses")
+
+
+@formula(source="mccabe2005, ch. 28", equation=r"n = \frac{1}{k_v\,\rho_p}\,\frac{\sum m_i/X_i^3}{\sum m_i}")
+def number_per_mass(
+    class_sizes: Sizes, class_masses: Masses, particle_density: Density, volume_shape_factor: PositiveNumber = pi / 6
+) -> NumberPerMass:
+    """Number of particles in a unit of mass of a sieved powder.
+
+    The volume of a particle of size X is k_v X³, π/6 for spheres.
+
+    >>> number_per_mass(class_sizes=[1.0, 2.0], class_masses=[1.0, 1.0], particle_density=0.5625, volume_shape_factor=1.0)
+    1.0
+    """
+    return weighted(class_masses, class_sizes**-3.0, "class_masses") / (volume_shape_factor * particle_density)
 
 
 @formula(
@@ -115,7 +141,7 @@ def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Amounts) -> Length:
     title="Mean diameter D[p,q]",
 )
 def mean_diameter_moment_ratio(
-    class_sizes: Sizes, class_amounts: Amounts, moment_order_upper: Number = 3.0, moment_order_lower: Number = 2.0,
+    class_sizes: Sizes, class_amounts: Masses, moment_order_upper: Number = 3.0, moment_order_lower: Number = 2.0,
     basis: Literal["number", "length", "surface", "volume", "mass"] = "number",
 ) -> Length:  # fmt: skip
     """Any moment-ratio mean of discrete sizes, from amounts on any basis; geometric for p = q.

@@ -48,6 +48,18 @@ def sphericity_box(particle_length: Length, particle_width: Length, particle_thi
     return pi ** (1 / 3) * (6.0 * a * b * c) ** (2 / 3) / (2.0 * (a * b + b * c + c * a))
 
 
+@formula(source="krumbein1941", equation=r"\psi = \left(\frac{I E}{L^2}\right)^{1/3}", title="Intercept sphericity (Krumbein)")
+def sphericity_krumbein(particle_length: Length, particle_width: Length, particle_thickness: Length) -> Sphericity:
+    """Intercept sphericity of pebbles and grains: geometric mean of the three axes over the longest.
+
+    It is the sphericity of geology and of agricultural products; drag and packed-bed laws ask for Wadell's, by surface.
+
+    >>> round(sphericity_krumbein(particle_length="6 mm", particle_width="4 mm", particle_thickness="3 mm"), 3)
+    0.693
+    """
+    return (particle_width * particle_thickness / particle_length**2) ** (1 / 3)
+
+
 @formula(source="wadell1933", equation=r"\psi = \frac{(3a/2)^{2/3}}{1/2 + a},\ a = L/D", title="Sphericity of a cylinder")
 def sphericity_cylinder(aspect_ratio: PositiveNumber) -> Sphericity:
     """Sphericity of a cylinder by its length over its diameter; a disk below 1, a needle above; at most 0.874 at 1.

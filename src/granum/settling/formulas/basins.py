@@ -9,6 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Area, Density, Fraction, Length, PositiveNumber, Series, Speed, VolumeFlow
+from granum.particles.formulas.means import Masses, weighted
 
 
 @formula(source="hazen1904; camp1946", equation=r"v_0 = \frac{Q}{A}", family="overflow_rate")
@@ -75,7 +76,7 @@ def removal_efficiency_hazen(settling_velocity: Speed, overflow_rate: Speed, tan
 
 @formula(source="camp1946", equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)")
 def removal_efficiency_classes(
-    class_velocities: Annotated[Speed, Series("classes")], class_fractions: Annotated[Fraction, Series("classes")], overflow_rate: Speed
+    class_velocities: Annotated[Speed, Series("classes")], class_fractions: Masses, overflow_rate: Speed
 ) -> Fraction:
     """Share of all solids that an ideal basin removes, from the settling velocities of the classes and their mass fractions.
 
@@ -84,8 +85,7 @@ def removal_efficiency_classes(
     >>> round(removal_efficiency_classes([1e-4, 4e-4, 1e-3], [0.2, 0.3, 0.5], overflow_rate=5e-4), 4)
     0.78
     """
-    v, w = jnp.asarray(class_velocities), jnp.asarray(class_fractions)
-    return jnp.sum(w * jnp.minimum(v / overflow_rate, 1.0)) / jnp.sum(w)
+    return weighted(jnp.asarray(class_fractions), jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), "class_fractions")
 
 
 @formula(source="camp1946; metcalf2003, eq. 5-36", equation=r"v_H = \sqrt{\frac{8 k (\rho_p/\rho_l - 1) g d_p}{f}}")
