@@ -124,6 +124,8 @@ def test_numbers_as_people_print_them() -> None:
         ("VolumeFlow", "1000 cfm", 0.471947),
         ("MassFraction", "15 wt%", 0.15),
         ("MassRatio", "34.5 g/100 g", 0.345),
+        ("MassRatio", "34.5 g per 100 g water", 0.345),
+        ("MassRatio", "34.5 g/(100 g)", 0.345),
         ("MassRatio", "34.5 kg/100kg water", 0.345),
         ("HeatCapacity", "0.7 Btu/lb F", 2930.76),
         ("HeatCapacity", "0.7 Btu/lb-°F", 2930.76),
