@@ -19,6 +19,7 @@ from granum.materials import fluid, gas_vapor
 from granum.numerics import find_root
 
 _COLD, _HOT = 180.0, 1000.0
+PSYCHROMETER = 0.567  # exponent of the Lewis number, Bedingfield and Drew
 
 
 class _Tables:
@@ -130,31 +131,32 @@ class AbstractFluidPair(AbstractIdealPair):
         return self.vapor_molar_enthalpy(T) - self.vapor_molar_mass * latent
 
 
-@law("gas_vapor_pair", name="gas_and_vapor", source="green2008, sec. 2; fuller1966; chilton1934", title="Gas and vapor of the property library",
+@law("gas_vapor_pair", name="gas_and_vapor", source="green2008, sec. 2; fuller1966; bedingfield1950", title="Gas and vapor of the property library",
      equation=r"\frac{h}{k_Y c} = \mathrm{Le}^{n}")  # fmt: skip
 class GasAndVapor(AbstractFluidPair):
-    """Any carrier gas and solvent of the property library as ideal gases, with the Lewis factor of Chilton and Colburn.
+    """Any carrier gas and solvent of the property library as ideal gases, with the Lewis factor that psychrometers show.
 
-    The exponent 2/3 is the analogy's; psychrometer measurements on cylinders gave Bedingfield and Drew 0.567. The Lewis number is
-    that of dilute vapor at 25 °C; it hardly changes with temperature.
+    The exponent 0.567 is Bedingfield and Drew's, measured on wet cylinders with many vapors; Chilton and Colburn's analogy has 2/3, with
+    which toluene in air of 60 °C has its wet bulb 1 K higher. The Lewis number is that of dilute vapor at 25 °C; it hardly changes with
+    temperature.
     """
 
     gas: str = eqx.field(static=True, default="nitrogen")
     vapor: str = eqx.field(static=True, default="ethanol")
-    lewis_exponent: PositiveNumber = eqx.field(static=True, default=2.0 / 3.0)
+    lewis_exponent: PositiveNumber = eqx.field(static=True, default=PSYCHROMETER)
 
     def __call__(self) -> Number:
         return self.lewis_factor()
 
 
 def _named(carrier: str, solvent: str, name: str, title: str) -> type:
-    @law("gas_vapor_pair", name=name, source="green2008, sec. 2; fuller1966; chilton1934", title=title)
+    @law("gas_vapor_pair", name=name, source="green2008, sec. 2; fuller1966; bedingfield1950", title=title)
     class NamedPair(AbstractFluidPair):
         """A carrier gas and a solvent vapor of the property library as ideal gases."""
 
         gas: ClassVar[str] = carrier
         vapor: ClassVar[str] = solvent
-        lewis_exponent: PositiveNumber = eqx.field(static=True, default=2.0 / 3.0)
+        lewis_exponent: PositiveNumber = eqx.field(static=True, default=PSYCHROMETER)
 
         def __call__(self) -> Number:
             return self.lewis_factor()

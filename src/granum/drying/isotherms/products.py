@@ -6,7 +6,10 @@ import tomllib
 from importlib.resources import files
 from typing import Any, ClassVar
 
-from granum.core import law
+import jax.numpy as jnp
+
+from granum.core import flags, law
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import MoistureDryBasis, Temperature, WaterActivity
 from granum.drying.isotherms import adsorption, grains
 from granum.drying.isotherms.base import ROOM, AbstractIsotherm
@@ -16,16 +19,21 @@ _MODELS: dict[str, Any] = {"chung_pfost": grains.ChungPfost, "halsey_modified": 
 
 def _declare(name: str, row: dict[str, Any]) -> type:
     model = _MODELS[row["model"]](**row["constants"])
+    ranges_of_data = {"water_activity": tuple(row["aw"])}
+    if "celsius" in row:
+        ranges_of_data["temperature"] = tuple(t + ZERO_CELSIUS for t in row["celsius"])
 
     @law("isotherm", name=f"isotherm_{name}", source=row["source"], title=f"Isotherm of {row['en']}")
     class Product(AbstractIsotherm):
         """Sorption isotherm of a product with the constants of its source, over temperature."""
 
         curve: ClassVar[str] = model.curve
-        low: ClassVar[float] = row["aw"][0]
-        high: ClassVar[float] = row["aw"][1]
+        ranges: ClassVar[dict[str, tuple[float, float]]] = ranges_of_data
 
         def __call__(self, water_activity: WaterActivity, temperature: Temperature = ROOM) -> MoistureDryBasis:
+            for name, value in (("water_activity", water_activity), ("temperature", temperature)):
+                low, high = self.ranges.get(name, (-jnp.inf, jnp.inf))
+                flags.record(flags.EXTRAPOLATED, (low > value) | (high < value), value, name, self.card.key, low, high, self.card.source)
             return self.moisture(water_activity, temperature)
 
         def moisture(self, a: Any, T: Any) -> Any:

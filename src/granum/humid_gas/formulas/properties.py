@@ -191,7 +191,7 @@ def adiabatic_saturation_temperature(
 
 
 @formula(
-    source="keey1978; chilton1934; ashrae2017, ch. 1",
+    source="keey1978; chilton1934; bedingfield1950; ashrae2017, ch. 1",
     equation=r"(w_s(T_h) - w)\,L_v(T_h) = \mathrm{Le}_f\,[h_g + w\,h_v]_{T_h}^{T}",
     fitted=RANGE,
     typical=_WARM,
