@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import Diffusivity, Law, Length, MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Temperature
-from granum.drying.contact.matter import Matter, vapor_pressure
+from granum.drying.contact.matter import NEAR_BOILING, Matter, vapor_pressure
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.drying.isotherms.base import AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
@@ -63,6 +63,8 @@ class Meeting(NamedTuple):
         """Surface temperature at which heat through the film just feeds evaporation."""
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
+        q = jnp.minimum(vapor_pressure(T) / m.pressure, NEAR_BOILING)  # gas beyond saturation is its own wet bulb
+        Y = jnp.where(q < NEAR_BOILING, jnp.minimum(Y, m.molar_mass_ratio * q / (1.0 - q) * (1.0 - LEAST)), Y)
 
         def balance(Ts: Any, T: Any, Y: Any) -> Any:
             pressure = vapor_pressure(Ts)
