@@ -11,7 +11,12 @@ from granum.crystallization.formulas.batch_balances import crystallizer_batch_ba
 from granum.crystallization.formulas.classified import population_density_classified, production_classifying
 from granum.crystallization.formulas.critical_nucleus import critical_nucleus, critical_nucleus_melt, critical_radius
 from granum.crystallization.formulas.msmpr import nucleation_rate_msmpr, nuclei_population_density, population_density
-from granum.crystallization.formulas.nucleation import nucleation_barrier, nucleation_rate_secondary
+from granum.crystallization.formulas.nucleation import (
+    nucleation_barrier,
+    nucleation_rate_classical,
+    nucleation_rate_secondary,
+    supersaturation_ratio_nucleation,
+)
 from granum.crystallization.formulas.seeding import grown_seed, product_size_from_seed
 
 
@@ -31,6 +36,17 @@ def test_nucleus_in_solution_agrees_with_the_barrier_over_kt():
     assert found.nucleation_energy / (1.380649e-23 * 298.15) == pytest.approx(float(nucleation_barrier(4.0, 0.01, 2000.0, 0.120443)))
     with pytest.raises(ApplicabilityError):
         critical_nucleus(0.9, 0.01, 2000.0, 0.120443)
+
+
+def test_supersaturation_for_a_rate():
+    """Water vapor of Volmer and Flood by hand: at 275.2 K, 75.2 mN/m, 1e25 and 1 1/(cm³ s) ln β = 1.420; the rate gives the ratio back."""
+    water = (0.0752, 1000.0, 18.015e-3, 1e31, 275.2)
+    assert np.log(supersaturation_ratio_nucleation(1e6, *water)) == pytest.approx(1.420, rel=2e-3)
+    salt = (0.01, 2000.0, 0.12, 1e32, 300.0, 2.0, 0.3)
+    rates = np.array([1e2, 1e10, 1e25])
+    assert nucleation_rate_classical(supersaturation_ratio_nucleation(rates, *salt), *salt) == pytest.approx(rates)
+    with pytest.raises(ApplicabilityError):
+        supersaturation_ratio_nucleation(1e33, *salt)
 
 
 def test_delta_l_law():

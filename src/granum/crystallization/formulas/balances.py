@@ -164,6 +164,7 @@ def vacuum_crystallizer_balance(
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
     equation=r"V = A\left(1 - \frac{y x_A}{x_c} - \frac{(1-y)\,x_A}{x_L}\right),\quad x_L = \frac{C^*}{1+C^*}",
     output="evaporation",
+    title="Evaporation for a yield",
     typical={
         "mass_flow": (0.5, 5.0),
         "yield_fraction": (0.75, 0.9),
