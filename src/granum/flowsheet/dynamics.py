@@ -104,32 +104,43 @@ def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, st
     step = times[1] - times[0]
     first = _with_profiles(line, profiles, times[0])
     scale = jnp.maximum(sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(())), 1e-12)
-    guess = {n: empty(_mixture(line), 298.15) for block in line.blocks for n in block.tears}
+    streams = {k.name: _floats(empty(_mixture(line), 298.15)) for k in line.links}
     if start == "steady":
-        streams = solve(first).streams
-        guess = {n: streams[n] for n in guess}
+        streams = {n: _floats(s) for n, s in solve(first).streams.items()}
         states = {n: u.steady_holdup(first.inlets_of(n, streams)) for n, u in first.units.items() if isinstance(u, Dynamic)}
     else:
         states = {n: u.initial_holdup(_mixture(line)) for n, u in first.units.items() if isinstance(u, Dynamic)}
         states |= {} if isinstance(start, str) else dict(start)
-    prepared = {n: u.prepare(_mixture(line), step) for n, u in line.units.items() if isinstance(u, Dynamic)}
-    still = {n: u.prepare(_mixture(line), 0.0 * step) for n, u in line.units.items() if isinstance(u, Dynamic)}
-    begin, good = _instant(first, states, None, still, 0.0 * step, guess, scale)
+    prepared, still = (
+        {n: u.prepare(_mixture(line), h) for n, u in line.units.items() if isinstance(u, Dynamic)} for h in (step, 0.0 * step)
+    )
+    torn = {n for block in line.blocks for n in block.tears}
 
-    def advance(carry: tuple[_Instant, Any, dict[str, Stream]], time: Any) -> tuple[Any, tuple[dict[str, Stream], Any]]:
+    def advance(carry: tuple[_Instant, Any, dict[str, Stream]], given: tuple[Any, Any]) -> tuple[Any, tuple[dict[str, Stream], Any]]:
+        """One step, or, at first, no step: the streams that belong to the holdups at the start."""
         before, passed, earlier = carry
-        now = _with_profiles(line, profiles, time)
-        torn = {n: _ahead(earlier[n], before.streams[n]) for n in guess}
-        after, converged = _instant(now, before.states, before.streams, prepared, step, torn, scale)
-        passed = passed + 0.5 * step * (_net(line, before.streams) + _net(line, after.streams))
-        return (after, passed, {n: before.streams[n] for n in guess}), (after.streams, converged)
+        time, begins = given
+        now, h = _with_profiles(line, profiles, time), (1.0 - begins) * step
+        ready = _chosen(begins, still, prepared)
+        ahead = {n: _ahead(earlier[n], before.streams[n]) for n in torn}
+        after, converged = _instant(now, before, begins, ready, h, ahead, scale)
+        passed = passed + 0.5 * h * (_net(line, before.streams) + _net(line, after.streams))
+        return (after, passed, {n: _chosen(begins, after, before).streams[n] for n in torn}), (after.streams, converged)
 
-    first_torn = {n: begin.streams[n] for n in guess}
-    (last, passed, _torn), (streams, converged) = jax.lax.scan(advance, (begin, jnp.zeros(()), first_torn), times[1:])
+    begin = _Instant(streams, jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), states))
+    carry = (begin, jnp.zeros(()), {n: streams[n] for n in torn})
+    (last, passed, _torn), (whole, converged) = jax.lax.scan(advance, carry, (times, jnp.where(jnp.arange(len(times)) == 0, 1.0, 0.0)))
     held = sum((line.units[n].held_mass(last.states[n]) - line.units[n].held_mass(states[n]) for n in states), jnp.zeros(()))  # type: ignore[attr-defined]
-    through = scale * (times[-1] - times[0])
-    whole = jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), begin.streams, streams)
-    return Course(times, whole, last.states, jnp.concatenate([good[None], converged]), jnp.abs(passed - held) / through)
+    return Course(times, whole, last.states, converged, jnp.abs(passed - held) / (scale * (times[-1] - times[0])))
+
+
+def _floats(stream: Stream) -> Stream:
+    return jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), stream)
+
+
+def _chosen(begins: Any, a: Any, b: Any) -> Any:
+    """The first at the first instant (1.0, a number so that loops may be solved around it), the other later (0.0)."""
+    return jax.tree.map(lambda x, y: jnp.where(begins > 0.5, x, y), a, b)
 
 
 def _ahead(earlier: Stream, before: Stream) -> Stream:
@@ -150,8 +161,7 @@ def _net(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
 
 
 def _instant(
-    line: Flowsheet, states: dict[str, Any], before: dict[str, Stream] | None, prepared: dict[str, Any], step: Any,
-    torn: dict[str, Stream], scale: Any,
+    line: Flowsheet, before: _Instant, begins: Any, prepared: dict[str, Any], step: Any, torn: dict[str, Stream], scale: Any,
 ) -> tuple[_Instant, Any]:  # fmt: skip
     """All streams and holdups at the end of a step."""
     found = _Instant(dict(line.feeds), {})
@@ -162,8 +172,8 @@ def _instant(
         for name in block.units:
             thing, inlets = line.units[name], line.inlets_of(name, streams)
             if isinstance(thing, Dynamic):
-                earlier = inlets if before is None else line.inlets_of(name, before)
-                made.states[name], out = thing.advance(states[name], earlier, inlets, step, prepared[name])
+                earlier = _chosen(begins, inlets, line.inlets_of(name, before.streams))
+                made.states[name], out = thing.advance(before.states[name], earlier, inlets, step, prepared[name])
             else:
                 out = thing(**inlets)
             new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == name}
@@ -185,11 +195,11 @@ def _instant(
                 made = one_pass(block, found.streams | unpacked(vector))
                 return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), made
 
-            solved = settle(once, jnp.concatenate([_pack(s, scale) for s in guess.values()]), tolerance=1e4 * TOLERANCE)
+            solved = settle(once, jnp.concatenate([_pack(s, scale) for s in guess.values()]), tolerance=1e2 * TOLERANCE)
             made = solved.made._replace(streams=solved.made.streams | unpacked(solved.state))
             good = good & solved.converged
         found.streams.update(made.streams)
         found.states.update(made.states)
-    streams = {k.name: jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), found.streams[k.name]) for k in line.links}
+    streams = {k.name: _floats(found.streams[k.name]) for k in line.links}
     finite = jnp.isfinite(jnp.stack([s.mass_flow + s.temperature for s in streams.values()]))  # too long a step may burst a holdup
     return _Instant(streams, found.states), good & jnp.all(finite)

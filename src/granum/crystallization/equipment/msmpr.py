@@ -26,6 +26,8 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
+from granum.core.parameters import is_tracer
+from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.streams.sharing import shared
@@ -36,14 +38,6 @@ _CROWDED = "solids in the suspension by volume"
 _LONG = "residence time"
 _PRESENT = "steady crystals (1 when present)"
 _DRYING = "solvent evaporated"
-
-
-class Crystallized(NamedTuple):
-    """Suspension of crystals in mother liquor, solvent vapor, and the heat taken up."""
-
-    product: Stream
-    vapor: Stream
-    heat_duty: Any
 
 
 class CrystallizerFigures(NamedTuple):
@@ -144,14 +138,16 @@ class _Evaporating(_Continuous):
     evaporation: MassFlow = eqx.field(kw_only=True, default=0.0)
 
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]:
-        if found.vapor is None and not (isinstance(self.evaporation, float) and self.evaporation == 0.0):
+        if found.vapor is not None:
+            return self.evaporation, 0.0
+        if not is_tracer(self.evaporation) and float(self.evaporation) != 0.0:
             raise CaseError(_("Evaporation needs a vapor of the solvent among the gases of the mixture."))
-        return self.evaporation, 0.0
+        return jnp.where(jnp.asarray(self.evaporation) == 0.0, 0.0, jnp.nan), 0.0
 
 
 @equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
            equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
-class Msmpr(_Evaporating):
+class Msmpr(_Evaporating, InTime):
     """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
 
     The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute balance leaves;
@@ -183,7 +179,7 @@ class ClassifiedCrystallizer(_Evaporating):
 
 @equipment("vacuum_crystallizer", source="mullin2001, ch. 8; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
            equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}")  # fmt: skip
-class VacuumCrystallizer(_Continuous):
+class VacuumCrystallizer(_Continuous, InTime):
     """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to foul.
 
     The vapor is what the enthalpy balance leaves at the given temperature; ``heat_duty`` adds heat from outside (zero for the

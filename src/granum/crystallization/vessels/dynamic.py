@@ -67,7 +67,7 @@ class StageCourse(NamedTuple):
     outflow: Any
 
 
-class _Exchanged(Operation):
+class Exchanged(Operation):
     """A vessel whose temperature is given and whose totals at the end of the step are known, whatever crystallizes."""
 
     temperature: Any
@@ -81,7 +81,7 @@ class _Exchanged(Operation):
         return Contents(self.temperature(end), self.solute, self.solvent, old.antisolvent)
 
 
-class _Surviving(NucleationLaw):
+class Surviving(NucleationLaw):
     """Nuclei that are still in the vessel at the end of the step."""
 
     law: Any
@@ -161,11 +161,11 @@ def march_cascade(
         joined = _with_values(stage.population, before * share + 0.5 * gained * values)
         T = jnp.asarray(temperature(begin), dtype=float)
         here = Contents(T, stage.solute, stage.solvent, jnp.zeros(()))
-        surviving = eqx.tree_at(lambda m: m.nucleation, model, _Surviving(model.nucleation, gained))
+        surviving = eqx.tree_at(lambda m: m.nucleation, model, Surviving(model.nucleation, gained))
         crystals = cube * stage.population.moments()[3]
         _ratio, _saturated, rate, births = surviving.conditions(here, crystals)
         late = 0.5 * gained * cube * total(values)[3]
-        closed = _Exchanged(temperature, there[0] - x * late, there[1] - (1.0 - x) * late)
+        closed = Exchanged(temperature, there[0] - x * late, there[1] - (1.0 - x) * late)
         made, *_rest = react(surviving, closed, joined, here, crystals, (rate, births), (begin, end), 0)
         after = made.values + 0.5 * gained * values
         level = V / volume_of(*there, after)  # crystals are denser than what they came from

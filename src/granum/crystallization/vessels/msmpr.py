@@ -152,7 +152,7 @@ def steady_msmpr(
     # Composition if nothing new crystallized; between it and saturation lies every steady state.
     liquid = feed.solvent - evaporation
     highest = safe_divide(feed.solute, jnp.maximum(liquid, 0.0))  # nothing crystallizes from an empty stream
-    start_numbers, start_sizes = _packets(feed.crystals, edges, crystal)
+    start_numbers, start_sizes = packets_of(feed.crystals, edges, crystal)
 
     def state(c: Any) -> tuple[Any, ...]:
         product = crystals_at(all_solute, all_solvent, c, x, bound)
@@ -225,7 +225,7 @@ def _dot(a: Any, b: Any) -> Any:
     return jnp.sum(a * b, axis=-1)
 
 
-def _packets(crystals: Any, edges: Any, crystal: Crystal) -> tuple[Any, Any]:
+def packets_of(crystals: Any, edges: Any, crystal: Crystal) -> tuple[Any, Any]:
     """Numbers per second and sizes that stand for the classes of the feed: the mean cube of a uniform class."""
     low, high = edges[:-1], edges[1:]
     size = (0.25 * (low + high) * (low**2 + high**2)) ** (1.0 / 3.0)

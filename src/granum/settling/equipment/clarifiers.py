@@ -17,8 +17,10 @@ from granum.settling.formulas.lamella import (
     critical_velocity_countercurrent,
     critical_velocity_crosscurrent,
 )
+from granum.streams.holdup import Held, at_rest, filled, mass, mixed
+from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Check, Dynamic
 
 HOUR = 3600.0
 
@@ -74,8 +76,38 @@ class Clarifier(AbstractBasin):
         return cls(area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more)
 
 
+class _Deep(AbstractBasin, Dynamic):
+    """A basin of known depth: over time it evens out its feed as one mixed volume, which then settles as it does at rest.
+
+    The sludge on its floor is scraped out at once. A start-up begins with a basin full of the first liquid.
+    """
+
+    if TYPE_CHECKING:
+        height: Any
+
+    @property
+    def volume(self) -> Any:
+        """Of the basin, m³."""
+        return self.settling_area() * self.height
+
+    def initial_holdup(self, mixture: Mixture) -> Held:
+        return filled(mixture, self.volume)
+
+    def steady_holdup(self, inlets: Mapping[str, Stream]) -> Held:
+        return at_rest(inlets["feed"], self.volume)
+
+    def held_mass(self, state: Held) -> Any:
+        return mass(state)
+
+    def advance(
+        self, state: Held, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
+    ) -> tuple[Held, Outlets]:
+        state, inside = mixed(state, before["feed"], after["feed"], self.volume, step)
+        return state, self(inside)
+
+
 @equipment("circular_clarifier", source="degremont2007; hazen1904", title="Circular scraped clarifier")
-class CircularClarifier(AbstractBasin):
+class CircularClarifier(_Deep):
     """Circular clarifier with a rotating scraper, fed in the center.
 
     Practical limits: diameter at most 50 to 60 m, depth at the wall 2 to 3.5 m, bottom slope 4 to 8 %.
@@ -104,7 +136,7 @@ class CircularClarifier(AbstractBasin):
 
 
 @equipment("rectangular_clarifier", source="degremont2007; camp1946", title="Rectangular clarifier")
-class RectangularClarifier(AbstractBasin):
+class RectangularClarifier(_Deep):
     """Rectangular clarifier with a traveling bridge or chain scraper.
 
     Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not scour the sludge.
