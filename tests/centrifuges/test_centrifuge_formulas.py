@@ -78,6 +78,17 @@ def test_geankoplis_examples_of_section_14_4():
     assert cl.radius_interface(10.414e-3, 10.160e-3, 980.3, 919.5) == pytest.approx(13.75e-3, rel=0.005)
 
 
+def test_scale_up_keeps_the_cut():
+    # crystals of 2 µm, 0.0104 m3/s in a bowl turning at 60 000 rpm (Brasch and Whyman, example 13.4); another machine at the same cut
+    bowl = cl.sigma_factor_tubular(0.5, "12 mm", "50.5 mm", "60000 rpm")
+    mud = {"particle_density": 1455.0, "fluid_density": 998.0, "dynamic_viscosity": 1.013e-3}
+    flow = cl.volume_flow_centrifuge(2e-6, bowl, **mud)
+    assert flow == pytest.approx(0.0104, rel=5e-3)
+    stack = cl.volume_flow_other_centrifuge(flow, bowl, 3e4, sigma_efficiency=1.0, sigma_efficiency_other=0.5)
+    assert cl.cut_size_centrifuge(stack, 3e4, **mud, sigma_efficiency=0.5) == pytest.approx(2e-6)
+    assert cl.volume_flow_centrifuge(2e-6, bowl, 900.0, 998.0, 1e-3) == 0.0
+
+
 def test_neutral_zone_balances_the_pressures():
     rH, rL, heavy, light, w = 0.06, 0.05, 1050.0, 900.0, 300.0
     ri = cl.radius_interface(rH, rL, heavy, light)

@@ -147,6 +147,8 @@ def test_partition_curves_rise_from_0_to_1_through_one_half(curve) -> None:
     bypassed = partition.BypassedPartition(curve, 0.25)
     assert float(bypassed(1e-9)) == pytest.approx(0.25, abs=1e-3)
     assert float(bypassed(1e-4)) == pytest.approx(0.625, abs=1e-9)
+    sizes = np.array([2e-5, 1e-4, 3e-4])
+    np.testing.assert_allclose(partition.partition_number_reduced(bypassed(sizes), 0.25), curve(sizes), rtol=1e-9)
 
 
 def test_sharpness_of_the_logistic_curve_is_nine_to_the_minus_one_over_n() -> None:

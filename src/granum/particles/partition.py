@@ -9,7 +9,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import formula, law
-from granum.core.kinds import Fraction, Law, Length, PositiveNumber, Ratio, Within
+from granum.core.kinds import Fraction, Law, Length, Number, PositiveNumber, Ratio, Within
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 
@@ -224,3 +224,15 @@ def sharpness_index(percentile_25: Length, percentile_75: Length) -> Ratio:
     0.5
     """
     return percentile_25 / percentile_75
+
+
+@formula(source="svarovsky2001; kelsall1953", equation=r"G' = \frac{G - R_f}{1 - R_f}", title="Reduced (corrected) partition number")
+def partition_number_reduced(partition_number: Fraction, bypass_fraction: Annotated[Fraction, Within(0.0, 0.999)]) -> Number:
+    """Partition number without the part of each size that only follows the liquid into the coarse product; below 0 for fines that avoid it.
+
+    It reduces the total efficiency of a hydrocyclone by its underflow share in the same way.
+
+    >>> round(partition_number_reduced(0.8, 0.2), 6)
+    0.75
+    """
+    return (partition_number - bypass_fraction) / (1.0 - bypass_fraction)

@@ -1,4 +1,4 @@
-"""The best moment to stop and clean a batch filter, for production or for cost."""
+"""Cycles: the best moment to stop and clean a batch filter, for production or for cost, and the flow of a drum."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from granum.core.kinds import (
     CakeResistance,
     Concentration,
     DynamicViscosity,
+    Fraction,
     Mass,
     MediumResistance,
     PositiveNumber,
@@ -21,7 +22,7 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
 )
-from granum.filtration.formulas.constant_pressure import ruth_constants
+from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure, ruth_constants
 from granum.filtration.quantities import RuthConstant
 
 
@@ -122,3 +123,32 @@ def filtration_time_pump(
         return 0.5 * R**2 + 0.5 * (R * jnp.sqrt(R**2 + c**2) + c**2 * jnp.arcsinh(R / c))
 
     return (primitive(last) - primitive(first)) / (2.0 * pm * rise)
+
+
+@formula(
+    source="geankoplis2003, § 14.2; mccabe2005, ch. 29",
+    equation=r"q = \frac{V(f\,t_c)}{t_c} \rightarrow \Omega\sqrt{\frac{2\,f\,\Delta p}{t_c\,\eta\,\alpha\,W}}\ (R_s = 0)",
+    typical={"area": (1.0, 50.0), "cycle_time": (60.0, 600.0), "cake_resistance": (1e10, 1e12)},
+)
+def filtrate_flow_drum(
+    area: Area,
+    cycle_time: Time,
+    submergence: Fraction,
+    pressure_drop: PressureDrop,
+    dynamic_viscosity: DynamicViscosity,
+    cake_resistance: CakeResistance,
+    dry_cake_per_filtrate: Concentration,
+    medium_resistance: MediumResistance = 0.0,
+) -> VolumeFlow:
+    """Filtrate flow of a rotary drum or disc filter: cake forms on the submerged share of its whole area once in each turn.
+
+    McCabe's drum of 81.7 ft² turning once in 5 min, 30 % submerged: 0.133 m³ of filtrate in a turn.
+
+    >>> round(300 * filtrate_flow_drum(area="81.7 ft^2", cycle_time="5 min", submergence=0.3, pressure_drop="1414 lbf/ft^2",
+    ...     dynamic_viscosity="6.72e-4 lb/ft/s", cake_resistance=1.2849e11, dry_cake_per_filtrate="19.24 lb/ft^3"), 3)
+    0.133
+    """
+    volume = filtrate_volume_constant_pressure(
+        submergence * cycle_time, area, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance
+    )
+    return volume / cycle_time

@@ -234,3 +234,15 @@ def specific_surface_mixture(
     """
     share = class_fractions / jnp.sum(class_fractions)
     return jnp.sum(6.0 * share / (sphericity * class_sizes))
+
+
+@formula(source="richardson2002, ch. 4", equation=r"f_w = \left(1 + \frac{2}{a_g\,D}\right)^2")
+def wall_correction_coulson(specific_surface: SpecificSurface, diameter: Length) -> Annotated[PositiveNumber, Within(1.0)]:
+    """Velocity in a bed without walls over the velocity in a column at the same pressure gradient (Coulson).
+
+    The wall of the column, 4/D per volume, counts half beside the surface of the grains.
+
+    >>> round(wall_correction_coulson(specific_surface=6 / 1.8e-3, diameter="12.7 mm"), 4)
+    1.0967
+    """
+    return (1.0 + 2.0 / (specific_surface * diameter)) ** 2
