@@ -13,6 +13,7 @@ import granum as gr
 from granum.core.errors import ApplicabilityError, InputError
 from granum.drying.balances import savings as s
 from granum.drying.balances.convective import dryer_balance
+from granum.drying.balances.indices import dry_gas_flow_evaporation
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "dryers"
 MAIZE = {"mass_flow_inlet": 100.0, "moisture_dry_basis_inlet": 0.54, "moisture_dry_basis_outlet": 0.18, "temperature_fresh": 298.15,
@@ -31,6 +32,13 @@ def test_maize_of_the_notes():
     assert found.dry_gas_flow == pytest.approx(2284.0, rel=0.02)
     assert found.volume_flow / found.dry_gas_flow == pytest.approx(0.93, rel=0.002)  # the notes give it as the outlet's: it is the inlet's
     assert found.mass_efficiency == pytest.approx(1.0, abs=1e-9)
+
+
+def test_dry_gas_of_the_water_balance():
+    """Bhatt and Vora, example 6.21: 0.085 kg/s from 0.036 to 0.056 take 4.25 kg/s of dry air; air that gains nothing takes none."""
+    assert dry_gas_flow_evaporation(0.085, 0.036, 0.056) == pytest.approx(4.25)
+    with pytest.raises(ApplicabilityError):
+        dry_gas_flow_evaporation(0.085, 0.056, 0.036)
 
 
 def test_any_consistent_set_gives_the_same_dryer():
