@@ -1,6 +1,6 @@
 """Validation shown in the documentation: the package's charts with published data in them, and printed worked examples recalculated.
 
-Printed numbers stand in ``docs/data``, ``examples`` and ``tests/references``, each file with its source beside it; what Granum finds is
+Two charts show how a test is read instead, on made data, and say so. Printed numbers stand in ``docs/data``, ``examples`` and ``tests/references``, each file with its source beside it; what Granum finds is
 calculated while the site is built.
 """
 
@@ -201,6 +201,32 @@ def materials_water() -> Shown:
     return Shown(figure, "Vapor pressure of water with the check values of the IAPWS release.")
 
 
+def fluidization_minimum() -> Shown:
+    """Every correlation of minimum fluidization against one measured powder."""
+    measured = 0.040
+    spread = gr.fluidization.minimum_fluidization_spread(
+        particle_diameter="160 um", particle_density=2600, fluid_density=1.2, dynamic_viscosity=1.8e-5, void_fraction=0.55, sphericity=0.67
+    )
+    names = [name.replace("_", "–").title() for name in spread.correlation]
+    found, valid = np.asarray(spread.minimum_fluidization_velocity), np.asarray(spread.in_range) == 1
+    figure = charts.figure(charts.axis_title("minimum_fluidization_velocity", "cm/s"), "", showlegend=True)
+    charts.add_line(figure, [100 * measured] * 2, [names[0], names[-1]], "measured", color=charts.OUT, dash="dash")
+    for inside, label in ((True, "within its range"), (False, "outside its range")):
+        chosen = np.flatnonzero(valid == inside)
+        charts.add_points(figure, 100 * found[chosen], [names[i] for i in chosen], label, color=charts.ACCENT, hollow=not inside)
+    figure.update_yaxes(type="category", categoryorder="array", categoryarray=names, automargin=True)
+    rows = [
+        [name, f"{100 * v:.2f}", f"{round(100 * (v / measured - 1)):+d}", "yes" if inside else "no"]
+        for name, v, inside in zip(names, found, valid, strict=True)
+    ]
+    return Shown(
+        figure,
+        "Sharp sand of 160 µm in air, sphericity 0.67, void fraction 0.55: measured 4.0 cm/s (Kunii and Levenspiel, chapter 3) and what every "
+        "correlation says. Ergun's equation is told shape and void fraction, most others are not; hollow points lie outside what their source covers.",
+        _table(["correlation", "minimum fluidization / (cm/s)", "difference / %", "within its range"], rows),
+    )
+
+
 def fluidization_curve() -> Shown:
     """Pressure curve of a made test."""
     test = gr.fluidization.PressureCurve.read(
@@ -241,7 +267,7 @@ def comminution_energy() -> Shown:
 FIGURES = {
     f.__name__: f
     for f in (particles_drag, particles_sizes, porous_bed, settling_curve, filtration_leaf, filtration_pressures, crystallization_msmpr, drying_curve,
-              humid_gas_saturation, materials_solubility, materials_water, fluidization_curve, cyclones_grade, comminution_energy)
+              humid_gas_saturation, materials_solubility, materials_water, fluidization_minimum, fluidization_curve, cyclones_grade, comminution_energy)
 }  # fmt: skip
 
 
