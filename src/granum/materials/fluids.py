@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -14,6 +14,14 @@ from granum.materials.formulas.gases import ideal_gas_density
 from granum.numerics import find_root, gauss_legendre
 
 Property = Correlation | Missing
+
+
+class Combustion(NamedTuple):
+    """Of a kilogram of fuel: dry air needed and water formed, kg, and its lower heating value at 25 °C, J."""
+
+    air: float
+    water: float
+    lower_heating_value: float
 
 
 class Fluid(eqx.Module):
@@ -29,6 +37,7 @@ class Fluid(eqx.Module):
     critical_temperature, critical_pressure: K, Pa; NaN when not given.
     diffusion_volume: Fuller's molecular diffusion volume, cm³/mol; NaN when not given.
     heat_of_vaporization_at_zero: at 0 °C, J/kg: the step between the two enthalpy scales; NaN for a permanent gas.
+    combustion: what it takes and gives when it burns; None for what is no fuel.
     """
 
     name: str = eqx.field(static=True)
@@ -49,6 +58,7 @@ class Fluid(eqx.Module):
     vapor_heat_capacity: Property
     vapor_viscosity: Property
     vapor_conductivity: Property
+    combustion: Combustion | None = eqx.field(static=True, default=None)
 
     @property
     def label(self) -> str:

@@ -42,6 +42,15 @@ class _Named(_Strict):
     formula: str = ""
 
 
+class CombustionEntry(_Strict):
+    """What a kilogram of a fuel takes and gives when it burns: dry air needed and water formed, kg; lower heating value at 25 °C, J/kg."""
+
+    air: float = Field(gt=0)
+    water: float = Field(ge=0)
+    lower_heating_value: float = Field(gt=0)
+    source: str
+
+
 class FluidEntry(_Named):
     """A pure fluid. Every property is optional: what is missing says so when it is asked for."""
 
@@ -59,6 +68,7 @@ class FluidEntry(_Named):
     vapor_heat_capacity: PropertyEntry | None = None
     vapor_viscosity: PropertyEntry | None = None
     vapor_conductivity: PropertyEntry | None = None
+    combustion: CombustionEntry | None = None
 
 
 class SolidEntry(_Named):

@@ -21,12 +21,14 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.materials.correlation import Correlation
+from granum.materials.fluids import Fluid
 from granum.materials.library import fluid, load, names, solid, solute
 from granum.materials.solutes import SoluteSystem
 from granum.streams.mixture import Mixture, Species
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
 HOTTEST_GAS = 873.15
+AIR = "dry air"
 CONDENSED = (COLDEST, HOTTEST)
 
 
@@ -128,9 +130,24 @@ def _inert(name: str) -> Species:
 def _gas(name: str) -> Species:
     f = fluid(name)
     heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
-    return Species(
-        f.name, ((f.name, 1.0),), (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass), (COLDEST, HOTTEST_GAS)
-    )
+    made_of = ((f.name, 1.0),)
+    if f.combustion is not None:  # counted as what it burns to, less the air that this takes, so that burning conserves components
+        water = f.combustion.water
+        made_of, heat = ((AIR, 1.0 - water), ("water", water)), heat + _heat_held(f)
+    return Species(f.name, made_of, (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass), (COLDEST, HOTTEST_GAS))
+
+
+def _heat_held(fuel: Fluid) -> float:
+    """What a fuel's enthalpy lies above that of the gas it burns to at one temperature, which the heating value is for 25 °C, J/kg."""
+    burns = fuel.combustion
+    assert burns is not None
+    at = 298.15
+
+    def above(T: Any) -> Any:
+        flue = (1.0 - burns.water) * fluid(AIR).vapor_enthalpy(T) + burns.water * fluid("water").vapor_enthalpy(T)
+        return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
+
+    return float(jax.jit(above)(at))
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import find_root, safe_divide
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -222,6 +223,7 @@ class ClosedDryer(Unit):
     fan_power: Power = 0.0
     temperature_limit: Temperature | None = None
 
+    @shared
     def _run(self, feed: Stream) -> Circuit:
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
         return self.drying_circuit.run(

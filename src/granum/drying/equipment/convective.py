@@ -30,6 +30,7 @@ from granum.drying.balances.indices import latent_heat
 from granum.drying.equipment.well_mixed import evaporate
 from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import find_root, safe_divide
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -123,6 +124,7 @@ class ConvectiveDryer(Unit):
         found = self.inside(feed, gas)
         return ConvectiveOutlets(found.product, found.exhaust, found.condensate, found.heater - self.heat_loss, jnp.asarray(self.fan_power))
 
+    @shared
     def inside(self, feed: Stream, gas: Stream) -> Inside:
         """The whole dryer, solved for the temperature of its exhaust."""
         water = feed.liquid[0]
@@ -185,6 +187,8 @@ class ConvectiveDryer(Unit):
 
     def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream]:
         """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point."""
+        if isinstance(self.effectiveness, float | int) and self.effectiveness == 0:
+            return jnp.zeros(()), out, out.part()
         # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
         beyond = jnp.maximum(PAIR.fraction(_humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
 
@@ -207,8 +211,9 @@ class ConvectiveDryer(Unit):
         dry, wet = drained(T)
         return given(T), dry, wet
 
+    @shared
     def results(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> ConvectiveFigures:
-        found = self.inside(**inlets)
+        found = self.inside(inlets["feed"], inlets["gas"])
         W = inlets["feed"].liquid[0] - found.product.liquid[0]
         bought = found.heater + self.fan_power
         energy = safe_divide(bought, W)

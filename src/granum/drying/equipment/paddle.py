@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Density,
@@ -27,6 +29,7 @@ from granum.core.kinds import (
     ThermalConductivity,
     Time,
 )  # fmt: skip
+from granum.core.units import format_number
 from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import contact_time_mixing, heat_transfer_coefficient_wall_particles, penetration_drying
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
@@ -34,12 +37,14 @@ from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
-from granum.numerics import safe_divide
+from granum.numerics import find_root, safe_divide
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
-STEPS = 40
-LIQUID_HEAT = 4187.0
+STEPS, PASTY_STEPS = 40, 10
+LIQUID_HEAT, LIQUID_DENSITY = 4187.0, 958.0
+DRIEST = 1e-6  # kg/kg, to which an area may dry
 _CAPACITY, _TIME = "water evaporated per area", "residence time of the bed"
 _LIMIT, _DRY = "product temperature over its limit", "moisture of the product above equilibrium"
 
@@ -65,13 +70,14 @@ class PaddleFigures(NamedTuple):
     drying_flux_outlet: MassFlux
     heat_transfer_coefficient_wall: HeatTransferCoefficient
     heat_transfer_coefficient_bed: HeatTransferCoefficient
+    heat_transfer_coefficient_paste: HeatTransferCoefficient
     contact_time: Time
     boiling_temperature: Temperature
     temperature_product: Temperature
     energy_per_water: SpecificEnergy
 
 
-@equipment("paddle_dryer", source="mollekopf1984; vdi2010, ch. Mc", title="Paddle or screw dryer (contact)")
+@equipment("paddle_dryer", source="mollekopf1984; vdi2010, ch. Mc; milhe2014", title="Paddle or screw dryer (contact)")
 class PaddleDryer(Unit):
     """An agitated bed that boils on heated walls: found is the area, or the batch time, to dry to the moisture wanted.
 
@@ -79,6 +85,9 @@ class PaddleDryer(Unit):
     What does not evaporate warms the bed. Continuous dryers are taken in plug flow, which the paddles of one shaft nearly give; a batch is
     the same curve in time. Under vacuum the pressure sets the boiling temperature. Properties are those of the dry bed; non-hygroscopic
     product. ``dry_mass_per_area`` is the hold-up per heated area. Mixing numbers are those of paddles unless given.
+
+    A sludge is a paste above ``pasty_moisture``: it wets the wall, so that no gap resists, and boils as heat penetrates it between two mixings; its
+    coefficient follows from the effusivity of solid and water unless measured. ``rate`` asks the other way round: how far an area dries.
     """
 
     wall_temperature: Temperature
@@ -93,15 +102,51 @@ class PaddleDryer(Unit):
     mixing_factor: PositiveNumber = 9.0
     mixing_exponent: Ratio = 0.05
     heat_transfer_coefficient: HeatTransferCoefficient | None = None
+    pasty_moisture: MoistureDryBasis | None = None
+    heat_transfer_coefficient_paste: HeatTransferCoefficient | None = None
+    thermal_conductivity_paste: ThermalConductivity = 0.6
     equilibrium_moisture: MoistureDryBasis = 0.0
     temperature_limit: Temperature | None = None
 
+    @classmethod
+    def rate(cls, area: Any, feed: Stream, **parameters: Any) -> PaddleDryer:
+        """The dryer with the moisture to which a heated area dries; its other parameters by name."""
+
+        def dryer(X: Any) -> PaddleDryer:
+            return cls(moisture_outlet=X, **parameters)
+
+        def lack(x: Any) -> Any:
+            return jnp.log(dryer(jnp.exp(x)).area(feed) / area)
+
+        wettest = float(safe_divide(feed.liquid[0], feed.solid_flow))
+        root = find_root(lack, jnp.log(DRIEST), jnp.log(wettest), tolerance=1e-13)
+        if not bool(root.converged):
+            least, most = float(dryer(wettest).area(feed)), float(dryer(DRIEST).area(feed))
+            raise ApplicabilityError(
+                _("An area of {value} m² does not fit this feed: warming it takes {low} m², drying it wholly {high} m².").format(
+                    value=format_number(float(area), 3), low=format_number(least, 3), high=format_number(most, 3)
+                ),
+                name="area",
+            )
+        return dryer(float(jnp.exp(root.value)))
+
+    def area(self, feed: Stream) -> Any:
+        """Heated area that the feed needs, m²: to warm it to boiling, by the wall and what lies on it, and to dry it."""
+        boiling, wall, bed, _capacity = self._heat(feed)
+        series = 1.0 / (1.0 / wall + 1.0 / bed) if self.pasty_moisture is None else self.paste(feed)
+        start = jnp.minimum(feed.temperature, boiling - 1e-6)
+        mean = (boiling - start) / jnp.log((self.wall_temperature - start) / (self.wall_temperature - boiling))
+        warm = (feed.enthalpy_at(boiling) - feed.enthalpy_at(start)) / (series * mean)
+        return feed.solid_flow * self.curve(feed).time[-1] / self.dry_mass_per_area + warm
+
+    @shared
     def curve(self, feed: Stream) -> ContactCurve:
-        """Moisture, temperature, time and flux of the bed, in even steps of moisture, from boiling on."""
+        """Moisture, temperature, time and flux of the bed, from boiling on: even steps of moisture as a paste, then as grains."""
         boiling, wall, bed, solid_heat = self._heat(feed)
         latent = water_heat_of_vaporization(boiling)
-        X1 = safe_divide(feed.liquid[0], feed.solid_flow)
-        X2 = jnp.minimum(self.moisture_outlet, X1)
+        X0 = safe_divide(feed.liquid[0], feed.solid_flow)
+        X2 = jnp.minimum(self.moisture_outlet, X0)
+        X1 = X0 if self.pasty_moisture is None else jnp.clip(self.pasty_moisture, X2, X0)
         dX = (X1 - X2) / STEPS
 
         def slopes(X: jax.Array, T: jax.Array) -> tuple[jax.Array, jax.Array, jax.Array]:
@@ -121,10 +166,25 @@ class PaddleDryer(Unit):
             ahead = (T + dX / 6 * (a + 2 * b + 2 * c + d), t + dX / 6 * (u + 2 * v + 2 * w + x))
             return ahead, (X, T, t, flux)
 
-        (T, t), (X, Ts, ts, fluxes) = jax.lax.scan(step, (boiling + 0.0 * X1, 0.0 * X1), jnp.arange(STEPS, dtype=float))
-        last = slopes(X2, T)[2]
-        return ContactCurve(*(jnp.concatenate([a, jnp.reshape(b, (1,))]) for a, b in ((X, X2), (Ts, T), (ts, t), (fluxes, last))))
+        pasty = self.paste(feed) * (self.wall_temperature - boiling) / latent
+        first = (X0 - X1) * self.dry_mass_per_area / pasty
+        (T, t), (X, Ts, ts, fluxes) = jax.lax.scan(step, (boiling + 0.0 * X1, first), jnp.arange(STEPS, dtype=float))
+        pieces = [(X, Ts, ts, fluxes), tuple(jnp.reshape(a, (1,)) for a in (X2, T, t, slopes(X2, T)[2]))]
+        if self.pasty_moisture is not None:
+            share = jnp.arange(PASTY_STEPS) / PASTY_STEPS
+            pieces.insert(0, (X0 - share * (X0 - X1), boiling + 0.0 * share, share * first, pasty + 0.0 * share))
+        return ContactCurve(*(jnp.concatenate(column) for column in zip(*pieces, strict=True)))
 
+    def paste(self, feed: Stream) -> Any:
+        """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and water while it rests."""
+        if self.heat_transfer_coefficient_paste is not None:
+            return jnp.asarray(self.heat_transfer_coefficient_paste)
+        X = safe_divide(feed.liquid[0], feed.solid_flow)
+        _boiling, _wall, _bed, capacity = self._heat(feed)
+        held = (capacity + X * LIQUID_HEAT) / (1.0 / feed.solid_density + X / LIQUID_DENSITY)  # J/(m³ K)
+        return heat_transfer_coefficient_penetration(jnp.sqrt(held * self.thermal_conductivity_paste), self._contact())
+
+    @shared
     def _heat(self, feed: Stream) -> tuple[jax.Array, jax.Array, jax.Array, jax.Array]:
         """Boiling temperature, coefficients of wall and of bed, heat capacity of the dry solid."""
         boiling = water_boiling_temperature(self.pressure)
@@ -147,17 +207,12 @@ class PaddleDryer(Unit):
         product, vapor = boiled(feed, self.moisture_outlet, bed.temperature[-1], bed.temperature[0], self.pressure)
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
+    @shared
     def results(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> PaddleFigures:
         feed = inlets["feed"]
         boiling, wall, coefficient, _capacity = self._heat(feed)
-        bed = self.curve(feed)
+        bed, area = self.curve(feed), self.area(feed)
         water = feed.liquid[0] - outlets.product.liquid[0]
-        # warming up the feed to its boiling point: by the wall and the bed in series
-        series = 1.0 / (1.0 / wall + 1.0 / coefficient)
-        start = jnp.minimum(feed.temperature, boiling - 1e-6)
-        mean = (boiling - start) / jnp.log((self.wall_temperature - start) / (self.wall_temperature - boiling))
-        warm = (feed.enthalpy_at(boiling) - feed.enthalpy_at(start)) / (series * mean)
-        area = feed.solid_flow * bed.time[-1] / self.dry_mass_per_area + warm
         time = area * self.dry_mass_per_area / feed.solid_flow
         return PaddleFigures(
             evaporation_rate=water,
@@ -169,6 +224,7 @@ class PaddleDryer(Unit):
             drying_flux_outlet=bed.flux[-1],
             heat_transfer_coefficient_wall=wall,
             heat_transfer_coefficient_bed=coefficient,
+            heat_transfer_coefficient_paste=self.paste(feed),
             contact_time=self._contact(),
             boiling_temperature=boiling,
             temperature_product=bed.temperature[-1],

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
+import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -27,6 +30,11 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )  # fmt: skip
+from granum.drying.contact.cells import Contact, Network
+from granum.drying.contact.column import Zone, mean_moisture, pass_zones
+from granum.drying.contact.dryer import ready
+from granum.drying.contact.kinetics import VanMeelKinetics
+from granum.drying.contact.matter import Matter
 from granum.drying.formulas.assisted import drying_rate_assisted
 from granum.drying.formulas.contact_drying import temperature_outlet_tray
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
@@ -36,6 +44,7 @@ from granum.drying.wet_surface import PAIR, boiled, humidity
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.numerics import safe_divide
+from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
@@ -70,6 +79,30 @@ class TrayFigures(NamedTuple):
     energy_per_water: SpecificEnergy
 
 
+class Batch(NamedTuple):
+    """The trays over time (steps × cells along the air), with the air as it leaves each cell."""
+
+    time: Any
+    moisture: Any
+    temperature: Any
+    gas_temperature: Any
+    humidity: Any
+    moisture_mean: Any
+    drying_time: Any  # to the moisture wanted; not a number when the run is too short for it
+    vapor: Any  # taken from the trays with the air, kg per kg of dry solid
+    gas_enthalpy: Any  # with the air, J per kg of dry solid
+
+
+class _Rest(eqx.Module):
+    """An equilibrium moisture that hangs on nothing, asked for as an isotherm is."""
+
+    value: Any
+
+    def moisture(self, a: Any, T: Any) -> Any:
+        """The same for every air."""
+        return self.value + 0.0 * a
+
+
 @equipment("tray_dryer", source="treybal1980, ch. 12; geankoplis2003, ch. 9", title="Tray oven")
 class TrayDryer(Unit):
     """Batches on trays over which air of constant temperature circulates along the surface; the fresh air fixes its humidity.
@@ -78,6 +111,7 @@ class TrayDryer(Unit):
     Below the critical moisture the flux falls in a straight line to equilibrium. The heat transfer coefficient follows from the air
     speed unless it is given; ``radiated_heat`` is infrared or microwave heat per area that evaporates besides it. Trays dry from above,
     and from below too when ``sides`` is 2. Feed and gas flows are means over the cycle; the product leaves at the temperature of the air.
+    ``batch`` follows a load in time, cell by cell along the air.
     """
 
     temperature_inlet: Temperature
@@ -103,6 +137,7 @@ class TrayDryer(Unit):
         duty = product.enthalpy_flow + exhaust.enthalpy_flow - feed.enthalpy_flow - gas.enthalpy_flow
         return TrayDried(product, exhaust, duty)
 
+    @shared
     def _state(self, feed: Stream, gas: Stream) -> dict[str, Any]:
         """Air, flux and time."""
         T, P = jnp.asarray(self.temperature_inlet), gas.pressure
@@ -127,6 +162,20 @@ class TrayDryer(Unit):
         time = drying_time(self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe).drying_time
         return {"w": w, "h": h, "Tw": Tw, "end": end, "N": N, "Xe": Xe, "time": time, "T2": end, "flux": flux, "water": water}
 
+    def batch(self, feed: Stream, gas: Stream, duration: Any = None, cells: int = 20, steps: int = 60) -> Batch:
+        """One load from cold, along the air and in time: the leading edge dries first, and the air that leaves changes as the load dries.
+
+        The air enters as in the steady figures, hot and as humid as the exhaust is on average. Without a ``duration`` it is one and a half times the
+        drying time of those figures.
+        """
+        if not isinstance(self.radiated_heat, float | int) or self.radiated_heat != 0:
+            raise ApplicabilityError(
+                _("A load is followed in time without radiated heat: set 'radiated_heat' to zero."), name="radiated_heat"
+            )
+        length = 1.5 * self._state(feed, gas)["time"] if duration is None else duration
+        return _followed(self, feed, gas, length, cells, steps)
+
+    @shared
     def results(self, inlets: Mapping[str, Stream], outlets: TrayDried) -> TrayFigures:
         feed, gas = inlets["feed"], inlets["gas"]
         s = self._state(feed, gas)
@@ -163,3 +212,25 @@ class TrayDryer(Unit):
         if self.temperature_limit is not None:
             found.append(Check(_LIMIT, self.temperature_inlet - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)
+
+
+@ready
+def _followed(tray: TrayDryer, feed: Stream, gas: Stream, duration: Any, cells: int, steps: int) -> Batch:
+    """Cells of standing solid along the air; each dries at the rate of the wet bulb of its own air, and below the critical moisture in proportion."""
+    s = tray._state(feed, gas)
+    T, w = jnp.asarray(tray.temperature_inlet), s["w"]
+    isotherm = _Rest(jnp.asarray(tray.equilibrium_moisture)) if tray.isotherm is None else tray.isotherm
+    exchange = s["h"] * tray.sides / tray.dry_mass_per_area
+    like = Contact(
+        Matter.of(feed, gas).blended(feed), VanMeelKinetics(tray.critical_moisture, isotherm=isotherm), jnp.full((cells, 1), 1.0 / cells),
+        jnp.zeros((cells, 1)), 1.0, Network.co_current(cells), lambda X, Ts, Tg, Y: exchange,
+    )  # fmt: skip
+    per_solid = s["flux"] / (1.0 + w) * tray.tray_gap / (tray.tray_length * tray.dry_mass_per_area)
+    (found,) = pass_zones(like, feed.moisture_dry_basis, feed.temperature, [Zone(duration, per_solid, False, w, T)], steps)
+    mean, layers = mean_moisture(like, found), found.layers
+    times, fallen = jnp.append(0.0, found.time), jnp.append(feed.moisture_dry_basis, mean)
+    reached = jnp.interp(-tray.moisture_outlet, -fallen, times, right=jnp.nan)
+    return Batch(
+        found.time, layers.moisture[..., 0], layers.temperature[..., 0], layers.gas_temperature, layers.humidity, mean, reached, found.vapor,
+        found.gas_enthalpy,
+    )  # fmt: skip

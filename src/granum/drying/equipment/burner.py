@@ -1,0 +1,95 @@
+"""Direct firing in a flowsheet: a burner whose flame goes straight into the drying air."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import Fraction, HumidityRatio, MassFlow, MassRatio, Power, Temperature
+from granum.drying.wet_surface import humidity
+from granum.materials.fluids import Combustion
+from granum.materials.library import fluid
+from granum.numerics import safe_divide
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream
+from granum.streams.units import Check, Unit
+
+_ENOUGH, _HOT = "air supplied over air needed by the fuel", "temperature of the fired gas"
+HOTTEST = 1400.0  # K, up to which the flue gas may be taken as air
+
+
+class Fired(NamedTuple):
+    """Fired gas, and the heat taken up from outside (negative: the loss)."""
+
+    product: Stream
+    heat_duty: Any
+
+
+class BurnerFigures(NamedTuple):
+    """Figures of a burner."""
+
+    temperature: Temperature
+    humidity_ratio: HumidityRatio
+    excess_air_ratio: MassRatio
+    fuel_flow: MassFlow
+    heat_duty_heater: Power
+
+
+@equipment("burner", source="keey1978; haynes2014", title="Burner fired into the drying air")
+class Burner(Unit):
+    """Burns a gaseous fuel of the mixture in the air: its flue gas, diluted by the air that is too much, dries directly.
+
+    Complete combustion; the dry flue gas is counted as air, within 1 % of its enthalpy from four times the air needed. The fuel brings
+    water of its own: about 2.2 kg for a kilogram of methane. ``heat_loss_share`` is of the heating value.
+    """
+
+    heat_loss_share: Fraction = 0.0
+
+    def __call__(self, gas: Stream, fuel: Stream) -> Fired:
+        both = gas + fuel
+        fuels = _fuels(gas.mixture)
+        burnt = both.gas
+        for i, burns in fuels.items():
+            water = burnt[i] * burns.water
+            burnt = burnt.at[0].add(burnt[i] - water).at[gas.mixture.index("gases", "water")].add(water).at[i].set(0.0)
+        loss = self.heat_loss_share * self._heat(both)
+        enthalpy = gas.enthalpy_flow + fuel.enthalpy_flow - loss
+        return Fired(both.replace(gas=burnt, pressure=gas.pressure).at_enthalpy(enthalpy), -loss)
+
+    @staticmethod
+    def _heat(both: Stream) -> Any:
+        """Heating value of what burns, W."""
+        return sum((both.gas[i] * burns.lower_heating_value for i, burns in _fuels(both.mixture).items()), jnp.zeros(()))
+
+    def results(self, inlets: Mapping[str, Stream], outlets: Fired) -> BurnerFigures:
+        gas, fuel = inlets["gas"], inlets["fuel"]
+        fuels = _fuels(gas.mixture)
+        flows = gas.gas + fuel.gas
+        needed = sum((flows[i] * burns.air for i, burns in fuels.items()), jnp.zeros(()))
+        return BurnerFigures(
+            temperature=outlets.product.temperature,
+            humidity_ratio=humidity(outlets.product),
+            excess_air_ratio=safe_divide(flows[0], needed, jnp.inf),
+            fuel_flow=sum((flows[i] for i in fuels), jnp.zeros(())),
+            heat_duty_heater=self._heat(gas.replace(gas=flows)),
+        )
+
+    def checks(self, inlets: Mapping[str, Stream], outlets: Fired) -> tuple[Check, ...]:
+        figures = self.results(inlets, outlets)
+        return (
+            Check(_ENOUGH, figures.excess_air_ratio, 1.05, 1e3, "kg/kg", "keey1978"),
+            Check(_HOT, figures.temperature, 273.15, HOTTEST, "K", "keey1978"),
+        )
+
+
+def _fuels(mixture: Mixture) -> dict[int, Combustion]:
+    """Places of the fuels among the gases, and how they burn; dry air is the first gas."""
+    found = {i: burns for i, gas in enumerate(mixture.gases) if (burns := fluid(gas.name).combustion) is not None}
+    if not found or mixture.gases[0].name != "dry air" or "water" not in [gas.name for gas in mixture.gases]:
+        raise InputError(_("A burner needs a mixture with the gases dry air (the first), water and a fuel, such as methane."))
+    return found
