@@ -21,6 +21,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Dynamic, Unit
 
 _TINY = 1e-12
+OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
 
 
 class Ground(NamedTuple):
@@ -161,7 +162,7 @@ class BondMill(Unit):
         return cls(mass_flow * energy * efficiency_factor, work_index, efficiency_factor)
 
     def checks(self, inlets: Mapping[str, Stream], outlets: Ground) -> tuple[Check, ...]:
-        return (Check("product in the finest size class", outlets.product.size_fractions[0], 0.0, 0.2, "", "bond1961"),)
+        return (Check("product in the finest size class", outlets.product.size_fractions[0], 0.0, 0.2, "", OWN_LIMIT),)
 
 
 @equipment("cone_crusher", source="whiten1972; napiermunn1996", title="Cone or jaw crusher (Whiten)")
