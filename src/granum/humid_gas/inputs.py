@@ -20,6 +20,7 @@ from granum.numerics.quick_roots import falling_root
 from granum.numerics.roots import find_root
 
 SAMPLES = 49
+THIRDS = 50  # steps of a ternary search, each by two thirds
 ROUNDING = 1e-9
 TWO_STATES = "Two states have these values; the colder and moister one is given."
 NEARLY_PARALLEL = (
@@ -369,10 +370,31 @@ class Solver:
         lower, upper = jnp.broadcast_arrays(lower * (1 - SLACK), upper * (1 + SLACK))
         share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2  # states lie close near saturation
         T = lower + share * (upper - lower)
-        sign = jnp.sign(jax.lax.map(balance, T))
-        change = sign[:-1] * sign[1:] < 0
+        values = jax.lax.map(balance, T)
+        change = values[:-1] * values[1:] < 0
+        found = jnp.any(change, axis=0)
         first = jnp.argmax(change, axis=0)[None]
-        low, high = (jnp.take_along_axis(ends, first, axis=0)[0] for ends in (T[:-1], T[1:]))
-        flags.limit_active(jnp.sum(change, axis=0) > 1, volume, "specific_volume", TWO_STATES)
-        any_change = jnp.any(change, axis=0)
-        return find_root(balance, jnp.where(any_change, low, lower), jnp.where(any_change, high, upper), tolerance=1e-13).value
+        ends = tuple(jnp.take_along_axis(t, first, axis=0)[0] for t in (T[:-1], T[1:]))
+        hidden = jax.lax.cond(jnp.all(found), lambda: (lower, upper, ~found), lambda: _between_samples(balance, T, values))
+        crossed = ~found & hidden[2]
+        low, high = (jnp.where(found, a, jnp.where(crossed, b, c)) for a, b, c in zip(ends, hidden, (lower, upper), strict=False))
+        flags.limit_active((jnp.sum(change, axis=0) > 1) | crossed, volume, "specific_volume", TWO_STATES)
+        return find_root(balance, low, high, tolerance=1e-13).value
+
+
+def _between_samples(balance: Callable[[Any], Any], T: Any, values: Any) -> tuple[Any, Any, Any]:
+    """Where samples of one sign are nearest to zero: the sample before and the turning point, and whether the balance crosses zero there."""
+    T, values = jax.lax.stop_gradient((T, values))
+    nearest = jnp.argmin(jnp.abs(values), axis=0)[None]
+    at = [jnp.take_along_axis(T, jnp.clip(nearest + step, 0, SAMPLES - 1), axis=0)[0] for step in (-1, 1)]
+    side = jnp.sign(values[0])
+
+    def third(_step: Any, ends: tuple[Any, Any]) -> tuple[Any, Any]:
+        low, high = ends
+        one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
+        left = side * balance(one) < side * balance(two)
+        return jnp.where(left, low, one), jnp.where(left, two, high)
+
+    low, high = jax.lax.fori_loop(0, THIRDS, third, (at[0], at[1]))
+    turn = 0.5 * (low + high)
+    return at[0], turn, side * balance(turn) < 0

@@ -28,6 +28,7 @@ class AbstractPair(eqx.Module):
     freezing_temperature: ClassVar[float]
     lowest_temperature: ClassVar[float]
     highest_temperature: ClassVar[float]
+    highest_condensation: ClassVar[float] = float("inf")  # no liquid above, so that a wet bulb there is an extrapolation
     heavy_vapor: ClassVar[bool] = False  # whether evaporation can shrink the gas, so that two states share a volume
 
     @abstractmethod

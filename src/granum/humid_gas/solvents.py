@@ -103,6 +103,11 @@ class AbstractFluidPair(AbstractIdealPair):
         return self._of.low
 
     @property
+    def highest_condensation(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Where the vapor-pressure law ends: the critical temperature."""
+        return self._of.high
+
+    @property
     def freezing_temperature(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]
         """Solid solvent is not modeled: freezing lies at the lowest temperature."""
         return self._of.low

@@ -112,6 +112,10 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
     flags.record(
         flags.EXTRAPOLATED, possible & outside, T, "temperature", "humid_gas.state", pair.lowest_temperature, pair.highest_temperature
     )
+    critical = pair.highest_condensation
+    if critical < jnp.inf:
+        above = possible & (wet > critical)
+        flags.record(flags.EXTRAPOLATED, above, wet, "wet_bulb_temperature", "humid_gas.state", pair.lowest_temperature, critical)
     driest = y < rel.saturated_fraction(pair, jnp.asarray(pair.lowest_temperature), P)
     flags.limit_active(possible & driest, pair.lowest_temperature, "dew_point_temperature", NO_DEW_POINT)
     values = {
