@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,8 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 import granum as gr
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
+from granum.drying.contact.matter import Matter
 from granum.drying.formulas import assisted
 from granum.drying.formulas import contact_drying as c
 from granum.humid_gas import state
@@ -43,6 +45,39 @@ def test_tray_reports_what_cannot_be():
     assert "moisture of the product above equilibrium with the hot air" in failed
     damp, inlets = line.with_values(**{"oven.radiated_heat": 2000.0}).sheet.units["oven"], inlets_of(line)
     assert float(damp.results(inlets, damp(**inlets)).drying_time) < 3.3 * 3600
+
+
+def test_a_load_on_trays_over_time():
+    """The textbook's load under a low ceiling: water and heat of trays and air close; while all is wet the air cools as the closed form says; the
+    edge that meets the air first leads; the whole takes as long as mean fluxes say."""
+    line = gr.read(EXAMPLES / "tray.toml")
+    unit, inlets = dataclasses.replace(line.sheet.units["oven"], tray_gap=0.04), inlets_of(line)
+    feed, gas = inlets["feed"], inlets["gas"]
+    figures = unit.results(inlets, unit(**inlets))
+    Tw = float(figures.surface_temperature)
+    feed = feed.replace(temperature=Tw)  # nothing is left to warm
+    load = unit.batch(feed, gas, cells=12, steps=40)
+    matter, w = Matter.of(feed, gas), float(figures.humidity_ratio)
+    through = float(load.dry_gas)
+    X, T = np.asarray(load.moisture), np.asarray(load.temperature)
+    assert float(load.vapor) - through * w == pytest.approx(0.28 - X[-1].mean(), rel=1e-9)
+    held = float(np.mean(matter.moist_solid(T[-1][:, None], X[-1][:, None]))) - float(matter.moist_solid(np.array([[Tw]]), 0.28)[0, 0])
+    brought = through * float(matter.moist_gas(unit.temperature_inlet, w)) - float(load.gas_enthalpy)
+    assert brought == pytest.approx(held, rel=1e-9)
+    wet = int(np.argmin(abs(np.asarray(load.moisture_mean) - 0.18)))
+    cooled = float(unit.temperature_inlet) - float(figures.temperature_outlet)
+    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled, rel=0.05)
+    assert T[wet] == pytest.approx(Tw, abs=0.5)
+    assert np.all(np.diff(X, axis=1) >= -1e-9)
+    assert float(load.drying_time) == pytest.approx(float(figures.drying_time), rel=0.05)
+    print(
+        float(load.drying_time) / float(figures.drying_time),
+        T[wet] - Tw,
+        float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]),
+        cooled,
+    )
+    with pytest.raises(ApplicabilityError, match="radiated"):
+        dataclasses.replace(unit, radiated_heat=100.0).batch(feed, gas)
 
 
 def test_gas_along_a_tray():
@@ -111,7 +146,7 @@ def test_paddle_dryer_has_the_capacity_of_the_notes():
 def test_paddle_curve_conserves_heat():
     """Heat through the wall, integrated over the way, is what vapor and bed took up."""
     line = gr.read(EXAMPLES / "paddle.toml")
-    unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
+    unit, feed = dataclasses.replace(line.sheet.units["dryer"], pasty_moisture=None), line.sheet.feeds["sludge"]
     bed = unit.curve(feed)
     X, T = np.asarray(bed.moisture), np.asarray(bed.temperature)
     boiling, wall, coefficient, capacity = (float(x) for x in unit._heat(feed))
@@ -124,6 +159,30 @@ def test_paddle_curve_conserves_heat():
     sensible = capacity * (T[-1] - T[0]) + 4187.0 * np.trapezoid(X, T)
     assert through == pytest.approx(2256.5e3 * water + sensible, rel=5e-3)
     assert T[0] == pytest.approx(boiling)
+
+
+def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
+    """By hand: a mixture of 3.33 kg of solid and water at rest for the contact time takes 2√(ρcλ/(πt)); its water leaves at h ΔT/L until 1 kg/kg."""
+    line = gr.read(EXAMPLES / "paddle.toml")
+    unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
+    inlets = {"feed": feed}
+    figures = unit.results(inlets, unit(feed))
+    X, capacity = 7 / 3, float(unit._heat(feed)[3])
+    held = (capacity + X * 4187.0) / (1.0 / float(feed.solid_density) + X / 958.0)
+    h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))
+    assert float(figures.heat_transfer_coefficient_paste) == pytest.approx(h, rel=1e-9)
+    flux = h * (403.15 - 373.124) / 2256.5e3
+    bed = unit.curve(feed)
+    pasty = np.asarray(bed.moisture) > 1.0 + 1e-9
+    np.testing.assert_allclose(np.asarray(bed.flux)[pasty], flux, rtol=1e-3)
+    assert np.interp(-1.0, -np.asarray(bed.moisture), np.asarray(bed.time)) == pytest.approx(
+        unit.dry_mass_per_area * (X - 1.0) / flux, rel=1e-3
+    )
+    parameters = {p.name: getattr(unit, p.name) for p in unit.card.parameters if p.name != "moisture_outlet"}
+    back = type(unit).rate(float(figures.area), feed, **parameters)
+    assert float(back.moisture_outlet) == pytest.approx(float(unit.moisture_outlet), rel=1e-9)
+    with pytest.raises(ApplicabilityError, match="does not fit"):
+        type(unit).rate(0.01, feed, **parameters)
 
 
 def test_drum_dryer_of_the_notes():

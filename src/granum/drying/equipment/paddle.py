@@ -30,6 +30,7 @@ from granum.core.kinds import (
     Time,
 )  # fmt: skip
 from granum.core.units import format_number
+from granum.drying.contact.dryer import ready
 from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import contact_time_mixing, heat_transfer_coefficient_wall_particles, penetration_drying
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
@@ -119,7 +120,7 @@ class PaddleDryer(Unit):
             return jnp.log(dryer(jnp.exp(x)).area(feed) / area)
 
         wettest = float(safe_divide(feed.liquid[0], feed.solid_flow))
-        root = find_root(lack, jnp.log(DRIEST), jnp.log(wettest), tolerance=1e-13)
+        root = ready(lambda: find_root(lack, jnp.log(DRIEST), jnp.log(wettest), tolerance=1e-13))()
         if not bool(root.converged):
             least, most = float(dryer(wettest).area(feed)), float(dryer(DRIEST).area(feed))
             raise ApplicabilityError(

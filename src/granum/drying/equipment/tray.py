@@ -89,8 +89,9 @@ class Batch(NamedTuple):
     humidity: Any
     moisture_mean: Any
     drying_time: Any  # to the moisture wanted; not a number when the run is too short for it
-    vapor: Any  # taken from the trays with the air, kg per kg of dry solid
-    gas_enthalpy: Any  # with the air, J per kg of dry solid
+    dry_gas: Any  # that passed, kg per kg of dry solid
+    vapor: Any  # with that air as it leaves, kg per kg of dry solid
+    gas_enthalpy: Any  # of that air as it leaves, J per kg of dry solid
 
 
 class _Rest(eqx.Module):
@@ -231,6 +232,7 @@ def _followed(tray: TrayDryer, feed: Stream, gas: Stream, duration: Any, cells: 
     times, fallen = jnp.append(0.0, found.time), jnp.append(feed.moisture_dry_basis, mean)
     reached = jnp.interp(-tray.moisture_outlet, -fallen, times, right=jnp.nan)
     return Batch(
-        found.time, layers.moisture[..., 0], layers.temperature[..., 0], layers.gas_temperature, layers.humidity, mean, reached, found.vapor,
+        found.time, layers.moisture[..., 0], layers.temperature[..., 0], layers.gas_temperature, layers.humidity, mean, reached,
+        per_solid * duration, found.vapor,
         found.gas_enthalpy,
     )  # fmt: skip
