@@ -173,6 +173,7 @@ def test_case_file_in_time() -> None:
         ('step = "1 min"', 'step = "2 hour"', "'step' must be above zero"),
         ('step = "1 min"', 'step = "1 us"', "at most"),
         ('start = "empty"', 'start = "emty"', "Did you mean 'empty'"),
+        ('start = "empty"', 'start = { tnk = "empty" }', "Did you mean 'tank'"),
         ('"brine.mass_flow"', '"tank.mas"', "Did you mean 'mass'"),
         ('"0, 30, 31 min"', '"0, 31, 30 min"', "times that increase"),
     ],

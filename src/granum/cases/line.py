@@ -8,7 +8,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -22,7 +21,7 @@ from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
 from granum.estimation.results import Fit
 from granum.flowsheet import Flowsheet, Solution, closures, solve
-from granum.flowsheet.dynamics import Course, march
+from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.packing import compiled
 from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.specifications import Designed, Target, design, figure
@@ -50,6 +49,11 @@ def _solved_patiently(sheet: Flowsheet, targets: tuple[Target, ...], start: dict
 @compiled
 def _solved_by_newton(sheet: Flowsheet, targets: tuple[Target, ...], start: dict[str, Stream]) -> Designed:
     return design(sheet, targets, sheets=True, start=start, method=Newton(), max_steps=50)
+
+
+@compiled
+def _marched(sheet: Flowsheet, times: Any, profiles: tuple[Profile, ...], start: str | dict[str, str]) -> Course:
+    return march(sheet, times, profiles, start=start)
 
 
 @compiled
@@ -103,7 +107,7 @@ class Line:
         if self.case is None:
             raise InputError(_("Only a line read from a case file knows how it runs in time; call granum.flowsheet.march."))
         times, profiles, start = movement(self.case, self.sheet)
-        course = eqx.filter_jit(march)(_traced(self.sheet), times, profiles, start=start)
+        course = _marched(_traced(self.sheet), times, profiles, start)
         bad = np.flatnonzero(~np.asarray(course.converged))
         if bad.size:
             raise ConvergenceError(

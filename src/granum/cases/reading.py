@@ -20,7 +20,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter, convert
 from granum.flowsheet import Flowsheet
-from granum.flowsheet.dynamics import Profile, check_profiles
+from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.specifications import Target
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
@@ -292,7 +292,7 @@ def _require_independent(case: Case, targets: tuple[Target, ...]) -> None:
             raise CaseError(_("[specifications.{name}] 'lower' must be below 'upper'.").format(name=name), specification=name)
 
 
-def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, ...], str]:
+def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, ...], str | dict[str, str]]:
     """Times, disturbances and start of a run in time."""
     table = case.dynamic
     if table is None:
@@ -305,8 +305,10 @@ def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, .
         raise CaseError(
             _("[dynamic] asks for {count} steps; at most {most} are run.").format(count=f"{duration / step:.3g}", most=MOST_STEPS)
         )
-    if table.start not in ("steady", "empty"):
-        raise CaseError(unknown_name(_("Start"), table.start, ("steady", "empty"), where).message)
+    try:
+        check_start(sheet, table.start)
+    except GranumError as problem:
+        raise CaseError(f"[dynamic] {problem.message}", **problem.details) from None
     profiles = []
     for name, change in table.disturbances.items():
         place = _("in [dynamic.disturbances.{name}]").format(name=name)

@@ -112,7 +112,7 @@ class DynamicTable(_Strict):
 
     duration: Quantity
     step: Quantity
-    start: str = Field(default="steady", description="steady or empty")
+    start: str | dict[str, str] = Field(default="steady", description="steady or empty, or either by unit, the others being empty")
     disturbances: dict[str, Disturbance] = {}
 
 

@@ -81,6 +81,19 @@ def check_profiles(line: Flowsheet, profiles: tuple[Profile, ...]) -> None:
             raise InputError(_("The profile of '{path}' needs as many values as times, and times that increase.").format(path=p.path))
 
 
+def check_start(line: Flowsheet, start: str | Mapping[str, Any]) -> dict[str, Any]:
+    """How each unit with a holdup starts, where it is told; refuses unknown words and units without a holdup."""
+    holding = [n for n, u in line.units.items() if isinstance(u, Dynamic)]
+    told = dict.fromkeys(holding, start) if isinstance(start, str) else dict(start)
+    words = {start} if isinstance(start, str) else {at for at in told.values() if isinstance(at, str)}
+    for word in words - {"steady", "empty"}:
+        raise unknown_name(_("Start"), word, ("steady", "empty"))
+    for name in told:
+        if name not in holding:
+            raise unknown_name(_("Unit with a holdup"), name, holding)
+    return told
+
+
 def _increasing(times: Any) -> bool:
     """Whether times increase; traced ones were seen before."""
     return isinstance(times, jax.core.Tracer) or bool(np.all(np.diff(np.asarray(times, dtype=float)) > 0))
@@ -95,25 +108,25 @@ def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, st
     times: s, equally spaced; the first is the start.
     profiles: disturbances, as parameters or feed flows over time.
     start: ``steady`` (holdups in the steady state of the first instant), ``empty`` (holdups as the units declare for a start-up), or
-        the holdups themselves by unit, those left out being as for a start-up.
+        either of the two, or the holdup itself, by unit, those left out being as for a start-up.
     """
     check_profiles(line, profiles)
-    if isinstance(start, str) and start not in ("steady", "empty"):
-        raise unknown_name(_("Start"), start, ("steady", "empty"))
+    holding = {n: u for n, u in line.units.items() if isinstance(u, Dynamic)}
+    starts = check_start(line, start)
     times = jnp.asarray(times, dtype=float)
     step = times[1] - times[0]
     first = _with_profiles(line, profiles, times[0])
     scale = jnp.maximum(sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(())), 1e-12)
     streams = {k.name: _floats(empty(_mixture(line), 298.15)) for k in line.links}
-    if start == "steady":
+    states = {n: first.units[n].initial_holdup(_mixture(line)) for n in holding}  # type: ignore[attr-defined]
+    if "steady" in (at for at in starts.values() if isinstance(at, str)):
         streams = {n: _floats(s) for n, s in solve(first).streams.items()}
-        states = {n: u.steady_holdup(first.inlets_of(n, streams)) for n, u in first.units.items() if isinstance(u, Dynamic)}
-    else:
-        states = {n: u.initial_holdup(_mixture(line)) for n, u in first.units.items() if isinstance(u, Dynamic)}
-        states |= {} if isinstance(start, str) else dict(start)
-    prepared, still = (
-        {n: u.prepare(_mixture(line), h) for n, u in line.units.items() if isinstance(u, Dynamic)} for h in (step, 0.0 * step)
-    )
+    for n, at in starts.items():
+        if not isinstance(at, str):
+            states[n] = at
+        elif at == "steady":
+            states[n] = first.units[n].steady_holdup(first.inlets_of(n, streams))  # type: ignore[attr-defined]
+    prepared, still = ({n: u.prepare(_mixture(line), h) for n, u in holding.items()} for h in (step, 0.0 * step))
     torn = {n for block in line.blocks for n in block.tears}
 
     def advance(carry: tuple[_Instant, Any, dict[str, Stream]], given: tuple[Any, Any]) -> tuple[Any, tuple[dict[str, Stream], Any]]:
