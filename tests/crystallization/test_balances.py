@@ -13,6 +13,7 @@ from granum.crystallization.formulas.balances import (
     log_mean_temperature_difference,
     vacuum_crystallizer_balance,
 )
+from granum.crystallization.formulas.supersaturation import solute_per_solvent_from_hydrate, solute_per_solvent_hydrate
 
 
 def test_sodium_carbonate_of_geankoplis():
@@ -67,3 +68,19 @@ def test_evaporation_for_a_yield():
     assert crystallizer_balance(1000.0, 0.15, 0.09, x, V).yield_fraction == pytest.approx(0.6)
     with pytest.raises(ApplicabilityError):
         evaporation_for_yield(1000.0, 0.3, 0.3, 0.09, x)  # cooling alone gives more
+
+
+def test_states_that_cannot_be_are_told():
+    """A solubility in hydrate per water, more evaporated than there is, and a feed richer than the crystal; the dry end is possible."""
+    with pytest.raises(ApplicabilityError, match="solute_per_solvent_from_hydrate"):
+        crystallizer_balance(1.0, 0.3, 1.05, 0.44)
+    for impossible in ((1.0, 0.2, 0.384, 1.0, 0.9), (1.0, 0.5, 0.2, 0.44)):
+        with pytest.raises(ApplicabilityError, match="No mother liquor"):
+            crystallizer_balance(*impossible)
+    assert crystallizer_balance(1.0, 0.2, 0.384, 1.0, 0.8).crystal_flow == pytest.approx(0.2)
+    assert float(crystallizer_balance(1.0, 0.1, 0.384).crystal_flow) == 0.0
+
+
+def test_hydrate_per_water_and_back():
+    fraction = 120.3 / 246.3
+    assert solute_per_solvent_from_hydrate(solute_per_solvent_hydrate(0.642, fraction), fraction) == pytest.approx(0.642)

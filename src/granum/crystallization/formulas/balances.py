@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible, limit_active
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -27,6 +27,13 @@ from granum.crystallization.kinds import PositiveTemperatureDifference
 from granum.materials.library import solute
 from granum.numerics.smooth import safe_divide, safe_log
 
+NOT_SATURATED = "The solution is not saturated at the end: no crystals form."
+NO_LIQUOR = "No mother liquor would be left: too much solvent is evaporated, or the hydrate takes more of it than there is."
+HYDRATE_DISSOLVED = (
+    "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water becomes one of anhydrous solute with "
+    "'crystallization.solute_per_solvent_from_hydrate'."
+)
+
 
 class Balance(NamedTuple):
     """Flows of a crystallizer."""
@@ -34,6 +41,20 @@ class Balance(NamedTuple):
     crystal_flow: MassFlow
     mother_liquor_flow: MassFlow
     yield_fraction: Ratio
+
+
+def _crystals_and_liquor(A: Any, V: Any, x_A: Any, x: Any, x_L: Any) -> tuple[Any, Any, Any]:
+    """Crystals, mother liquor and yield of a feed A of mass fraction x_A that loses V of solvent; says which states cannot be."""
+    richer = x_L >= x
+    raw = (A * x_A - (A - V) * x_L) / jnp.where(richer, 1.0, x - x_L)
+    crystals = jnp.maximum(raw, 0.0)
+    liquor = A - V - crystals
+    none_left = liquor < -1e-9 * A
+    impossible(richer, x_L / (1.0 - x_L), "solubility_per_solvent", 0.0, x / jnp.maximum(1.0 - x, 1e-300), reason=HYDRATE_DISSOLVED)
+    impossible(none_left, liquor, "mother_liquor_flow", reason=NO_LIQUOR)
+    limit_active(raw < 0, raw, "crystal_flow", reason=NOT_SATURATED)
+    crystals = jnp.where(richer | none_left, jnp.nan, crystals)
+    return crystals, A - V - crystals, safe_divide(crystals * x, A * x_A)
 
 
 @formula(source="mullin2001, ch. 3; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}")
@@ -72,10 +93,7 @@ def crystallizer_balance(
     """
     A, V, x = mass_flow, evaporation, solute_fraction_of_crystal
     x_L = solubility_per_solvent / (1.0 + solubility_per_solvent)
-    raw = (A * solute_mass_fraction - (A - V) * x_L) / (x - x_L)
-    limit_active(raw < 0, raw, "crystal_flow")
-    crystals = jnp.maximum(raw, 0.0)
-    return Balance(crystals, A - V - crystals, safe_divide(crystals * x, A * solute_mass_fraction))
+    return Balance(*_crystals_and_liquor(A, V, solute_mass_fraction, x, x_L))
 
 
 @formula(
@@ -152,12 +170,8 @@ def vacuum_crystallizer_balance(
     sensible = A * specific_heat_capacity * (temperature_inlet - temperature)
     dry = A * (solute_mass_fraction - x_L) / (x - x_L)
     V = (q * dry + sensible) / (L - q * x_L / (x - x_L))
-    raw = (A * solute_mass_fraction - (A - V) * x_L) / (x - x_L)
-    limit_active(raw < 0, raw, "crystal_flow")
-    some = raw > 0
-    V = jnp.where(some, V, sensible / L)
-    crystals = jnp.maximum(raw, 0.0)
-    return FlashBalance(V, crystals, A - V - crystals, safe_divide(crystals * x, A * solute_mass_fraction))
+    V = jnp.where(A * solute_mass_fraction > (A - V) * x_L, V, sensible / L)  # no crystals, no heat of theirs
+    return FlashBalance(V, *_crystals_and_liquor(A, V, solute_mass_fraction, x, x_L))
 
 
 @formula(

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Concentration, Density, Distance, GrowthRate, Length, NucleationRate, PopulationDensity, PositiveNumber, Time
-from granum.crystallization.kinds import ProductionRate
+from granum.core.kinds import Concentration, Density, Distance, Length, NucleationRate, PopulationDensity, PositiveNumber, Time
+from granum.crystallization.kinds import ForwardGrowthRate, ProductionRate
 
 
 @formula(
@@ -21,7 +21,7 @@ from granum.crystallization.kinds import ProductionRate
 def population_density_classified(
     crystal_size: Distance,
     nuclei_population_density: PopulationDensity,
-    growth_rate: GrowthRate,
+    growth_rate: ForwardGrowthRate,
     residence_time: Time,
     fines_removal_ratio: PositiveNumber,
     fines_cut_size: Length,
@@ -84,7 +84,7 @@ class ClassifyingProduction(NamedTuple):
     typical={"growth_rate": (2e-8, 2e-7)},
 )
 def production_classifying(
-    growth_rate: GrowthRate,
+    growth_rate: ForwardGrowthRate,
     product_size: Length,
     magma_density: Concentration,
     crystal_density: Density,

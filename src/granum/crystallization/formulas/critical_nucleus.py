@@ -12,7 +12,6 @@ from granum.core.kinds import (
     Density,
     Energy,
     Length,
-    MolarEnergy,
     MolarMass,
     PositiveNumber,
     SurfaceTension,
@@ -20,6 +19,7 @@ from granum.core.kinds import (
     TemperatureDifference,
 )
 from granum.crystallization.formulas.nucleation import molecular_volume
+from granum.crystallization.kinds import PositiveMolarEnergy
 from granum.numerics.smooth import safe_log
 
 
@@ -100,7 +100,7 @@ def critical_radius(
 def critical_nucleus_melt(
     undercooling: TemperatureDifference,
     interfacial_energy: SurfaceTension,
-    enthalpy_of_fusion: MolarEnergy,
+    enthalpy_of_fusion: PositiveMolarEnergy,
     melting_temperature: Temperature,
     crystal_density: Density,
     molar_mass: MolarMass,

@@ -10,7 +10,6 @@ from granum.core.kinds import (
     Density,
     Distance,
     Fraction,
-    GrowthRate,
     Length,
     NucleationRate,
     PopulationDensity,
@@ -18,6 +17,7 @@ from granum.core.kinds import (
     Ratio,
     Time,
 )
+from granum.crystallization.kinds import ForwardGrowthRate
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
 
@@ -30,7 +30,7 @@ _GROWTH = {"growth_rate": (1e-8, 1e-7), "residence_time": (1800.0, 7200.0)}
     typical=_GROWTH,
 )
 def population_density(
-    crystal_size: Distance, nuclei_population_density: PopulationDensity, growth_rate: GrowthRate, residence_time: Time
+    crystal_size: Distance, nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate, residence_time: Time
 ) -> PopulationDensity:
     """Population density of an ideal continuous crystallizer (MSMPR) with growth that does not depend on size.
 
@@ -42,7 +42,7 @@ def population_density(
 
 
 @formula(source="randolph1988, ch. 4", equation=r"B_0 = n_0 G", family="nucleation_formula")
-def nucleation_rate_msmpr(nuclei_population_density: PopulationDensity, growth_rate: GrowthRate) -> NucleationRate:
+def nucleation_rate_msmpr(nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate) -> NucleationRate:
     """Nucleation rate from the population density of nuclei and the growth rate.
 
     >>> round(nucleation_rate_msmpr(nuclei_population_density=1e14, growth_rate=1e-7), 6)
@@ -54,7 +54,7 @@ def nucleation_rate_msmpr(nuclei_population_density: PopulationDensity, growth_r
 @formula(source="randolph1988, ch. 4", equation=r"M_T = 6 k_v \rho_c n_0 (G\tau)^4", typical=_GROWTH)
 def magma_density(
     nuclei_population_density: PopulationDensity,
-    growth_rate: GrowthRate,
+    growth_rate: ForwardGrowthRate,
     residence_time: Time,
     crystal_density: Density,
     volume_shape_factor: PositiveNumber,
@@ -71,7 +71,7 @@ def magma_density(
 @formula(source="randolph1988, ch. 4", equation=r"n_0 = \frac{M_T}{6 k_v \rho_c (G\tau)^4}", typical=_GROWTH)
 def nuclei_population_density(
     magma_density: Concentration,
-    growth_rate: GrowthRate,
+    growth_rate: ForwardGrowthRate,
     residence_time: Time,
     crystal_density: Density,
     volume_shape_factor: PositiveNumber,
@@ -86,7 +86,7 @@ def nuclei_population_density(
 
 
 @formula(source="randolph1988, ch. 4; mullin2001, ch. 9", equation=r"L_D = 3 G \tau", typical=_GROWTH)
-def dominant_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
+def dominant_size(growth_rate: ForwardGrowthRate, residence_time: Time) -> Length:
     """Dominant size by mass of an ideal continuous crystallizer: the maximum of the mass density.
 
     >>> round(dominant_size(growth_rate="0.02 um/s", residence_time="90 min") * 1e6, 1)
@@ -96,7 +96,7 @@ def dominant_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
 
 
 @formula(source="randolph1988, ch. 4; mullin2001, ch. 9", equation=r"W(L_{50}) = \tfrac12,\quad L_{50} = 3.672\,G\tau", typical=_GROWTH)
-def mass_median_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
+def mass_median_size(growth_rate: ForwardGrowthRate, residence_time: Time) -> Length:
     """Median size by mass of an ideal continuous crystallizer.
 
     >>> round(mass_median_size(growth_rate=1e-7, residence_time=1000) * 1e6, 1)
@@ -110,7 +110,7 @@ def mass_median_size(growth_rate: GrowthRate, residence_time: Time) -> Length:
     equation=r"W = 1 - e^{-x}\left(1 + x + \frac{x^2}{2} + \frac{x^3}{6}\right),\; x = \frac{L}{G\tau}",
     typical=_GROWTH,
 )
-def undersize_mass_fraction(crystal_size: Distance, growth_rate: GrowthRate, residence_time: Time) -> Fraction:
+def undersize_mass_fraction(crystal_size: Distance, growth_rate: ForwardGrowthRate, residence_time: Time) -> Fraction:
     """Mass fraction of the crystals of an ideal continuous crystallizer that is smaller than a size.
 
     >>> round(undersize_mass_fraction(crystal_size=3.672e-4, growth_rate=1e-7, residence_time=1000), 4)
@@ -156,7 +156,7 @@ def size_factor(crystal_size: Distance, size_parameter: PositiveNumber, size_exp
 def population_density_size_dependent(
     crystal_size: Distance,
     nuclei_population_density: PopulationDensity,
-    growth_rate: GrowthRate,
+    growth_rate: ForwardGrowthRate,
     residence_time: Time,
     size_parameter: PositiveNumber,
     size_exponent: Ratio,
@@ -216,7 +216,7 @@ def dominant_size_changed(
     output="crystal_size",
     typical={"undersize_mass_fraction": (0.05, 0.95), **_GROWTH},
 )
-def crystal_size_at_undersize(undersize_mass_fraction: Fraction, growth_rate: GrowthRate, residence_time: Time) -> Distance:
+def crystal_size_at_undersize(undersize_mass_fraction: Fraction, growth_rate: ForwardGrowthRate, residence_time: Time) -> Distance:
     """Size below which a given mass fraction of the crystals of an ideal continuous crystallizer lies.
 
     >>> round(crystal_size_at_undersize(undersize_mass_fraction=0.5, growth_rate=1e-7, residence_time=1000) * 1e6, 1)

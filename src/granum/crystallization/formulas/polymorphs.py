@@ -6,7 +6,8 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT
-from granum.core.kinds import MolarEnergy, PositiveNumber, Temperature
+from granum.core.kinds import PositiveNumber, Temperature
+from granum.crystallization.kinds import PositiveMolarEnergy
 
 _TYPICAL = {"enthalpy_of_fusion": (2.5e4, 2.7e4), "enthalpy_of_fusion_other": (2.9e4, 3.2e4), "melting_temperature": (455.0, 465.0),
             "melting_temperature_other": (440.0, 450.0), "temperature": (280.0, 320.0)}  # fmt: skip
@@ -19,9 +20,9 @@ _TYPICAL = {"enthalpy_of_fusion": (2.5e4, 2.7e4), "enthalpy_of_fusion_other": (2
     typical=_TYPICAL,
 )
 def supersaturation_ratio_polymorphs(
-    enthalpy_of_fusion: MolarEnergy,
+    enthalpy_of_fusion: PositiveMolarEnergy,
     melting_temperature: Temperature,
-    enthalpy_of_fusion_other: MolarEnergy,
+    enthalpy_of_fusion_other: PositiveMolarEnergy,
     melting_temperature_other: Temperature,
     temperature: Temperature = 298.15,
 ) -> PositiveNumber:
@@ -45,9 +46,9 @@ def supersaturation_ratio_polymorphs(
     typical=_TYPICAL,
 )
 def temperature_transition_polymorphs(
-    enthalpy_of_fusion: MolarEnergy,
+    enthalpy_of_fusion: PositiveMolarEnergy,
     melting_temperature: Temperature,
-    enthalpy_of_fusion_other: MolarEnergy,
+    enthalpy_of_fusion_other: PositiveMolarEnergy,
     melting_temperature_other: Temperature,
 ) -> Temperature:
     """Temperature at which two polymorphs are equally soluble, from their melting points and heats of fusion.
@@ -60,5 +61,5 @@ def temperature_transition_polymorphs(
     """
     H, Hother = enthalpy_of_fusion, enthalpy_of_fusion_other
     entropy = Hother / melting_temperature_other - H / melting_temperature
-    same = entropy == 0
-    return jnp.where(same, jnp.nan, (Hother - H) / jnp.where(same, 1.0, entropy))
+    crossing = (Hother - H) / jnp.where(entropy == 0, jnp.nan, entropy)
+    return jnp.where(crossing > 0, crossing, jnp.nan)

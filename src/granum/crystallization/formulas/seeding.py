@@ -11,7 +11,6 @@ from granum.core.kinds import (
     Density,
     Distance,
     Fraction,
-    GrowthRate,
     Length,
     Mass,
     PositiveNumber,
@@ -20,6 +19,7 @@ from granum.core.kinds import (
     SpecificSurfaceMass,
     Time,
 )
+from granum.crystallization.kinds import ForwardGrowthRate
 from granum.numerics import find_root
 
 
@@ -106,7 +106,7 @@ def seed_chart(
     output="duration",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "growth_rate": (1e-8, 2e-7)},
 )
-def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: GrowthRate) -> Time:
+def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: ForwardGrowthRate) -> Time:
     """Time that seeds need to reach the product size at a constant growth rate in m/s.
 
     >>> round(duration_for_growth(seed_size="100 um", product_size="500 um", growth_rate=1e-7))

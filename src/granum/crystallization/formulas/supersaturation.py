@@ -108,6 +108,26 @@ def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of
     return jnp.where(free > 0, c / jnp.where(free > 0, free, 1.0), jnp.nan)
 
 
+@formula(
+    source="mullin2001, ch. 3",
+    equation=r"C = \frac{x_c\,C_h}{1 + (1 - x_c)\,C_h}",
+    output="solute_per_solvent",
+    title="Anhydrous solute per solvent from hydrate per water",
+    typical={"hydrate_per_solvent": (0.3, 1.0)},
+)
+def solute_per_solvent_from_hydrate(hydrate_per_solvent: MassRatio, solute_fraction_of_crystal: PositiveNumber) -> MassRatio:
+    """Anhydrous solute per mass of all the water from the hydrate per mass of water it is dissolved in, as older tables give solubilities.
+
+    The water of the hydrate joins the solvent. Magnesium sulfate of Bhatt and Vora, example 6.10: 401.2 kg of heptahydrate in 100 kg of
+    water is 64.2 kg of sulfate per 100 kg of all the water.
+
+    >>> round(solute_per_solvent_from_hydrate(hydrate_per_solvent=4.012, solute_fraction_of_crystal=120.3 / 246.3), 3)
+    0.642
+    """
+    h, x = hydrate_per_solvent, solute_fraction_of_crystal
+    return h * x / (1.0 + h * (1.0 - x))
+
+
 @formula(source="mullin2001, ch. 3", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation")
 def driving_force_thermodynamic(supersaturation_ratio: PositiveNumber, ions_per_formula: PositiveNumber = 1.0) -> Number:
     """Thermodynamic driving force of crystallization over RT, for ideal activity coefficients.
