@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 import granum.humid_gas.relations as rel
 from granum.core import flags
-from granum.core.constants import ZERO_CELSIUS
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import SLACK, AbstractPair
@@ -22,6 +22,7 @@ from granum.numerics.roots import find_root
 SAMPLES = 49
 THIRDS = 50  # steps of a ternary search, each by two thirds
 ROUNDING = 1e-9
+ROOM_FOR_REAL = 1.25  # over the temperature at which dry ideal gas has a volume: a real gas may be warmer
 TWO_STATES = "Two states have these values; the colder and moister one is given."
 NEARLY_PARALLEL = (
     "Lines of constant wet bulb and of constant enthalpy are nearly parallel: a change of 0.1 kJ/kg moves the temperature by more "
@@ -173,7 +174,7 @@ class Solver:
 
     def _temperature_and_specific_volume(self, _T: str, name: str) -> tuple[Gas, Any]:
         T = self.given["temperature"]
-        y = rel.fraction_at_volume(self.pair, T, self.P, self.given[name])
+        y = self.pair.fraction_at_volume(T, self.P, self.given[name])
         return self._bounded(T, y, name, lambda: self._dry_and_saturated(name, T), BETWEEN_DRY_AND_SATURATED)
 
     def _dry_and_saturated(self, name: str, T: Any) -> tuple[Any, Any]:
@@ -282,25 +283,43 @@ class Solver:
     def _wet_bulb_and_specific_volume(self, wet: str, name: str) -> tuple[Gas, Any]:
         pair, P, Ts, v = self.pair, self.P, self.given[wet], self.given[name]
         surface = rel.wet_surface(pair, Ts, P, self.lewis[wet])
-        driest = self._with_surface(jnp.zeros_like(Ts * P * v), wet)[0].T
-        ends = Ts + 0.0 * P * v, jnp.where(jnp.isnan(driest), pair.highest_temperature, driest)
 
-        def fraction(T: Any) -> Any:
-            return rel.fraction_over(surface, pair, T, P)
+        def driest() -> Any:
+            T = self._with_surface(jnp.zeros_like(Ts * P * v), wet)[0].T
+            return jnp.where(jnp.isnan(T), pair.highest_temperature, T)
 
-        def balance(T: Any) -> Any:
-            y = fraction(T)
-            return self._per_gas(v, y) - pair.molar_volume(T, P, y)
+        if pair.heavy_vapor:  # its volume turns along the line of the wet bulb, so that line is followed
 
-        T = self._coldest(balance, *ends, v)
+            def fraction(T: Any) -> Any:
+                return rel.fraction_over(surface, pair, T, P)
+
+            def balance(T: Any) -> Any:
+                y = fraction(T)
+                return self._per_gas(v, y) - pair.molar_volume(T, P, y)
+
+            T = self._coldest(balance, Ts + 0.0 * P * v, driest(), v)
+        else:  # the line of the volume asks for no saturation on the way
+
+            def fraction(T: Any) -> Any:
+                return pair.fraction_at_volume(T, P, v)
+
+            def balance(T: Any) -> Any:
+                y = fraction(T)
+                return surface.balance(pair.molar_enthalpy(T, P, y), y)
+
+            dry = ROOM_FOR_REAL * P * v * pair.gas_molar_mass / GAS_CONSTANT
+            T = self._falling(balance, Ts + 0.0 * dry, jnp.clip(dry, Ts, pair.highest_temperature))
+
+        y = fraction(T)
+        possible = jnp.isfinite(T) & (y >= -ROUNDING)
 
         def limits() -> tuple[Any, Any]:
-            saturated, dry = (self._specific(name, T, jnp.clip(fraction(T), 0.0, 1 - SLACK)) for T in ends)
+            ends = [(Ts, surface.ys), (driest(), jnp.zeros_like(Ts * P * v))]
+            saturated, dry = (self._specific(name, T, jnp.clip(y, 0.0, 1 - SLACK)) for T, y in ends)
             return jnp.minimum(saturated, dry), jnp.maximum(saturated, dry)
 
-        self._tell(jnp.isnan(T), name, limits, ALONG_WET)
-        y = jnp.clip(fraction(T), 0.0, 1.0)
-        return Gas(T, jnp.minimum(y, self._ys(T)), jnp.zeros_like(T)), jnp.asarray(True)
+        self._tell(~possible, name, limits, ALONG_WET)
+        return Gas(T, jnp.minimum(jnp.clip(y, 0.0, 1.0), self._ys(T)), jnp.zeros_like(T)), possible
 
     def _holding(self, y: Any, phi: Any) -> Any:
         """Temperature at which gas of a relative humidity holds a vapor fraction; the highest of the pair for dry gas."""
@@ -335,7 +354,7 @@ class Solver:
         cold, dry = self._saturated_and_dry(v * pair.gas_molar_mass)
 
         def fraction(T: Any) -> Any:
-            return rel.fraction_at_volume(pair, T, P, v)
+            return pair.fraction_at_volume(T, P, v)
 
         def balance(T: Any) -> Any:
             y = fraction(T)

@@ -37,7 +37,7 @@ class Isolines:
         self._by: dict[str, Any] = {
             "relative_humidity": jax.jit(lambda phi, T: phi * rel.saturated_fraction(pair, T, P)),
             "enthalpy": jax.jit(lambda h, T: rel.fraction_at_enthalpy(pair, T, P, h)),
-            "specific_volume": jax.jit(lambda v, T: rel.fraction_at_volume(pair, T, P, v)),
+            "specific_volume": jax.jit(lambda v, T: pair.fraction_at_volume(T, P, v)),
             "wet_bulb_temperature": jax.jit(lambda Ts, T: rel.fraction_at_wet_bulb(pair, T, P, Ts, self.lewis)),
         }
         self._describe(states)

@@ -16,7 +16,9 @@ from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.kinds import Number
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
+from granum.numerics.quick_roots import newton_root
 
+NEARLY_LINEAR = 8  # Newton steps at most on functions that are nearly linear
 SLACK = 1e-9  # brackets are widened by this fraction so that rounding cannot hide a root that lies at an end
 
 
@@ -58,6 +60,11 @@ class AbstractPair(eqx.Module):
     @abstractmethod
     def vapor_partial_enthalpy(self, T: Any, P: Any, y: Any) -> Any:
         """Partial molar enthalpy of the vapor, J/mol; with the condensate's it gives the heat of vaporization."""
+
+    def fraction_at_volume(self, T: Any, P: Any, v: Any) -> Any:
+        """Mole fraction of vapor in unsaturated gas of a volume per mass of dry gas; negative where even dry gas takes more room."""
+        first = jnp.zeros_like(T * P * v)
+        return newton_root(lambda y: self.molar_volume(T, P, y) - v * self.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR)
 
     def simplified(self) -> AbstractPair | None:
         """A cheaper pair that saturates with less vapor, for pairs whose functions cost much."""
@@ -111,6 +118,9 @@ class AbstractIdealPair(AbstractPair):
 
     def molar_volume(self, T: Any, P: Any, y: Any) -> Any:
         return GAS_CONSTANT * T / P + 0.0 * y
+
+    def fraction_at_volume(self, T: Any, P: Any, v: Any) -> Any:
+        return 1.0 - GAS_CONSTANT * T / (P * v * self.gas_molar_mass)
 
 
 def polynomial(coefficients: tuple[float, ...], x: Any) -> Any:

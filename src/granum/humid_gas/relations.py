@@ -11,11 +11,10 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.humid_gas.pairs import SLACK, AbstractPair
+from granum.humid_gas.pairs import NEARLY_LINEAR, SLACK, AbstractPair
 from granum.numerics.blocks import blockwise
 from granum.numerics.quick_roots import falling_root, newton_root
 
-NEARLY_LINEAR = 8  # Newton steps at most on functions that are nearly linear
 LARGE = 1000  # elements from which a second, ice-free copy of the search is worth compiling
 
 
@@ -225,12 +224,6 @@ def fraction_over(surface: WetSurface, pair: AbstractPair, T: Any, P: Any) -> An
 def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any) -> Any:
     """Vapor fraction of gas at T whose wet bulb is Ts."""
     return fraction_over(wet_surface(pair, Ts, P, lewis), pair, T, P)
-
-
-def fraction_at_volume(pair: AbstractPair, T: Any, P: Any, v: Any) -> Any:
-    """Vapor fraction of unsaturated gas of a specific volume."""
-    first = jnp.zeros_like(T * P * v)
-    return newton_root(lambda y: pair.molar_volume(T, P, y) - v * pair.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR)
 
 
 def fraction_at_enthalpy(pair: AbstractPair, T: Any, P: Any, h: Any) -> Any:
