@@ -181,24 +181,44 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
 
 @app.command()
 @_one_message
-def study(case: CaseFile, names: Annotated[list[str] | None, typer.Argument(help="Studies of the file to run; all when none is named.", show_default=False)] = None,
+def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case or study file (TOML), or a formula, law or piece of equipment.")],
+          names: Annotated[list[str] | None, typer.Argument(metavar="[STUDY|name=value]...", help="Of a file: the studies to run, all when none is named. Of a card: its inputs; 0.3..0.8bar is a range, 1e7+-30% a spread.", show_default=False)] = None,
           as_json: Json = False,
           samples: Annotated[int | None, typer.Option(help="Number of samples, instead of what the file says.")] = None,
           seed: Annotated[int | None, typer.Option(help="Seed of the samples, instead of what the file says.")] = None,
+          sobol: Annotated[bool, typer.Option("--sobol", help="Of a card: what moves the results (Sobol indices).")] = False,
+          minimize: Annotated[str, typer.Option(help="Of a card: the result to make least over the ranges.")] = "",
+          maximize: Annotated[str, typer.Option(help="Of a card: the result to make greatest over the ranges.")] = "",
+          limit: Annotated[list[str] | None, typer.Option(help="Of a card: a result to keep, as NAME<=VALUE or NAME>=VALUE.")] = None,
+          output: Annotated[list[str] | None, typer.Option(help="Of a card: a result to show; of equipment the first six when none is named.")] = None,
+          steps: Annotated[int | None, typer.Option(min=2, help="Of a card: points along each range.")] = None,
           out: Annotated[Path | None, typer.Option("--out", "-o", help="Write all cases as .nc, .parquet or .csv; a killed study continues from FILE.parts.")] = None,
           report: Annotated[Path | None, typer.Option(help="Write an HTML report with charts.")] = None,
           workers: Annotated[str | None, typer.Option(help="Number of local Dask workers, or address of a Dask scheduler.")] = None) -> None:  # fmt: skip
-    """Run the studies of a file: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization, Pareto fronts."""
-    from granum.cases.studying import read_studies
+    """Run the studies of a file, or of one card: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization, Pareto fronts."""
+    from granum.cases.reading import text_of
+    from granum.cases.studying import studies_of_text
     from granum.core.errors import unknown_name
     from granum.reports.progress import advancing, working
 
+    case = Path(model)
+    of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limits": limit or [], "outputs": output or [], "steps": steps}
     with working(_("Reading {file}").format(file=case.name), quiet=as_json):
-        known = read_studies(case)
-    for name in names or ():
+        if case.suffix == ".toml" or case.exists():
+            for option, given in of_card.items():
+                if given:
+                    raise InputError(_("--{option} is of a card: the file says it in its [study] tables.").format(option=option.rstrip("s")))
+            text, wanted = text_of(case), names or []
+            known = studies_of_text(text, folder=case.parent, name=case.name)
+        else:
+            from granum.cases.worded import study_text
+
+            text, wanted = study_text(model, _pairs(names), samples=samples, **of_card), []
+            known = studies_of_text(text, name=model)
+    for name in wanted:
         if name not in known:
             raise unknown_name(_("Study"), name, known, _("in {file}").format(file=case.name))
-    picked = [known[name] for name in names or known]
+    picked = [known[name] for name in wanted or known]
     if out is not None:
         from granum.studies.outcome import check_file
 
@@ -223,7 +243,7 @@ def study(case: CaseFile, names: Annotated[list[str] | None, typer.Argument(help
         from granum.reports.studies import study_report
 
         with working(_("Writing the report"), quiet=as_json):
-            write_atomic(report, study_report(outcomes, case.read_text(encoding="utf-8"), known[picked[0].name].subject.title))
+            write_atomic(report, study_report(outcomes, text, known[picked[0].name].subject.title))
         saved.append(report)
     if as_json:
         _emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})

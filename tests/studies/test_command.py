@@ -52,9 +52,57 @@ def test_tables_and_report(tmp_path) -> None:
     assert sorted(p.name for p in tmp_path.iterdir()) == ["cases.csv", "r.html"]  # the parts are gone
 
 
+FALL = ["particles.terminal_velocity", "particle_density=2630", "fluid_density=1020"]
+BELT = [
+    "filtration.horizontal_belt_filter",
+    "cake_resistance=1e10",
+    "void_fraction=0.45",
+    "medium_resistance=1e9",
+    "belt_length=3m",
+    "belt_speed=4m/min",
+    "mixture.solids=quartz",
+    "mixture.liquids=water",
+    "feed.solid_flow=800kg/h",
+    "feed.liquid_flow=1000kg/h",
+    "mixture.sizes.classes=8",
+    "mixture.sizes.smallest=1um",
+    "mixture.sizes.largest=1mm",
+    "feed.sizes.law=rosin_rammler",
+    "feed.sizes.size_modulus=100um",
+    "feed.sizes.distribution_exponent=1.5",
+]
+
+
+def test_a_card_without_a_file() -> None:
+    """Stokes' speed goes with the square of the size; a belt needs the less area the more suction it has, which is the bound of the optimum."""
+    code, out, _err = granum(*FALL, "particle_diameter=2..4um", "dynamic_viscosity=1cP", "--steps", "2", "--json")
+    speed = json.loads(out)["studies"]["sweep"]["findings"]["table"]["terminal_velocity"]
+    assert code == 0
+    assert speed[1] / speed[0] == pytest.approx(4.0, rel=1e-3)
+    code, out, _err = granum(*FALL, "particle_diameter=85um+-10%", "dynamic_viscosity=1.2..1.4cP", "--sobol", "--samples", "32", "--json")
+    assert json.loads(out)["studies"]["sobol"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"]["total"] > 0.7
+    wanted = ["area=0.5..3m2", "pressure_drop=0.3..0.7bar", "--minimize", "area", "--limit", "capacity_use<=0.9", "--json"]
+    code, out, err = granum(*BELT, *wanted)
+    assert code == 0, err
+    best = json.loads(out)["studies"]["optimize"]["findings"]["inputs"]
+    assert best["horizontal_belt_filter.pressure_drop"]["value"] == pytest.approx(0.7e5, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
+        (FALL, "Nothing varies"),
+        ([*FALL, "particle_diametr=20..85um", "dynamic_viscosity=1cP"], "Did you mean 'particle_diameter'"),
+        ([*FALL, "particle_diameter=20..85um"], "needs 'dynamic_viscosity'"),
+        ([*FALL, "particle_diameter=85.. um"], "write a range as 0.3..0.8bar"),
+        ([*FALL, "particle_diameter=20..85um", "--limit", "speed"], "is not a limit"),
+        ([*FALL[:1], "particle_density=2..3", "fluid_density=1..2", "particle_diameter=1..2um"], "More than two ranges"),
+        ([*FALL, "dynamic_viscosity=1cP+-5%", "particle_diameter=1um", "--minimize", "terminal_velocity"], "nothing to vary"),
+        (["filtration.horizontal_belt_filter", "area=1..2m2"], "needs a stream at its inlet 'feed'"),
+        ([*BELT, "aera=1..2m2"], "Did you mean 'area'"),
+        ([*BELT, "area=1..2m2"], "needs 'pressure_drop'"),
+        (["filtration.leaf_test", "area=1..2m2"], "is a lab test"),
+        ([str(SETTLING), "--sobol"], "--sobol is of a card"),
         (["none.toml"], "cannot be read"),
         ([str(SETTLING), "spred"], "Did you mean 'spread'?"),
         ([str(SETTLING), "map", "--samples", "5"], "has no 'samples'"),

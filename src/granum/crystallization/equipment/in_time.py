@@ -169,6 +169,7 @@ class InTime(Dynamic):
         rates = surviving.conditions(here, grains)[2:]
         made, *_rest = react(surviving, closed, crystals, here, grains, rates, (jnp.zeros(()), jnp.asarray(step, dtype=float)), 0)
 
+        assert isinstance(made, Moving)
         grains = cube * made.moments()[3]
         bound = jnp.zeros_like(liquid).at[found.solute].set(x * grains).at[found.solvent].add((1.0 - x) * grains)
         full = (volume(liquid - bound, solid) + grains / crystal.density) / self.volume
