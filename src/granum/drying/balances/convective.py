@@ -57,8 +57,8 @@ def _relative(T: Any, w: Any, P: Any) -> Any:
     return PAIR.fraction(w) / rel.saturated_fraction(PAIR, T, P)
 
 
-def temperature_of(P: Any, w: Any = None, phi: Any = None, h: Any = None) -> Any:
-    """Temperature from two of humidity ratio, relative humidity and enthalpy."""
+def temperature_of(P: Any, w: Any = None, phi: Any = None, h: Any = None, start: Any = None) -> Any:
+    """Temperature from two of humidity ratio, relative humidity and enthalpy, sought from a start."""
     if w is not None and h is not None:
         return find_root(lambda T: enthalpy(T, w, P) - h, COLDEST, HOTTEST, tolerance=1e-12).value
     if h is None:
@@ -67,7 +67,7 @@ def temperature_of(P: Any, w: Any = None, phi: Any = None, h: Any = None) -> Any
         ).value
     # unsaturated air may be hotter than boiling water: up to where its vapor alone would have the whole pressure
     top = PAIR.boiling_temperature(jnp.minimum(P / jnp.maximum(phi, 1e-6), HIGHEST_PRESSURE)) * (1.0 - 1e-9)
-    return find_root(lambda T: enthalpy(T, humidity_at(T, phi, P), P) - h, COLDEST, top, tolerance=1e-12).value
+    return find_root(lambda T: enthalpy(T, humidity_at(T, phi, P), P) - h, COLDEST, top, start=start, tolerance=1e-12).value
 
 
 def _point(name: str) -> Relation:
@@ -168,7 +168,7 @@ def _finished(v: Values, activity: Any) -> DryerBalance:
     molar = PAIR.molar_enthalpy(v["temperature_inlet"], P, y1)
     top = jnp.minimum(v["temperature_inlet"], PAIR.boiling_temperature(P)) * (1.0 + 1e-9)
     wet = find_root(lambda T: rel.wet_bulb_balance(PAIR, T, molar, P, y1, False, None), COLDEST, top, start=top - 20.0).value
-    equilibrium = humidity_at(temperature_of(P, phi=activity, h=h1), activity, P)
+    equilibrium = humidity_at(temperature_of(P, phi=activity, h=h1, start=wet), activity, P)
     W, w0 = v["evaporation_rate"], v["humidity_ratio_fresh"]
     bought = v["heat_duty"] + v["heat_duty_inside"] + v["shaft_power"]
     energy = bought / W

@@ -133,18 +133,21 @@ class ConvectiveDryer(Unit):
         gas = gas.replace(solid=jnp.zeros_like(gas.solid), liquid=jnp.zeros_like(gas.liquid))
         whole = feed + gas
 
-        def parts(W: Any, T: Any) -> tuple[Stream, Stream]:
-            """Product and exhaust when that much water has evaporated."""
-            moved = evaporate(whole.replace(pressure=gas.pressure), safe_divide(W, water))
-            out = moved.replace(solid=jnp.zeros_like(moved.solid), liquid=jnp.zeros_like(moved.liquid), temperature=T)
-            left = moved.replace(
-                gas=jnp.zeros_like(moved.gas), temperature=T if self.temperature_product is None else self.temperature_product
+        def moved(W: Any) -> Stream:
+            """Feed and gas when that much water has evaporated."""
+            return evaporate(whole.replace(pressure=gas.pressure), safe_divide(W, water))
+
+        def parted(both: Stream, T: Any) -> tuple[Stream, Stream]:
+            """Product and exhaust."""
+            out = both.replace(solid=jnp.zeros_like(both.solid), liquid=jnp.zeros_like(both.liquid), temperature=T)
+            left = both.replace(
+                gas=jnp.zeros_like(both.gas), temperature=T if self.temperature_product is None else self.temperature_product
             )
             return left, out
 
-        def heat_missing(W: Any, T: Any) -> Any:
+        def heat_missing(both: Stream, T: Any) -> Any:
             """Heat needed less heat there is; linear in the water."""
-            product, out = parts(W, T)
+            product, out = parted(both, T)
             leaves = product.enthalpy_flow + out.enthalpy_flow
             if self.temperature_inlet is None:
                 there = gas.enthalpy_flow + (0.0 if self.heat_duty is None else self.heat_duty) + self.fan_power
@@ -153,8 +156,10 @@ class ConvectiveDryer(Unit):
                 there = mixed.enthalpy_at(self.temperature_inlet) - back * out.enthalpy_flow
             return leaves - there - feed.enthalpy_flow + self.heat_loss
 
+        wet, dry = moved(0.0), moved(water)
+
         def water_at(T: Any) -> Any:
-            none, all_ = heat_missing(0.0, T), heat_missing(water, T)
+            none, all_ = heat_missing(wet, T), heat_missing(dry, T)
             return water * none / jnp.where(none == all_, jnp.nan, none - all_)
 
         if self.temperature_outlet is not None:
@@ -164,17 +169,18 @@ class ConvectiveDryer(Unit):
         else:
 
             def humidity(T: Any) -> Any:
-                y = PAIR.fraction(_humidity(parts(jnp.clip(water_at(T), 0.0, water), T)[1]))
+                y = PAIR.fraction(_humidity(moved(jnp.clip(water_at(T), 0.0, water))))
                 return y - self.relative_humidity_outlet * saturated_fraction(PAIR, T, gas.pressure)
 
             T = find_root(humidity, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet).value
             W = water_at(T)
         W = jnp.clip(W, 0.0, water)
         guess = jnp.minimum(gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0)
+        both = moved(W)
         root = find_root(
-            lambda T: heat_missing(W, T) / jnp.maximum(jnp.sum(gas.gas) * 1e3, 1e-300), COLDEST, HOTTEST, start=guess, tolerance=1e-14
+            lambda T: heat_missing(both, T) / jnp.maximum(jnp.sum(gas.gas) * 1e3, 1e-300), COLDEST, HOTTEST, start=guess, tolerance=1e-14
         )
-        product, out = parts(W, root.value)
+        product, out = parted(both, root.value)
         mixed = gas.replace(gas=gas.gas + back * out.gas)
         if self.temperature_inlet is None:
             duty = jnp.asarray(0.0 if self.heat_duty is None else self.heat_duty)
