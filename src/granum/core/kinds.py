@@ -149,6 +149,7 @@ Force = Annotated[Any, _any("force", "N", "N", "mN", "kN")]
 Stress = Annotated[Any, _any("stress", "Pa", "MPa", "N/mm^2")]
 SurfaceTension = Annotated[Any, _positive("surface tension", "N/m", "mN/m", "dyn/cm")]
 Permeability = Annotated[Any, _positive("permeability", "m^2", "darcy", "um^2")]
+Permeance = Annotated[Any, _positive("permeance", "m/(s Pa)", "L/(m^2 hour bar)", "m/(s Pa)")]
 CakeResistance = Annotated[Any, _positive("specific cake resistance", "m/kg")]
 MediumResistance = Annotated[Any, _nonnegative("medium resistance", "1/m")]
 # heat

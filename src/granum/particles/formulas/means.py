@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import Amount, Density, Length, Number, NumberPerMass, PositiveNumber, Ratio, Series, Within
+from granum.core.kinds import Amount, Density, Fraction, Length, Number, NumberPerMass, PositiveNumber, Ratio, Series, Within
 from granum.particles.distributions import order_of
 
 Sizes = Annotated[Length, Series("classes")]
@@ -132,6 +132,18 @@ def number_per_mass(
     1.0
     """
     return weighted(class_masses, class_sizes**-3.0, "class_masses") / (volume_shape_factor * particle_density)
+
+
+@formula(source="astm_c125", equation=r"\mathrm{FM} = \sum_i R_i")
+def fineness_modulus(cumulative_retained: Annotated[Fraction, Series("classes")]) -> Number:
+    """Fineness modulus of a sieve analysis: sum of the cumulative fractions retained on the sieves of a set.
+
+    Each sieve opens half as wide as the one above it; the pan does not count.
+
+    >>> round(fineness_modulus(cumulative_retained=[0.0, 0.12, 0.28, 0.48, 0.68, 0.84, 0.96]), 6)
+    3.36
+    """
+    return jnp.sum(cumulative_retained, axis=-1)
 
 
 @formula(
