@@ -21,6 +21,7 @@ DECADE = log(10.0)
 _FACTORS = {"degC]": 1.0, "s]": 1.0, "t/h]": 1000.0 / 3600.0, "kg/h]": 1.0 / 3600.0, "kJ/kg]": 1e3, "kg/kg]": 1.0, "-]": 1.0}
 # Flash and spray dryers keep the product hot for seconds only: it may see some 20 K more than in a dryer of minutes or hours.
 BRIEF, ALLOWANCE = 60.0, 20.0
+TOLERANT = 50.0  # °C, from which on a product can be dried in warm air
 
 
 @cache
@@ -68,7 +69,8 @@ def choose(
     """Dryers ranked for a product by its form, moisture, heat sensitivity, feed, hazard and drying time, with reasons and first size.
 
     The suitability is 1 where every figure lies in the range in which a dryer is commonly used; it falls by a factor e for each decade
-    outside, and is zero for a form of product that the dryer cannot take. ``temperature_limit`` is the highest temperature the product
+    outside, and is zero for a form of product that the dryer cannot take. Forms it takes only after preparation, and costs out of proportion,
+    count against it too. ``temperature_limit`` is the highest temperature the product
     bears, ``residence_time`` the time it needs (known from a drying curve). The sizes come from common capacities (the course notes'
     tables IV.1 to IV.22): use the list to decide what to test.
 
@@ -93,6 +95,9 @@ def choose(
         if not d[product_form]:
             rows.append((0.0, d, [_("does not take this form of product")]))
             continue
+        if d[product_form] < 1.0:
+            missing += DECADE / 4.0
+            why.append(_("needs it preformed, granulated or mixed with dry product first"))
         off = _beyond(mass_flow, d["flow_low"], d["flow_high"])
         if off > 0:
             missing += off / (3.0 if mass_flow > d["flow_high"] else 1.0)  # several machines side by side are possible
@@ -102,6 +107,9 @@ def choose(
             if seen > limit:
                 missing += DECADE * (seen - limit) / 10.0
                 why.append(_("heats the product to {value} °C at least").format(value=format_number(d["product_low"], 3)))
+        if d["gas_low"] < 0.0 and (limit is None or limit > TOLERANT):
+            missing += DECADE / 2.0
+            why.append(_("several times as dear as drying in air: for what bears no heat"))
         if residence_time is not None:
             off = _beyond(residence_time, d["residence_low"], d["residence_high"])
             if off > 0:
@@ -113,6 +121,8 @@ def choose(
             why.append(worry)
         elif hazard != "none" and d["closed"]:
             why.append(_("closed, with little gas"))
+        if d["batch"]:
+            why.append(_("works in batches"))
         if fragile and not d["gentle"]:
             missing += DECADE / 2.0
             why.append(_("rough on fragile product"))
@@ -147,7 +157,7 @@ def _size(water: float, d: dict[str, Any]) -> str:
     """Volume or heated area from the common capacity, or the number of machines."""
     low, high = water / d["capacity_high"], water / d["capacity_low"]
     if d["capacity_per"] == "whole":
-        return _("{count} machines").format(count=format_number(max(1.0, np.ceil(low)), 3))
+        return _("machines: {count}").format(count=format_number(max(1.0, np.ceil(low)), 3))
     unit = {"m3": "m³", "m2": "m²"}[d["capacity_per"]]
     return _("{low} to {high} {unit}").format(low=format_number(low, 2), high=format_number(high, 2), unit=unit)
 
