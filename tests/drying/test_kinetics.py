@@ -29,6 +29,11 @@ def test_times_of_both_periods() -> None:
         assert falling / 3600 == pytest.approx(4.39, abs=0.005)
     with pytest.raises(ApplicabilityError, match="without end"):  # equilibrium is never reached
         times.drying_time(10.0, 2.0, 1e-3, 1.0, 0.05, 0.4, 0.05)
+    # a solid that would end wetter than it starts is told, not dried in a negative time; an end above the critical moisture has no falling rate
+    for wetter in (times.drying_time_constant_rate, times.drying_time_falling_rate, times.drying_time_characteristic):
+        with pytest.raises(ApplicabilityError, match="wetter"):
+            wetter(10.0, 2.0, 1e-3, 0.3, 25.0, *((0.4,) if wetter is not times.drying_time_constant_rate else ()))
+    assert times.drying_time_falling_rate(10.0, 2.0, 1e-3, 1.0, 0.5, 0.4) == 0.0
 
 
 def test_characteristic_curves() -> None:
@@ -115,13 +120,13 @@ def test_thin_layer_ranking_knows_equal_curves() -> None:
     t = np.linspace(0, 300, 25) * 60
     rng = np.random.default_rng(3)
     MR = np.clip(np.exp(-9.46e-4 * (t / 60) ** 1.328) + rng.normal(0, 0.003, t.size), 0, None)
-    test = ThinLayerTest(time=t, moisture_ratio=MR)
+    ranked, _failed = ThinLayerTest(time=t, moisture_ratio=MR).ranking()
+    fits = {r.name: r.fit for r in ranked}
     for name in ("page", "page_modified", "weibull"):
-        found = ThinLayerTest(time=t, moisture_ratio=MR, model=name).fit()
-        assert found["time_exponent"].value == pytest.approx(1.328, rel=0.02)
+        assert fits[name]["time_exponent"].value == pytest.approx(1.328, rel=0.02)
     page = ThinLayerTest(time=t, moisture_ratio=MR, model="page").fit()
+    assert page.values == fits["page"].values
     assert page["rate_constant"].value == pytest.approx(9.46e-4 / 60**1.328, rel=0.15)
-    ranked, _failed = test.ranking()
     assert ranked[0].name in ("page", "page_modified", "weibull")
     same = {r.name: r.same_curve_as for r in ranked}
     family = {"page", "page_modified", "weibull"}
@@ -142,7 +147,7 @@ def test_isotherm_test_recovers_gab() -> None:
     for name, true in (("monolayer_moisture", 0.07), ("multilayer_constant", 0.85)):
         low, high = found[name].interval_95
         assert low <= true <= high
-    assert float(test.law()(0.5)) == pytest.approx(float(Gab(0.07, 12.0, 0.85)(0.5)), rel=0.02)
+    assert float(test.law("gab")(0.5)) == pytest.approx(float(Gab(0.07, 12.0, 0.85)(0.5)), rel=0.02)
 
 
 def test_residual_runs() -> None:

@@ -62,7 +62,7 @@ def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDr
          title="Water evaporated from a solid")  # fmt: skip
 def evaporation_rate(
     dry_solid_flow: MassFlow, moisture_dry_basis_inlet: MoistureDryBasis, moisture_dry_basis_outlet: MoistureDryBasis
-) -> Number:
+) -> MassFlow:
     """Water that a dryer takes from a flow of dry solid; negative where the solid leaves wetter.
 
     >>> evaporation_rate(dry_solid_flow=0.5, moisture_dry_basis_inlet=0.5, moisture_dry_basis_outlet=0.1)

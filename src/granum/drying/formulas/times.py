@@ -39,6 +39,13 @@ from granum.numerics import gauss_legendre
 
 Curve = Annotated[Any, Law("characteristic_rate")]
 NEVER = "Equilibrium is approached without end: dry to a moisture above it."
+WETTER = "The solid would end wetter than it starts. Moistures are per dry solid; percent wants its sign (25 %)."
+
+
+def _dries(start: Any, end: Any) -> Any:
+    """Whether moisture falls; says so where it does not."""
+    flags.impossible(end > start, end, "moisture_dry_basis_end", 0.0, start, WETTER)
+    return end <= start
 
 
 @formula(source="treybal1980, ch. 12", equation=r"N_c = \frac{h\,(T_g - T_h)}{L_v}",
@@ -92,7 +99,9 @@ def drying_time_constant_rate(
     >>> round(drying_time_constant_rate(21.5, 1.0, "1.51 kg/(m^2*hour)", 0.38, 0.25) / 3600, 2)
     1.85
     """
-    return dry_solid_mass / (area * drying_rate_constant) * (moisture_dry_basis_start - moisture_dry_basis_end)
+    dries = _dries(moisture_dry_basis_start, moisture_dry_basis_end)
+    t = dry_solid_mass / (area * drying_rate_constant) * (moisture_dry_basis_start - moisture_dry_basis_end)
+    return jnp.where(dries, t, jnp.nan)
 
 
 @formula(source="treybal1980, ch. 12; geankoplis2003, ch. 9",
@@ -111,13 +120,14 @@ def drying_time_falling_rate(
 ) -> Time:
     """Time below the critical moisture when the rate falls on a straight line to zero at equilibrium.
 
-    Water above the critical moisture leaves at the constant rate and takes no part: a start above it counts from the critical moisture.
+    Water above the critical moisture leaves at the constant rate and takes no part: a start or an end above it counts as the critical moisture.
 
     >>> round(drying_time_falling_rate(1.0, 1.0, 0.001, 0.2, 0.1, 0.2, 0.0), 2)
     138.63
     """
-    X1, X2, Xe = jnp.minimum(moisture_dry_basis_start, critical_moisture), moisture_dry_basis_end, equilibrium_moisture
-    possible = (Xe < X2) & (Xe < X1)
+    Xe = equilibrium_moisture
+    X1, X2 = (jnp.minimum(X, critical_moisture) for X in (moisture_dry_basis_start, moisture_dry_basis_end))
+    possible = (Xe < X2) & (Xe < X1) & _dries(moisture_dry_basis_start, moisture_dry_basis_end)
     ratio = jnp.where(possible, X1 - Xe, 1.0) / jnp.where(possible, X2 - Xe, 1.0)
     t = dry_solid_mass / (area * drying_rate_constant) * (critical_moisture - Xe) * jnp.log(ratio)
     flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
@@ -161,6 +171,7 @@ def drying_time(
     possible = (~falling) | (Xe < X2)
     ratio = jnp.where(falling & possible, upper - Xe, 1.0) / jnp.where(falling & possible, X2 - Xe, 1.0)
     flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
+    flags.limit_active(X2 > X1, X2, "moisture_dry_basis_end", WETTER)  # no time: what is dry enough passes a dryer as it is
     t2 = jnp.where(possible, scale * (Xc - Xe) * jnp.log(ratio), jnp.nan)
     return DryingTime(t1 + t2, t1 + 0.0 * t2, t2 + 0.0 * t1)
 
@@ -188,7 +199,7 @@ def drying_time_characteristic(
     """
     X1, X2, Xc, Xe = moisture_dry_basis_start, moisture_dry_basis_end, critical_moisture, equilibrium_moisture
     span = Xc - Xe
-    possible = (Xe < X2) & (span > 0)
+    possible = (Xe < X2) & (span > 0) & _dries(X1, X2)
     low = jnp.where(possible, jnp.clip((jnp.minimum(X2, Xc) - Xe) / jnp.where(span > 0, span, 1.0), 1e-9, 1.0), 1.0)
     high = jnp.clip((jnp.minimum(X1, Xc) - Xe) / jnp.where(span > 0, span, 1.0), 1e-9, 1.0)
     above = jnp.maximum(X1 - jnp.maximum(Xc, X2), 0.0)
