@@ -75,10 +75,11 @@ class IsothermTest(LabTest):
 
     def law(self, name: str = "") -> Any:
         """The fitted isotherm as a law, ready for a dryer."""
-        chosen = name or (self.model if self.model != "best" else self.ranking()[0][0].name)
+        found = self._fit_one(MODELS[name]) if name else self.fit()
+        chosen = name or (self.model if self.model != "best" else found.flags[-1]["name"])
         aw, X = np.asarray(self.water_activity), np.asarray(self.moisture_dry_basis)
         extra = {"moisture_half": float(np.interp(0.5, *_sorted(aw, X)))} if chosen == "iglesias_chirife" else {}
-        return MODELS[chosen](**self._fit_one(MODELS[chosen]).values, **extra)
+        return MODELS[chosen](**found.values, **extra)
 
 
 def _sorted(aw: np.ndarray, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

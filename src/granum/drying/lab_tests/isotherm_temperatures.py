@@ -110,10 +110,9 @@ class IsothermTemperatures(LabTest):
 
     def law(self) -> Any:
         """The fitted isotherm as a law, ready for a dryer."""
-        name = self.model if self.model != "best" else self.ranking()[0][0].name
-        found = self._fit_one(MODELS[name])
-        names = [*found.parameters]
-        return self.law_of(MODELS[name], {n: found.parameters[n].value for n in names if n != "isosteric_heat_net"})
+        found = self.fit()
+        name = self.model if self.model != "best" else found.flags[-1]["name"]
+        return self.law_of(MODELS[name], found.values)
 
     def clausius_clapeyron(self, count: int = 9) -> tuple[np.ndarray, np.ndarray]:
         """Moistures that every isotherm reaches, and the net isosteric heat there from the data alone: the slope of ln a over 1/T."""
