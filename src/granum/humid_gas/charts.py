@@ -76,7 +76,7 @@ class _Sheet:
         if len(T) < 2:
             return
         x, y = self.place(T, w)
-        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": color, "width": width, "dash": dash}, name=name,
+        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": color, "width": width, "dash": dash, "simplify": False}, name=name,
                                          legendgroup=name, showlegend=legend, hoverinfo="skip"))  # fmt: skip
 
     def label(self, T: np.ndarray, w: np.ndarray, text: str, color: str, at: float, size: int = 10, beyond: float = 0.0) -> None:
