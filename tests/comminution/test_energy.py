@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from granum.comminution.formulas import energy, machines, rowland, screening
 from granum.comminution.work_indices import work_index, work_indices
@@ -121,6 +122,23 @@ def test_rolls_and_critical_speed_of_textbook_examples() -> None:
     assert machines.rotation_speed_critical(1.2, gravity=9.81) == pytest.approx(4.04, abs=0.005)
     # ring per turn: circumference x width x gap
     assert machines.volume_flow_rolls(1.0, 0.4, 0.0125, 2 * np.pi, 1.0) == pytest.approx(np.pi * 0.4 * 0.0125, rel=1e-12)
+
+
+def test_rolls_are_found_from_feed_or_angle() -> None:
+    d = machines.feed_size_rolls(0.8, 0.008, 0.5)
+    assert machines.nip_angle_rolls(0.8, 0.008, d) == pytest.approx(0.5, rel=1e-9)
+    assert machines.roll_diameter_rolls(d, 0.008, 0.5) == pytest.approx(0.8, rel=1e-9)
+    assert machines.nip_angle_rolls(0.8, 0.008, 0.007) == 0.0
+    with pytest.raises(ApplicabilityError):
+        machines.roll_diameter_rolls(0.008, 0.008, 0.5)
+
+
+def test_filling_of_a_mill_is_the_segment_below_the_surface() -> None:
+    h = np.array([0.0, 0.75, 1.5, 2.25, 3.0])
+    areas = [quad(lambda y: 2 * np.sqrt(1.5**2 - (y - 1.5) ** 2), 0, 3.0 - x)[0] / (np.pi * 1.5**2) for x in h]
+    assert np.asarray(machines.mill_filling(3.0, h)) == pytest.approx(areas, abs=1e-8)
+    with pytest.raises(ApplicabilityError):
+        machines.mill_filling(3.0, 3.1)
 
 
 def test_screen_effectiveness_of_a_textbook_example() -> None:

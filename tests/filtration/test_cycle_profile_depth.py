@@ -131,3 +131,8 @@ def test_gas_filters_and_membranes_by_hand():
     # batch: c V = loss through the membrane: dc/dV = -R c/V
     assert me.concentration_retentate_batch(10, 5, 0.8) == pytest.approx(10 * 5**0.8)
     assert me.filtration_area_membrane(1e-3, 2e-5) == pytest.approx(50)
+    # solution and diffusion: solute carried off by the permeate, J c_p, is what diffuses through, B (c - c_p)
+    flux = me.filtrate_flux_permeance(3e6, 1e-11, me.osmotic_pressure(100.0, 2.0, 300.0))
+    assert flux == pytest.approx(1e-11 * (3e6 - 2 * 100.0 * 8.314462618 * 300.0))
+    passed = 1.0 - me.rejection_solution_diffusion(flux, 1e-6)
+    assert flux * passed == pytest.approx(1e-6 * (1.0 - passed))

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from granum.core.errors import ApplicabilityError, InputError
-from granum.particles.formulas import criteria, drag, drag_modern, drag_nonspherical, terminal_explicit
+from granum.particles.formulas import criteria, drag, drag_modern, drag_nonspherical, forces, terminal_explicit
 from granum.particles.formulas.terminal import terminal_diameter, terminal_velocity
 
 WATER = {"fluid_density": 998.0, "dynamic_viscosity": 1.002e-3}
@@ -187,3 +187,13 @@ def test_second_derivative_is_that_of_the_closed_form():
     d = 5e-3
     assert jax.grad(jax.grad(speed))(d) == pytest.approx(float(-speed(d) / (4 * d * d)), rel=1e-8)
     assert jnp.allclose(jax.jacfwd(speed)(d), jax.jacrev(speed)(d))
+
+
+def test_drag_carries_the_weight_at_the_terminal_velocity() -> None:
+    d = 1e-3
+    v = terminal_velocity(d, gravity=9.81, **SAND)
+    weight = np.pi / 6 * d**3 * (2650.0 - 998.0) * 9.81
+    assert forces.drag_force(d, v, **WATER) == pytest.approx(weight, rel=1e-9)
+    measured = forces.drag_coefficient_settling(d, v, 2650.0, 998.0, gravity=9.81)
+    assert measured == pytest.approx(drag_modern.drag_coefficient_brown_lawler(v * d * 998.0 / 1.002e-3), rel=1e-9)
+    assert forces.drag_force(d, 0.0, **WATER) == 0.0

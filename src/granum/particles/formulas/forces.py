@@ -31,8 +31,9 @@ def drag_force(
     4.29
     """
     eta, rho = dynamic_viscosity, fluid_density
-    Re = jnp.maximum(rho * velocity * particle_diameter / eta, LEAST)
-    return jnp.pi / 8.0 * eta**2 / rho * drag_of_shape(drag, sphericity)(Re) * Re**2
+    Re = rho * velocity * particle_diameter / eta
+    moving = jnp.maximum(Re, LEAST)
+    return jnp.pi / 8.0 * eta**2 / rho * drag_of_shape(drag, sphericity)(moving) * moving * Re
 
 
 @formula(source="clift1978, chapter 5", equation=r"C_D = \frac{4 g d_p |\rho_p - \rho_f|}{3\,\rho_f v_t^2}", output="drag_coefficient")
