@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from granum.core.errors import ApplicabilityError, InputError
-from granum.drying.formulas import diffusion, heat, times
+from granum.drying.formulas import atomizers, diffusion, heat, times
 from granum.drying.formulas.characteristic import HyperbolicCurve, PowerCurve
 from granum.drying.lab_tests.curve import DryingCurve
 from granum.drying.lab_tests.isotherm import IsothermTest
@@ -180,3 +180,12 @@ def test_impinging_jets_of_an_array_lie_near_those_of_a_single_nozzle() -> None:
         assert heat.nusselt_number_impinging(Re, 0.7, f, H) == pytest.approx(single, rel=0.3)
     # by hand, textbook form: G = 2 √f (1 − 2.2 √f)/(…), F = 0.5 Re^⅔
     assert heat.nusselt_number_impinging(1e4, 0.7, 0.02, 6.0) == pytest.approx(0.896 * 0.1948 * 0.5 * 464.2 * 0.861, rel=2e-3)
+
+
+def test_quantities_that_have_units_take_them() -> None:
+    # d² law by hand: 1000·2.4e6·1e-8/(8·0.026·60); the film of a Treybal tray; 0.556e-10 f ε'' E² of Metaxas and Meredith
+    drop = atomizers.drying_time_droplet("100 um", "60 kelvin", thermal_conductivity="0.026 W/(m*K)", heat_of_vaporization="2400 kJ/kg")
+    assert drop == pytest.approx(1.923, rel=1e-3)
+    film = times.heat_flux_combined(30.0, "65 degC", "39 degC", "39 degC", conduction_coefficient="14.5 W/(m^2*K)")
+    assert film == pytest.approx(44.5 * 26)
+    assert heat.dielectric_power_density("2.45 GHz", 1.0, "1 kV/cm") == pytest.approx(0.556e-10 * 2.45e9 * 1e10, rel=1e-3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Annotated
 
 import jax.numpy as jnp
 
@@ -16,8 +17,13 @@ from granum.core.kinds import (
     PositiveNumber,
     PressureDifference,
     RotationSpeed,
+    SpecificEnergy,
     Speed,
     SurfaceTension,
+    TemperatureDifference,
+    ThermalConductivity,
+    Time,
+    Within,
 )
 
 RPM = 2.0 * pi / 60.0
@@ -162,12 +168,12 @@ def droplet_diameter_nukiyama_tanasawa(
 )  # fmt: skip
 def drying_time_droplet(
     droplet_diameter: Length,
-    temperature_difference: PositiveNumber,
+    temperature_difference: Annotated[TemperatureDifference, Within(0.0)],
     droplet_diameter_end: Length = 1e-9,
     density: Density = 1000.0,
-    thermal_conductivity: PositiveNumber = 0.026,
-    heat_of_vaporization: PositiveNumber = 2.4e6,
-) -> PositiveNumber:
+    thermal_conductivity: ThermalConductivity = 0.026,
+    heat_of_vaporization: SpecificEnergy = 2.4e6,
+) -> Time:
     """Time to evaporate a still drop of solvent from one diameter to another, heat conducted through the gas (Nusselt number 2).
 
     By hand: 100 µm, 60 K: 1000 · 2.4e6 · 1e-8/(8 · 0.026 · 60) = 1.92 s.

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT, STANDARD_GRAVITY
 from granum.core.kinds import (
+    Distance,
     Fraction,
     HeatCapacity,
     HeatTransferCoefficient,
@@ -41,7 +42,7 @@ def heat_transfer_coefficient_wall_particles(
     temperature: Temperature,
     pressure: Pressure,
     thermal_conductivity: ThermalConductivity = 0.024,
-    roughness: Ratio = 0.0,
+    roughness: Distance = 0.0,
     emissivity: Fraction = 0.8,
     accommodation: Fraction = 0.9,
 ) -> HeatTransferCoefficient:

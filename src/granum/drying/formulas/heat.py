@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )  # fmt: skip
+from granum.drying.quantities import ElectricField, PowerDensity, ThermalEffusivity
 
 HOUR = 3600.0
 
@@ -139,7 +140,7 @@ def heat_transfer_coefficient_series(
 @formula(source="mollekopf1984", equation=r"h_{bed} = \frac{2}{\sqrt\pi}\sqrt{\frac{\rho\,c\,\lambda}{t_R}}",
          typical={"thermal_effusivity": (200.0, 600.0), "contact_time": (1.0, 60.0)},
          title="Contact drying, penetration of heat into a bed", output="heat_transfer_coefficient")  # fmt: skip
-def heat_transfer_coefficient_penetration(thermal_effusivity: PositiveNumber, contact_time: Time) -> HeatTransferCoefficient:
+def heat_transfer_coefficient_penetration(thermal_effusivity: ThermalEffusivity, contact_time: Time) -> HeatTransferCoefficient:
     """Mean coefficient of a bed that rests for a time on a hot wall before it is mixed; effusivity √(ρ c λ) in J/(m² K s^½).
 
     >>> round(heat_transfer_coefficient_penetration(400.0, 16.0), 2)
@@ -178,7 +179,7 @@ def heat_duty_radiation(
 @formula(source="metaxas1983", equation=r"P''' = 2\pi f\,\varepsilon_0\,\varepsilon''\,E^2",
          typical={"frequency": (1e7, 3e9), "loss_factor": (0.1, 15.0), "electric_field": (1e3, 1e5)},
          title="Dielectric heating, power per volume")  # fmt: skip
-def dielectric_power_density(frequency: Frequency, loss_factor: PositiveNumber, electric_field: PositiveNumber) -> PositiveNumber:
+def dielectric_power_density(frequency: Frequency, loss_factor: PositiveNumber, electric_field: ElectricField) -> PowerDensity:
     """Heat set free per volume (W/m³) by an alternating field (rms, V/m) in a product of given loss factor: radio waves and microwaves.
 
     Metaxas and Meredith: 0.556e-10 f ε'' E².

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.kinds import Fraction, Length, MassFlux, Number, PositiveNumber, RotationSpeed, Speed, Time
+from granum.drying.quantities import VolumetricHeatTransfer
 
 RPM = 2.0 * pi / 60.0
 MINUTE, MICRON = 60.0, 1e-6
@@ -86,7 +87,7 @@ def residence_time_saeman_mitchell(
 )
 def volumetric_heat_transfer_rotary(
     gas_mass_flux: MassFlux, diameter: Length, transfer_constant: PositiveNumber = 237.0, transfer_exponent: PositiveNumber = 0.67
-) -> PositiveNumber:
+) -> VolumetricHeatTransfer:
     """Heat from gas to cascading solid per volume of drum and kelvin, W/(m³ K); the constant is that of Treybal, Coulson and Richardson print 250.
 
     McCormick found exponents between 0.46 and 0.67 and constants that grow with the number of flights.
