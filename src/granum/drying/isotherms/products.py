@@ -23,6 +23,8 @@ def _declare(name: str, row: dict[str, Any]) -> type:
     if "celsius" in row:
         ranges_of_data["temperature"] = tuple(t + ZERO_CELSIUS for t in row["celsius"])
 
+    key = f"drying.isotherm_{name}"
+
     @law("isotherm", name=f"isotherm_{name}", source=row["source"], title=f"Isotherm of {row['en']}")
     class Product(AbstractIsotherm):
         """Sorption isotherm of a product with the constants of its source, over temperature."""
@@ -33,7 +35,7 @@ def _declare(name: str, row: dict[str, Any]) -> type:
         def __call__(self, water_activity: WaterActivity, temperature: Temperature = ROOM) -> MoistureDryBasis:
             for name, value in (("water_activity", water_activity), ("temperature", temperature)):
                 low, high = self.ranges.get(name, (-jnp.inf, jnp.inf))
-                flags.record(flags.EXTRAPOLATED, (low > value) | (high < value), value, name, self.card.key, low, high, self.card.source)
+                flags.record(flags.EXTRAPOLATED, (low > value) | (high < value), value, name, key, low, high, row["source"])
             return self.moisture(water_activity, temperature)
 
         def moisture(self, a: Any, T: Any) -> Any:
