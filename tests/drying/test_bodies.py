@@ -11,6 +11,7 @@ from granum.drying.formulas import diffusion
 from granum.drying.formulas.moisture import equilibrium_moisture, moisture_wet_basis
 from granum.drying.formulas.storage import moisture_for_storage, water_activity_margin
 from granum.drying.isotherms.adsorption import Gab
+from granum.drying.isotherms.grains import ChungPfost
 from granum.drying.isotherms.products import PRODUCTS
 from granum.humid_gas.formulas.transport import transport
 
@@ -62,6 +63,8 @@ def test_products_against_works_that_quote_or_measured_them_too() -> None:
     # second form of ASAE D245, M = E - F ln[-(t + C) ln a], as opened in open firmware: maize and rice
     for name, E, F, C in (("maize", 0.3387, 0.0590, 30.205), ("rice", 0.2939, 0.0460, 35.703)):
         assert float(PRODUCTS[name]().moisture(0.7, 298.15)) == pytest.approx(E - F * np.log(-(25 + C) * np.log(0.7)), rel=2e-3)
+    # later edition, B per percent, and the extension tables drawn from it: maize at 60 °F and 80 % keeps 16.1 %, wet basis
+    assert moisture_wet_basis(float(ChungPfost(374.34, 18.662, 31.696).moisture(0.8, 288.706))) == pytest.approx(0.161, abs=5.1e-4)
     # extension table of the standard, wet basis: soybeans at 25 % and 1.7, 10, 21.1, 37.8 °C, then 80 and 30 %
     beans = PRODUCTS["soybean"]()
     a, t = np.array([0.25, 0.25, 0.25, 0.25, 0.8, 0.3]), np.array([1.7, 10.0, 21.1, 37.8, 15.556, 10.0])

@@ -54,6 +54,8 @@ class HendersonModified(_Called):
 class ChungPfost(_Called):
     """Chung and Pfost's potential theory, modified with a temperature offset; moisture as a mass ratio.
 
+    The standard's later editions print B for moisture in percent: a hundred times it is the exponent here.
+
     >>> corn = ChungPfost(isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205)
     >>> round(float(corn(0.7, 298.15)), 3)
     0.163
