@@ -11,6 +11,7 @@ from granum.humid_gas.formulas import processes as p
 from granum.humid_gas.formulas.properties import enthalpy_linear, humidity_ratio_saturated, wet_bulb_temperature
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.solvents import AirToluene, GasAndVapor, NitrogenEthanol
+from granum.materials import gas_vapor
 
 C = 273.15
 
@@ -86,3 +87,16 @@ def test_charts() -> None:
             assert max(values) < axis.range[1]
     with pytest.raises(InputError):
         psychrometric_chart(temperature=[300.0], humidity_ratio=[0.01, 0.02])
+
+
+def test_lewis_factors_rest_on_diffusivities_and_psychrometers() -> None:
+    # measured in air, m² Pa/s (Welty, Wicks and Wilson, in Benitez, table A.1); Fuller's estimate is good for 5 to 10 %
+    measured = {"toluene": (298, 0.855), "ethanol": (298, 1.337), "methanol": (298, 1.641), "benzene": (298, 0.974),
+                "ethyl acetate": (273, 0.718), "water": (298, 2.634)}  # fmt: skip
+    for vapor, (T, product) in measured.items():
+        assert float(gas_vapor(vapor, "dry air").diffusivity(T, 1e5)) * 1e5 == pytest.approx(product, rel=0.08), vapor
+    # ratio of the coefficients over the heat capacity of the gas: toluene in air 1223 Sc^0.567 J/(kg K) with Sc 2.0 (Treybal, illustration
+    # 7.10), 1.73 (Benitez, 8.6); water in air 0.95 kJ/(kg K) (Treybal, 7.9)
+    assert AirToluene().lewis_factor() == pytest.approx(1223 * 2.0**0.567 / 1005, rel=0.03)
+    assert AirToluene().lewis_factor() == pytest.approx(1.73, rel=0.03)
+    assert GasAndVapor(gas="dry air", vapor="water").lewis_factor() == pytest.approx(0.95 / 1.005, rel=0.05)
