@@ -159,9 +159,12 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     rates = [float(law.rate(wet)[0, 0]) for law in laws[:3]]
     assert rates[0] == pytest.approx(rates[1], rel=1e-6)
     assert rates[0] == pytest.approx(rates[2], rel=1e-3)
-    # Page with n = 1 is Newton: the rate is k (X − X_e)
-    newton = laws[3].rate(wet._replace(moisture=0.5 * one))
+    # Page with n = 1 is Newton: the rate is k (X − X_e), where the film does not bound it
+    newton = laws[3].rate(wet._replace(moisture=0.5 * one, exchange=1e3 * one))
     assert float(newton[0, 0]) == pytest.approx(1e-3 * (0.5 - float(laws[3].equilibrium(wet)[0, 0])), rel=1e-6)
+    assert float(laws[3].rate(wet)[0, 0]) == pytest.approx(float(wet.film_rate()[0, 0]))
+    cold = Meeting(0.5 * one, 283.0 * one, 300.0 * one, 0.02 * one, one, MATTER)  # dew point 24.7 °C
+    assert float(laws[3].rate(cold)[0, 0]) < 0.0
 
 
 def test_a_dynamic_dryer_is_quick() -> None:

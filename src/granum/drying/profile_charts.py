@@ -52,10 +52,14 @@ def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> An
 
     ``time``: residence time, to draw over it instead of the place.
     """
+    return drawn_profile(dryer.profile(feed, gas), time)
+
+
+def drawn_profile(found: Profile, time: Any = None) -> Any:
+    """A profile as a chart."""
     from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
     from granum.core.units import pretty_unit
 
-    found: Profile = dryer.profile(feed, gas)
     shares, X, T = (np.asarray(v) for v in (found.shares, found.moisture, found.temperature))
     x = np.asarray(found.place) * (1.0 if time is None else float(time) / 60.0)
     label = axis_title("place") if time is None else f"{_('time in the dryer')} / {pretty_unit('min')}"
@@ -68,4 +72,16 @@ def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> An
     if np.ptp(last, axis=1).max() > 1e-3 * last.max():
         add_line(drawing, x, last.max(axis=1), _("wettest class"), color=LIQUID, dash="dot", width=1, yaxis="y2")
         add_line(drawing, x, last.min(axis=1), _("driest class"), color=LIQUID, dash="dashdot", width=1, yaxis="y2")
+    return drawing
+
+
+def contact_chart(time: Any, moisture: Any, temperature: Any) -> Any:
+    """Moisture and temperature of an agitated bed over its time on the wall, s."""
+    from granum.core.charts import LIQUID, SOLID, add_line
+    from granum.core.units import pretty_unit
+
+    x = np.asarray(time) / 60.0
+    drawing = _drawn(x, _("Profiles in a dryer"), f"{_('time in the dryer')} / {pretty_unit('min')}")
+    add_line(drawing, x, np.asarray(temperature) - ZERO, _("solid temperature"), color=SOLID)
+    add_line(drawing, x, np.asarray(moisture), _("moisture"), color=LIQUID, dash="dash", yaxis="y2")
     return drawing

@@ -83,7 +83,9 @@ def _fit_sheets(run: Any) -> list[dict[str, Any]]:
 
 
 def size_chart(run: Any) -> Any:
-    """Cumulative size distributions of the streams that carry solid."""
+    """Cumulative size distributions of the streams that carry solid; None where there is one size."""
+    if all(len(stream.mixture.sizes) < 2 for stream in run.streams.values()):
+        return None
     figure = charts.figure(charts.axis_title("particle_diameter", "um"), _("cumulative mass / %"), x_log=True)
     drawn = 0
     for name, stream in run.streams.items():
@@ -125,6 +127,9 @@ def _charts(run: Any) -> list[tuple[str, str]]:
         _("Run in time"): course_chart(run),
         _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
     }
+    for name in run.sheet.order:
+        inside = run.sheet.units[name].charts(run.sheet.inlets_of(name, run.streams))
+        found |= {f"{name} · {heading}": figure for heading, figure in inside.items()}
     drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
     return [
         (heading, figure.to_html(full_html=False, include_plotlyjs=i == 0, config={"displaylogo": False}))

@@ -51,6 +51,10 @@ class Unit(eqx.Module):
         """Practical limits; none by default."""
         return ()
 
+    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        """Pictures of what happens inside, by their heading, for the report; none by default."""
+        return {}
+
     @classmethod
     def inlet_names(cls) -> tuple[str, ...] | None:
         """Names of the inlet ports; None when any number of any name is taken (a mixer)."""

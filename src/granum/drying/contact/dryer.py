@@ -153,6 +153,11 @@ class Dryer(Unit):
             rows.append(Check("product temperature over its limit", beyond, -jnp.inf, 0.0, "delta_degC", "keey1978"))
         return (*rows, *self.ranges(inlets, outlets, figures))
 
+    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        from granum.drying.profile_charts import drawn_profile
+
+        return {_("Profiles in a dryer"): drawn_profile(self.profile(**inlets))}
+
     def hourly(self, figures: DryerFigures) -> Any:
         """Water evaporated per volume or area and hour, kg."""
         return figures.evaporation_rate * 3600.0 / self.extent()

@@ -178,6 +178,8 @@ class ReactionKinetics(AbstractKinetics):
 class ThinLayerKinetics(AbstractKinetics):
     """Slope of a thin-layer curve at the moisture ratio reached, towards the equilibrium of the local gas; Arrhenius factor on gas temperature.
 
+    It never exceeds the film's evaporation from a wet surface, which turns to condensation where the gas is beyond saturation for the solid.
+
     >>> from granum.drying.thin_layers.exponential import Page
     >>> float(ThinLayerKinetics(Page(1e-4, 1.0), 0.3)())
     0.3
@@ -204,7 +206,9 @@ class ThinLayerKinetics(AbstractKinetics):
         t = jnp.exp(jnp.where(jnp.isfinite(s), s, 0.0))
         fall = jax.jvp(layer.ratio, (t,), (jnp.ones_like(t),))[1]
         faster = jnp.exp(self.diffusion_activation_energy / GAS_CONSTANT * (1.0 / self.reference_temperature - 1.0 / at.gas_temperature))
-        return (at.moisture - low) * jnp.where(jnp.isfinite(s), -fall / ratio, 0.0) * faster
+        thin = (at.moisture - low) * jnp.where(jnp.isfinite(s), -fall / ratio, 0.0) * faster
+        # no more than a wet surface gives: cold grain in moist air does not dry on, it is wetted
+        return jnp.minimum(thin, at.film_rate())
 
 
 @law("drying_kinetics", name="kinetics_diffusion", source="crank1975; keey1978", title="Kinetics, diffusion in a sphere and film in series",

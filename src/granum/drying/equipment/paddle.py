@@ -34,6 +34,7 @@ from granum.drying.contact.dryer import ready
 from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import contact_time_mixing, heat_transfer_coefficient_wall_particles, penetration_drying
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
+from granum.drying.profile_charts import contact_chart
 from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
@@ -231,6 +232,10 @@ class PaddleDryer(Unit):
             temperature_product=bed.temperature[-1],
             energy_per_water=safe_divide(outlets.heat_duty, water),
         )
+
+    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+        bed = self.curve(inlets["feed"])
+        return {_("Profiles in a dryer"): contact_chart(bed.time, bed.moisture, bed.temperature)}
 
     def checks(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> tuple[Check, ...]:
         figures = self.results(inlets, outlets)
