@@ -106,7 +106,7 @@ class Motion(eqx.Module):
         state, left = states[i], lax.stop_gradient(target - deep[i])
         last = i >= KNOTS
         longest = jnp.where(last, 2.0 * left * self.speed / self.terminal + 1.0, times[jnp.minimum(i + 1, KNOTS)] - times[i])
-        step = find_root(lambda h: side * self.after(state, h)[1] - target, 0.0, longest).value
+        step = find_root(lambda h: side * self.after(state, h)[1] - target, 0.0, longest, tolerance=1e-14).value
         return self.in_si(self.after(state, step)), (times[i] + step) * self.relaxation
 
     def in_si(self, state: Any) -> Any:
