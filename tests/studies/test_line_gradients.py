@@ -68,6 +68,8 @@ def test_every_derivative_equals_differences(outputs, along, value) -> None:
             difference = (two - 8.0 * one + 8.0 * fore - aft) / (12.0 * h)
             # an elasticity below 0.01 is compared to 1e-8 of the figure: the rounding of the differences is not smaller
             miss = np.minimum(miss, np.abs(exact - difference) / np.maximum(np.abs(difference), 1e-2 * np.abs(figures) + 1e-30))
+            if np.all((miss < 1e-6) | nothing):
+                break
         far += [(INPUTS[i], outputs[j], miss[j]) for j in np.flatnonzero(~(miss < 1e-6) & ~nothing)]
     assert not far
     assert nothing.sum() <= 2
