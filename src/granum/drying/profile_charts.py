@@ -48,7 +48,7 @@ def drying_profile_chart(
 
 
 def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> Any:
-    """The profile of a dryer in steady state: means over the classes of solid, with the driest and the wettest class where they differ.
+    """The profile of a dryer in steady state: means over the classes of solid, with the driest and the wettest of them where they differ.
 
     ``time``: residence time, to draw over it instead of the place.
     """
@@ -70,8 +70,8 @@ def drawn_profile(found: Profile, time: Any = None) -> Any:
     some = np.flatnonzero(shares > 1e-6)
     last = X[:, some]
     if np.ptp(last, axis=1).max() > 1e-3 * last.max():
-        add_line(drawing, x, last.max(axis=1), _("wettest class"), color=LIQUID, dash="dot", width=1, yaxis="y2")
-        add_line(drawing, x, last.min(axis=1), _("driest class"), color=LIQUID, dash="dashdot", width=1, yaxis="y2")
+        add_line(drawing, x, last.max(axis=1), _("wettest part"), color=LIQUID, dash="dot", width=1, yaxis="y2")
+        add_line(drawing, x, last.min(axis=1), _("driest part"), color=LIQUID, dash="dashdot", width=1, yaxis="y2")
     return drawing
 
 

@@ -129,7 +129,7 @@ def _charts(run: Any) -> list[tuple[str, str]]:
     }
     for name in run.sheet.order:
         inside = run.sheet.units[name].charts(run.sheet.inlets_of(name, run.streams))
-        found |= {f"{name} · {heading}": figure for heading, figure in inside.items()}
+        found |= {f"{name} · {heading}": figure.update_layout(title_text="", margin_t=30) for heading, figure in inside.items()}
     drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
     return [
         (heading, figure.to_html(full_html=False, include_plotlyjs=i == 0, config={"displaylogo": False}))
