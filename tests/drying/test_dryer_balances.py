@@ -232,6 +232,8 @@ def test_heat_pump_and_direct_firing():
     back = gr.humid_gas.combustion_gas(0.749, 0.251, 50e6, gas.excess_air_ratio, temperature="20 degC", humidity_ratio=0.008)
     assert back.temperature == pytest.approx(673.15, abs=0.01)
     assert back.humidity_ratio == pytest.approx(gas.humidity_ratio_inlet, rel=1e-6)
+    # Coulson and Richardson's example 16.6 takes gas at 811 K with 0.036 kg/kg: methane in air with 0.01
+    assert s.direct_firing(811.0, 380.0, humidity_ratio_fresh=0.01).humidity_ratio_inlet == pytest.approx(0.036, rel=0.01)
     with pytest.raises(ApplicabilityError, match="without excess air"):
         s.direct_firing("2500 degC", "100 degC")
 
