@@ -69,6 +69,9 @@ def test_products_against_works_that_quote_or_measured_them_too() -> None:
     beans = PRODUCTS["soybean"]()
     a, t = np.array([0.25, 0.25, 0.25, 0.25, 0.8, 0.3]), np.array([1.7, 10.0, 21.1, 37.8, 15.556, 10.0])
     np.testing.assert_allclose(moisture_wet_basis(beans.moisture(a, t + 273.15)), [0.059, 0.057, 0.055, 0.052, 0.1825, 0.063], atol=5.1e-4)
+    # wheat, wet basis, to half a percent between varieties: 14.5 % at 20 °C and 70 % (a store's handbook), 10.8 % at 90 °F and 50 % (Kentucky, soft red)
+    wheat = moisture_wet_basis(PRODUCTS["wheat"]().moisture(np.array([0.7, 0.5]), np.array([293.15, 305.372])))
+    np.testing.assert_allclose(wheat, [0.145, 0.108], atol=5e-3)
     # other hands at 25 °C: Sun (2008), Avicel PH102; Roos and Karel, amorphous lactose, of which Roos (2002) gives 6.8 g/100 g at 37 %
     a = np.array([0.2, 0.37, 0.5])
     np.testing.assert_allclose(
