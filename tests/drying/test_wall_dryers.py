@@ -162,7 +162,8 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     line = gr.read(EXAMPLES / "paddle.toml")
     unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
     inlets = {"feed": feed}
-    figures = unit.results(inlets, unit(feed))
+    with sharing():
+        figures = unit.results(inlets, unit(feed))
     X, capacity = 7 / 3, float(unit._heat(feed)[3])
     held = (capacity + X * 4187.0) / (1.0 / float(feed.solid_density) + X / 958.0)
     h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 
@@ -39,7 +40,7 @@ from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
-from granum.numerics import find_root, safe_divide
+from granum.numerics import Root, find_root, safe_divide
 from granum.streams.sharing import shared
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
@@ -114,23 +115,18 @@ class PaddleDryer(Unit):
     def rate(cls, area: Any, feed: Stream, **parameters: Any) -> PaddleDryer:
         """The dryer with the moisture to which a heated area dries; its other parameters by name."""
 
-        def dryer(X: Any) -> PaddleDryer:
-            return cls(moisture_outlet=X, **parameters)
-
-        def lack(x: Any) -> Any:
-            return jnp.log(dryer(jnp.exp(x)).area(feed) / area)
-
+        dryer = cls(moisture_outlet=DRIEST, **parameters)
         wettest = float(safe_divide(feed.liquid[0], feed.solid_flow))
-        root = ready(lambda: find_root(lack, jnp.log(DRIEST), jnp.log(wettest), tolerance=1e-13))()
+        root = _driest(jnp.asarray(float(area)), feed, dryer)
         if not bool(root.converged):
-            least, most = float(dryer(wettest).area(feed)), float(dryer(DRIEST).area(feed))
+            least, most = (float(eqx.tree_at(_moisture, dryer, X).area(feed)) for X in (wettest, DRIEST))
             raise ApplicabilityError(
                 _("An area of {value} m² does not fit this feed: warming it takes {low} m², drying it wholly {high} m².").format(
                     value=format_number(float(area), 3), low=format_number(least, 3), high=format_number(most, 3)
                 ),
                 name="area",
             )
-        return dryer(float(jnp.exp(root.value)))
+        return eqx.tree_at(_moisture, dryer, float(jnp.exp(root.value)))
 
     def area(self, feed: Stream) -> Any:
         """Heated area that the feed needs, m²: to warm it to boiling, by the wall and what lies on it, and to dry it."""
@@ -247,3 +243,18 @@ class PaddleDryer(Unit):
         if self.temperature_limit is not None:
             found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)
+
+
+def _moisture(dryer: PaddleDryer) -> Any:
+    return dryer.moisture_outlet
+
+
+@ready
+def _driest(area: Any, feed: Stream, dryer: PaddleDryer) -> Root:
+    """Logarithm of the moisture to which an area dries."""
+
+    def lack(x: Any) -> Any:
+        return jnp.log(eqx.tree_at(_moisture, dryer, jnp.exp(x)).area(feed) / area)
+
+    wettest = jnp.log(safe_divide(feed.liquid[0], feed.solid_flow))
+    return find_root(lack, jnp.log(DRIEST), wettest, tolerance=1e-13)
