@@ -26,7 +26,7 @@ def test_closes(name: str) -> None:
 
 
 def test_primary_clarifier_removes_what_plants_remove() -> None:
-    """Metcalf and Eddy (2003), section 5-7: 50 to 70 % of the suspended solids."""
+    """Lin, Water and Wastewater Calculations Manual: 50 to 60 % of the suspended solids and 90 to 95 % of those that settle, so 50 to 70 %."""
     line = run("sewage-sludge")
     assert 0.5 < line.figure("clarifier.removal_efficiency") < 0.7
     assert float(line.streams["dry_sludge"].moisture_dry_basis) < 0.111
@@ -36,10 +36,10 @@ def test_primary_clarifier_removes_what_plants_remove() -> None:
 
 
 def test_circulating_load_of_a_grinding_circuit() -> None:
-    """Wills and Finch (2016): 150 to 400 % of the new feed, commonly 250 %; Bond's law for the energy within a third."""
+    """100 to 350 % of the new feed in plants, 250 % in the test of Bond; his law for the energy within a third."""
     line = run("ore-grinding")
     load = float(line.streams["coarse"].solid_flow / line.streams["ore"].solid_flow)
-    assert 1.5 < load < 4.0
+    assert 1.5 < load < 3.5
     from granum.comminution.equipment.screens import size_passing
 
     f80, p80 = (float(size_passing(line.streams[n])) * 1e6 for n in ("ore", "fine"))
@@ -59,9 +59,10 @@ def test_batch_yield_is_that_of_the_solubilities() -> None:
 def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
     """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery (Mujumdar 2014)."""
     line = run("starch-drying")
-    assert 3e6 < line.figure("dryer.energy_per_water") < 5e6
+    assert 3e6 < line.figure("heater.heat_duty") / line.figure("dryer.evaporation_rate") < 5e6
     assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
-    assert float(line.streams["starch"].moisture_dry_basis) == pytest.approx(0.14, rel=1e-6)
+    assert 0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16  # of storage; 8 to 14 % of the whole
+    assert {c.name for c in line.units["dryer"].checks if not c.ok} == {"gas temperature at the outlet"}
 
 
 def test_start_up_ends_in_the_steady_states() -> None:
