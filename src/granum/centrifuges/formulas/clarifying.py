@@ -194,7 +194,7 @@ def volume_flow_centrifuge(
     """Flow at which a centrifuge catches a size; the way back from the cut size, with the same conventions.
 
     >>> round(volume_flow_centrifuge("0.746 um", 196.3, 1461, 801, 0.1, flow_multiple=2.0) * 3600, 6)
-    0.00283
+    0.002828
     """
     excess = jnp.maximum(jnp.asarray(particle_density) - fluid_density, 0.0)
     velocity = particle_diameter**2 * excess * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)

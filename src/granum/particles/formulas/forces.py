@@ -28,7 +28,7 @@ def drag_force(
     The diameter is that of the sphere of equal volume.
 
     >>> round(1e6 * drag_force(particle_diameter="1 mm", velocity="0.1 m/s", fluid_density=1000, dynamic_viscosity="1 cP"), 2)
-    4.29
+    4.21
     """
     eta, rho = dynamic_viscosity, fluid_density
     Re = rho * velocity * particle_diameter / eta
