@@ -29,6 +29,7 @@ from granum.numerics.smooth import safe_divide, safe_log
 
 NOT_SATURATED = "The solution is not saturated at the end: no crystals form."
 NO_LIQUOR = "No mother liquor would be left: too much solvent is evaporated, or the hydrate takes more of it than there is."
+COLD_GIVES_MORE = "Without any evaporation more than this yield crystallizes."
 HYDRATE_DISSOLVED = (
     "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water becomes one of anhydrous solute with "
     "'crystallization.solute_per_solvent_from_hydrate'."
@@ -202,6 +203,7 @@ def evaporation_for_yield(
     """
     x_L = solubility_per_solvent / (1.0 + solubility_per_solvent)
     left = 1.0 - solute_mass_fraction * (yield_fraction / solute_fraction_of_crystal + (1.0 - yield_fraction) / x_L)
+    impossible(left < 0, mass_flow * left, "evaporation", reason=COLD_GIVES_MORE)
     return jnp.where(left >= 0, mass_flow * left, jnp.nan)
 
 

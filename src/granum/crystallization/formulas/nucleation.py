@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import formula, law
+from granum.core import formula, impossible, law
 from granum.core.constants import AVOGADRO, BOLTZMANN
 from granum.core.kinds import (
     Angle,
@@ -155,6 +155,7 @@ def supersaturation_ratio_nucleation(
     1.00791
     """
     below = (nucleation_rate > 0) & (nucleation_rate < nucleation_preexponential)
+    impossible(~below, nucleation_rate, "nucleation_rate", 0.0, nucleation_preexponential)
     exponent = safe_log(nucleation_preexponential / jnp.where(below, nucleation_rate, 0.5 * nucleation_preexponential))
     v = molecular_volume(crystal_density, molar_mass)
     at_one = _barrier(1.0, interfacial_energy, v, temperature, ions_per_formula, heterogeneous_factor)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import PositiveNumber, Temperature
 from granum.crystallization.kinds import PositiveMolarEnergy
 
 _TYPICAL = {"enthalpy_of_fusion": (2.5e4, 2.7e4), "enthalpy_of_fusion_other": (2.9e4, 3.2e4), "melting_temperature": (455.0, 465.0),
             "melting_temperature_other": (440.0, 450.0), "temperature": (280.0, 320.0)}  # fmt: skip
+
+NO_TRANSITION = "With these heats of fusion and melting points one form is more soluble at every temperature: there is no transition."
 
 
 @formula(
@@ -62,4 +64,5 @@ def temperature_transition_polymorphs(
     H, Hother = enthalpy_of_fusion, enthalpy_of_fusion_other
     entropy = Hother / melting_temperature_other - H / melting_temperature
     crossing = (Hother - H) / jnp.where(entropy == 0, jnp.nan, entropy)
+    impossible(~(crossing > 0), crossing, "temperature", reason=NO_TRANSITION)
     return jnp.where(crossing > 0, crossing, jnp.nan)

@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import (
     Fraction,
@@ -108,6 +108,7 @@ def dry_gas_flow_evaporation(
     2284
     """
     gain = humidity_ratio_outlet - humidity_ratio_inlet
+    impossible(~(gain > 0), humidity_ratio_outlet, "humidity_ratio_outlet", humidity_ratio_inlet, jnp.inf)
     return evaporation_rate / jnp.where(gain > 0, gain, jnp.nan)
 
 
