@@ -58,7 +58,7 @@ def test_a_load_on_trays_over_time():
         figures = unit.results(inlets, unit(**inlets))
     Tw = float(figures.surface_temperature)
     feed = feed.replace(temperature=Tw)  # nothing is left to warm
-    load = unit.batch(feed, gas, cells=12, steps=40)
+    load = unit.batch(feed, gas, cells=6, steps=150)
     matter, w = Matter.of(feed, gas), float(figures.humidity_ratio)
     through = float(load.dry_gas)
     X, T = np.asarray(load.moisture), np.asarray(load.temperature)
