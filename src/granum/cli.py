@@ -207,7 +207,9 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
         if case.suffix == ".toml" or case.exists():
             for option, given in of_card.items():
                 if given:
-                    raise InputError(_("--{option} is of a card: the file says it in its [study] tables.").format(option=option.rstrip("s")))
+                    raise InputError(
+                        _("--{option} is of a card: the file says it in its [study] tables.").format(option=option.rstrip("s"))
+                    )
             text, wanted = text_of(case), names or []
             known = studies_of_text(text, folder=case.parent, name=case.name)
         else:
