@@ -45,7 +45,7 @@ NETWORKS = {"co": Network.co_current, "counter": Network.counter_current, "cross
 @pytest.mark.parametrize("name", NETWORKS)
 def test_steady_state_conserves_water_and_energy(name: str) -> None:
     def solve(units):
-        core = contact(12, NETWORKS[name](12), units, heat_loss=500.0, wall_exchange=0.05, wall_temperature=400.0, solid_dispersion=0.3)
+        core = contact(12, NETWORKS[name](12), units, heat_loss=500.0, wall_exchange=0.05, wall_temperature=400.0)
         return core.steady(INLET)
 
     found = jax.jit(solve)(2.0)

@@ -8,6 +8,7 @@ import pytest
 from granum.core.errors import GranumError
 from granum.drying.contact.kinetics import SurfaceKinetics
 from granum.drying.equipment.atomizers import GivenDrops
+from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.streams.audit import closure
@@ -18,6 +19,7 @@ SALT = mixture_of(["water", "potassium nitrate"], ["quartz", "potassium nitrate"
 KINETICS = SurfaceKinetics(critical_moisture=0.02)
 DISSOLVED = 0.37  # per kg of water, potassium nitrate at 25 °C
 DRYERS = {
+    "belt": (BeltDryer(0.2, 0.05, 1000.0, KINETICS, layers=5, steps=20), 0.5),
     "rotary": (RotaryDryer(8.0, 1.5, KINETICS, cells=6), 1.0),
 }
 

@@ -15,10 +15,11 @@ import jax.numpy as jnp
 
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
 from granum.drying.contact.matter import Matter, slope
-from granum.numerics import advance_chain, solve_chain
+from granum.numerics import Cells, Rates, advance_chain, solve_chain
 
 ENTHALPY = 1e5  # J/kg, the unit of enthalpy among the unknowns
 WARMEST_STEP = 3.0  # largest change of an enthalpy in one step of the solver, in that unit
+NO_WATER = 1e-6  # of the wettest moisture
 MIXED = 1e6  # flow between neighbors, over the flow through, that counts as well mixed
 
 
@@ -106,19 +107,23 @@ class CellRow(NamedTuple):
     heat_loss: Any
 
 
-def largest_change(moisture: Any, classes: int) -> Any:
+def largest_change(moisture: Any, *more: Any) -> Cells:
     """Of the unknowns in one step of the solver."""
-    wettest = 0.2 * jnp.max(moisture) + 0.01
-    return jnp.concatenate([jnp.full(classes, 1.0) * wettest, jnp.full(classes, WARMEST_STEP), jnp.full(2, jnp.inf)])
+    return Cells(jnp.stack([0.2 * jnp.max(moisture) + 0.01, jnp.asarray(WARMEST_STEP), *more]), jnp.inf)
 
 
-def march(rates: Callable[[Any, Any, Any], Any], first: Any, rows: Any, capacity: Any, steps: Any, limit: Any) -> tuple[Any, Any]:
-    """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)`` vanishes, u having one row."""
+def march(rates: Callable[[Cells, Cells, Any], Rates], first: Cells, rows: Any, steps: Any, limit: Cells) -> tuple[Cells, Any]:
+    """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)`` vanishes, u having one cell.
+
+    On its way there the gas, too, has something to hold, for ``steps`` of time: bare, it would run ahead of grains so fine that they follow it.
+    """
 
     def cell(carry: tuple[Any, Any], given: tuple[Any, Any]) -> tuple[tuple[Any, Any], Any]:
         (before, well), (row, step) = carry, given
-        found = solve_chain(lambda u: rates(u, before, row), before[None], capacity, first_step=step, largest_change=limit)
-        return (found.state[0], well & found.converged), found.state[0]
+        start = jax.tree.map(lambda leaf: leaf[None], before)
+        found = solve_chain(lambda u: rates(u, before, row), start, Cells(1.0, step), first_step=step, largest_change=limit)
+        state = jax.tree.map(lambda leaf: leaf[0], found.state)
+        return (state, well & found.converged), state
 
     (_last, well), states = jax.lax.scan(cell, (first, jnp.asarray(True)), (rows, steps))
     return states, well
@@ -136,7 +141,6 @@ class Contact(eqx.Module):
     exchange: function of (X, T_s, T_g, Y) → W/(K kg of dry solid); arrays of cells × classes.
     wall_exchange, wall_temperature: conduction from a hot wall to the solid, W/(K kg), K.
     heat_loss: W lost by the gas in each cell.
-    solid_dispersion: exchange of solid between neighboring cells over its flow.
     """
 
     matter: Matter
@@ -150,37 +154,31 @@ class Contact(eqx.Module):
     wall_temperature: Any = 293.15
     heat_loss: Any = 0.0
     gas_time: Any = 0.0
-    solid_dispersion: Any = 0.0
 
     @property
     def solid_flow(self) -> Any:
         """Dry solid by class, kg/s (zero when it stands)."""
         return self.solid[-1] * self.renewal[-1]
 
-    def state(self, X: Any, T: Any, Y: Any, Tg: Any) -> Any:
+    def state(self, X: Any, T: Any, Y: Any, Tg: Any) -> Cells:
         """The unknowns from moistures and temperatures (cells × classes, cells)."""
         H, Hg = self.matter.moist_solid(T, X) / ENTHALPY, self.matter.moist_gas(Tg, Y) / ENTHALPY
-        return jnp.concatenate([X, H, Y[:, None], Hg[:, None]], axis=1)
+        return Cells(jnp.stack([X, H], axis=-1), jnp.stack([Y, Hg], axis=-1))
 
-    def parts(self, u: Any) -> tuple[Any, Any, Any, Any]:
-        """Moisture, enthalpy, humidity and gas enthalpy (in units of 10⁵ J/kg) from the unknowns."""
-        m = self.solid.shape[1]
-        return u[..., :m], u[..., m : 2 * m], u[..., -2], u[..., -1]
-
-    def temperatures(self, u: Any) -> tuple[Any, Any]:
+    def temperatures(self, u: Cells) -> tuple[Any, Any]:
         """Of solid and gas."""
-        X, H, Y, Hg = self.parts(u)
+        X, H, Y, Hg = unpacked(u)
         return self.matter.solid_temperature(ENTHALPY * H, X), self.matter.gas_temperature(ENTHALPY * Hg, Y)
 
-    def meeting(self, u: Any) -> Meeting:
+    def meeting(self, u: Cells) -> Meeting:
         """Where solid meets gas, in every cell."""
-        X, _H, Y, _Hg = self.parts(u)
+        X, _H, Y, _Hg = unpacked(u)
         Ts, Tg = self.temperatures(u)
         Y, Tg = Y[:, None], Tg[:, None]
         exchange = jnp.broadcast_to(self.exchange(X, Ts, Tg, Y), X.shape)
         return Meeting(X, Ts, Tg, Y, exchange, self.matter)
 
-    def _transfer(self, u: Any) -> tuple[Any, Any, Any, Any]:
+    def _transfer(self, u: Cells) -> tuple[Any, Any, Any, Any]:
         """Per kg of dry solid: water evaporated, enthalpy it carries at the surface, heat from the gas, heat from walls."""
         at = self.meeting(u)
         rate = self.kinetics.rate(at)
@@ -199,25 +197,19 @@ class Contact(eqx.Module):
         Y, Tg = jnp.broadcast_to(inlet.humidity, (n,)), jnp.broadcast_to(inlet.gas_temperature, (n,))
         return Entering(X, self.matter.moist_solid(T, X) / ENTHALPY, Y, self.matter.moist_gas(Tg, Y) / ENTHALPY)
 
-    def rates(self, u: Any, fresh: Entering) -> Any:
+    def rates(self, u: Cells, fresh: Entering) -> Rates:
         """Rates of change: per kg of dry solid for solid, per kg/s of dry gas flow times ``gas_time``/n for gas."""
-        X, H, Y, Hg = self.parts(u)
+        X, H, Y, Hg = unpacked(u)
         rate, carried, heat, wall = self._transfer(u)
         dX = self._moved(X, fresh.moisture) - rate
         dH = self._moved(H, fresh.enthalpy) + (heat + wall - carried) / ENTHALPY
-        g = self.gas_flow
-        dY = self._blown(Y, fresh.humidity) + jnp.sum(self.solid * rate, axis=1) / g
-        dHg = self._blown(Hg, fresh.gas_enthalpy) + (jnp.sum(self.solid * (carried - heat), axis=1) - self.heat_loss) / (g * ENTHALPY)
-        return jnp.concatenate([dX, dH, dY[:, None], dHg[:, None]], axis=1)
+        given = self.solid * jnp.stack([rate, (carried - heat) / ENTHALPY]) / self.gas_flow
+        dY, dHg = self._blown(Y, fresh.humidity), self._blown(Hg, fresh.gas_enthalpy) - self.heat_loss / (self.gas_flow * ENTHALPY)
+        return Rates(jnp.stack([dX, dH], axis=-1), jnp.moveaxis(given, 0, -1), jnp.stack([dY, dHg], axis=-1))
 
     def _moved(self, q: Any, q_in: Any) -> Any:
         """What the flow of solid brings, per kg in the cell and second."""
-        before = jnp.concatenate([q_in[None], q[:-1]])
-        flow = self.renewal * (before - q)
-        swap = self.renewal * self.solid_dispersion
-        down = jnp.concatenate([jnp.zeros_like(q[:1]), q[:-1] - q[1:]])
-        up = jnp.concatenate([q[1:] - q[:-1], jnp.zeros_like(q[:1])])
-        return flow + swap * (down + up)
+        return self.renewal * (jnp.concatenate([q_in[None], q[:-1]]) - q)
 
     def _blown(self, q: Any, q_in: Any) -> Any:
         """What the flow of gas brings, relative to the whole flow."""
@@ -225,18 +217,17 @@ class Contact(eqx.Module):
         before, after = jnp.concatenate([q[:1], q[:-1]]), jnp.concatenate([q[1:], q[-1:]])
         return w.from_before * (before - q) + w.from_after * (after - q) + w.inlet * (q_in - q)
 
-    def outflow(self, u: Any) -> Any:
+    def outflow(self, u: Cells) -> Any:
         """Water and enthalpy (10⁵ W) that leave with each class of solid, then with the gas: linear in the unknowns."""
-        X, H, Y, Hg = self.parts(u)
+        X, H, Y, Hg = unpacked(u)
         out = self.gas_flow * self.network.outlet
         return jnp.concatenate([self.solid_flow * X[-1], self.solid_flow * H[-1], jnp.sum(out * Y)[None], jnp.sum(out * Hg)[None]])
 
-    def capacity(self) -> Any:
+    def capacity(self) -> Cells:
         """What the cells hold: solid by itself, gas by its time."""
-        n, m = self.solid.shape
-        return jnp.concatenate([jnp.ones((n, 2 * m)), jnp.full((n, 2), 1.0) * self.gas_time / n], axis=1)
+        return Cells(1.0, self.gas_time / self.solid.shape[0])
 
-    def start(self, inlet: Inlet) -> Any:
+    def start(self, inlet: Inlet) -> Cells:
         """A first guess: solid and gas as they enter."""
         n, m = self.solid.shape
         Y, Tg = (jnp.sum(jnp.broadcast_to(v, (n,)) * self.network.inlet) for v in (inlet.humidity, inlet.gas_temperature))
@@ -253,25 +244,21 @@ class Contact(eqx.Module):
     def steady(self, inlet: Inlet) -> Profile:
         """The steady state."""
         n, m = self.solid.shape
-        limit = largest_change(inlet.moisture, m)
+        limit = largest_change(inlet.moisture)
         fresh = self.entering(inlet)
-        if self.network.one_way and isinstance(self.solid_dispersion, float | int) and self.solid_dispersion == 0:
+        if self.network.one_way:
             rows = CellRow(self.solid, jnp.broadcast_to(self.renewal, (n, m)), jnp.broadcast_to(self.heat_loss, (n,)))
-            capacity = self.capacity()[:1] * jnp.asarray([1.0] * 2 * m + [0.0] * 2)
-
-            def rates(u: Any, before: Any, row: CellRow) -> Any:
-                return self.cell(row).rates(u, Entering(before[:m], before[m : 2 * m], before[-2:-1], before[-1:]))
-
+            first = jax.tree.map(lambda leaf: leaf[0], self.start(inlet))
             steps = 0.1 / jnp.max(rows.renewal, axis=1)
-            states, converged = march(rates, self.start(inlet)[0], rows, capacity, steps, limit)
+            states, converged = march(lambda u, before, row: self.cell(row).rates(u, left(before)), first, rows, steps, limit)
             return self.profile(states, converged)
         step = 0.1 / jnp.max(self.renewal)
         found = solve_chain(lambda u: self.rates(u, fresh), self.start(inlet), self.capacity(), first_step=step, largest_change=limit)
         return self.profile(found.state, found.converged)
 
-    def profile(self, u: Any, converged: Any = True) -> Profile:
+    def profile(self, u: Cells, converged: Any = True) -> Profile:
         """A state in words."""
-        X, _H, Y, _Hg = self.parts(u)
+        X, _H, Y, _Hg = unpacked(u)
         Ts, Tg = self.temperatures(u)
         m = X.shape[-1]
         out = self.outflow(u)
@@ -282,11 +269,28 @@ class Contact(eqx.Module):
         duty = jnp.sum(self.solid * wall) - jnp.sum(self.heat_loss * jnp.ones(n))
         return Profile(shares, place, X, Ts, Y, Tg, out[:m], ENTHALPY * out[m : 2 * m], out[-2], ENTHALPY * out[-1], duty, converged)
 
-    def dynamic(self, start: Any, inlets: Inlet, step: Any) -> tuple[Profile, Any]:
+    def dynamic(self, start: Cells, inlets: Inlet, step: Any) -> tuple[Profile, Any]:
         """States over time from a state, inlets having a leading axis of steps; and the water and heat (10⁵ J) that left up to each."""
+        wettest = jnp.maximum(jnp.max(start.lanes[..., 0]), jnp.max(inlets.moisture))
 
-        def flows(u: Any, _inlet: Inlet) -> Any:
-            return self.outflow(u)
+        def reach(u: Cells, change: Cells) -> Any:
+            """No water that is not there."""
+            X, falling = u.lanes[..., 0], change.lanes[..., 0] < 0
+            return jnp.min(jnp.where(falling, (X + NO_WATER * wettest) / jnp.where(falling, -change.lanes[..., 0], 1.0), jnp.inf))
 
-        states, totals = advance_chain(lambda u, given: self.rates(u, self.entering(given)), start, self.capacity(), step, inlets, flows)
-        return jax.vmap(self.profile)(states), totals
+        found = advance_chain(
+            lambda u, given: self.rates(u, self.entering(given)), start, self.capacity(), step, inlets, lambda u, _given: self.outflow(u),
+            reach, largest_change(wettest),
+        )  # fmt: skip
+        profiles = jax.vmap(self.profile)(found.states)
+        return profiles._replace(converged=jnp.broadcast_to(found.converged, profiles.place.shape[:1])), found.outflow
+
+
+def unpacked(u: Cells) -> tuple[Any, Any, Any, Any]:
+    """Moisture, enthalpy, humidity and gas enthalpy (in units of 10⁵ J/kg) from the unknowns."""
+    return u.lanes[..., 0], u.lanes[..., 1], u.shared[..., 0], u.shared[..., 1]
+
+
+def left(before: Cells) -> Entering:
+    """What a cell receives from the one before."""
+    return Entering(before.lanes[:, 0], before.lanes[:, 1], before.shared[:1], before.shared[1:])

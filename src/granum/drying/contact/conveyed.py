@@ -6,10 +6,10 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import ENTHALPY, Contact, Entering, Inlet, Network, Profile, largest_change, march
+from granum.drying.contact.cells import ENTHALPY, Contact, Entering, Inlet, Network, Profile, largest_change, left, march
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
-from granum.numerics import solve_chain
+from granum.numerics import Cells, Rates, solve_chain
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 
@@ -96,43 +96,42 @@ def convey(
         lost = heat_loss * lengths[:, 0] / jnp.sum(path.steps)
         return Contact(matter, kinetics, solid_flow * times, 1.0 / times, dry, network, exchange, heat_loss=lost)
 
-    def split(v: Any, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any]:
+    def split(v: Cells, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any]:
         """The core for speeds at the ends of the cells, and what these lack."""
-        own, X, Y = v[:, -m:], v[:, :m], v[:, 2 * m : 2 * m + 1]
-        Tg = matter.gas_temperature(ENTHALPY * v[:, 2 * m + 1 : 2 * m + 2], Y)
+        X, own, Y = v.lanes[..., 0], v.lanes[..., 2], v.shared[:, :1]
+        Tg = matter.gas_temperature(ENTHALPY * v.shared[:, 1:], Y)
         density = matter.gas_density(Tg, Y)
         gas_speed = dry / (density * path.section)
         before = jnp.concatenate([jnp.broadcast_to(first, (1, m)), own[:-1]])
         ends, times = relaxed(path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X)
         return contact(times, jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST), network, lengths), (ends - own) / times
 
-    def rates(v: Any, fresh: Entering, first: Any, network: Network, lengths: Any) -> Any:
+    def rates(v: Cells, fresh: Entering, first: Any, network: Network, lengths: Any) -> Rates:
         core, lack = split(v, first, network, lengths)
-        return jnp.concatenate([core.rates(v[:, :-m], fresh), lack], axis=1)
+        found = core.rates(v, fresh)
+        return found._replace(lanes=jnp.concatenate([found.lanes, lack[..., None]], axis=-1))
 
     lengths = path.steps[:, None]
     still = contact(jnp.ones((n, m)), 1.0, network, lengths)
     fresh, start = still.entering(inlet), jnp.broadcast_to(path.start, shape)
-    first = jnp.concatenate([still.start(inlet)[0], start])
-    moving = jnp.concatenate([largest_change(inlet.moisture, m), jnp.full(m, jnp.inf)])
-    capacity = jnp.asarray([[1.0] * 2 * m + [0.0] * 2 + [1.0] * m])
+    begin = still.start(inlet)
+    first = Cells(jnp.concatenate([begin.lanes[0], start[:, None]], axis=-1), begin.shared[0])
+    moving = largest_change(inlet.moisture, jnp.asarray(jnp.inf))
     fastest = jnp.maximum(jnp.max(start), dry / (matter.gas_density(inlet.gas_temperature, inlet.humidity) * path.section))
     alone = Network.co_current(1)
 
-    def cell(v: Any, before: Any, length: Any) -> Any:
-        known = Entering(before[:m], before[m : 2 * m], before[2 * m : 2 * m + 1], before[2 * m + 1 : 2 * m + 2])
-        return rates(v, known, before[-m:], alone, length[None])
+    def cell(v: Cells, before: Cells, length: Any) -> Rates:
+        return rates(v, left(before), before.lanes[:, 2], alone, length[None])
 
-    states, converged = march(cell, first, lengths, capacity, 0.1 * path.steps / fastest, moving)
+    states, converged = march(cell, first, lengths, 0.1 * path.steps / fastest, moving)
     if not network.one_way:  # from the dryer without dispersion, its gas mixed with that at the end in proportion
         share = 1.0 / (1.0 + network.from_after[0])
-        guess = states.at[:, 2 * m : 2 * m + 2].multiply(share).at[:, 2 * m : 2 * m + 2].add((1.0 - share) * states[-1, 2 * m : 2 * m + 2])
-        held = jnp.broadcast_to(capacity, (n, 3 * m + 2)).at[:, 2 * m : 2 * m + 2].set(lengths / fastest)
+        guess = states._replace(shared=share * states.shared + (1.0 - share) * states.shared[-1])
         found = solve_chain(
-            lambda v: rates(v, fresh, start, network, lengths), guess, held, first_step=0.1 * jnp.min(path.steps) / fastest,
+            lambda v: rates(v, fresh, start, network, lengths), guess, Cells(1.0, lengths / fastest), first_step=0.1 * jnp.min(path.steps) / fastest,
             largest_change=moving,
         )  # fmt: skip
         states, converged = found.state, found.converged
     core, _lack = split(states, start, network, lengths)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)
-    return core.profile(states[:, :-m], converged)._replace(place=place), jnp.sum(core.solid)
+    return core.profile(states, converged)._replace(place=place), jnp.sum(core.solid)

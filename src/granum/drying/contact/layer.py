@@ -14,8 +14,6 @@ from granum.drying.contact.liquor import counted
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
 
-OVERSHOT, WETTED = 1e-2, 0.5  # of the feed's moisture, below zero and above it: beyond that the steps in time are too long
-
 
 class LayerDryer(Dryer):
     """Layers of solid through which gas blows in zones, one after the other."""
@@ -72,10 +70,9 @@ def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_entha
     time = jnp.concatenate([p.time for p in found])
     Y = jnp.concatenate([p.layers.vapor / p.gas_per_solid for p in found])
     Tg = like.matter.gas_temperature(jnp.concatenate([p.layers.gas_enthalpy / p.gas_per_solid for p in found]), Y)
-    wettest = jnp.max(X[0])
     water = jnp.array([flow * mean_moisture(like, last)[-1]])
     heat = jnp.array([flow * product_enthalpy(like, last)])
     return Profile(
         jnp.full(n, 1.0 / n), time / time[-1], X, T, Y, Tg, water, heat, flow * vapor, flow * gas_enthalpy, jnp.zeros(()),
-        jnp.all(jnp.isfinite(X)) & (jnp.min(X) > -OVERSHOT * wettest) & (jnp.max(X) < wettest * (1.0 + WETTED) + OVERSHOT),
+        jnp.all(jnp.stack([jnp.all(p.layers.converged) for p in found])),
     )  # fmt: skip
