@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from granum import costs
+from granum.core.errors import InputError
 from granum.costs.tables import correlations, plant_cost_index
 
 YEAR = 365.25 * 86400.0
@@ -108,3 +109,11 @@ def test_energy_material_payback() -> None:
     assert costs.payback_time(capital_cost=2e6, annual_gain=0.5e6 / YEAR) / YEAR == pytest.approx(4.0)
     assert costs.payback_time(capital_cost=2e6, annual_gain=0.0) == np.inf
     assert costs.capital_cost_lang(purchased_cost=1e6, plant_type="fluids") == pytest.approx(4.74e6)
+
+
+def test_years_given_as_seconds_and_percent_as_numbers_are_told() -> None:
+    assert "in seconds" in costs.annual_capital_charge.evaluate(1e5, 0.07, 5.0).notices[0]["message"]
+    assert "per second" in costs.payback_time.evaluate(1e5, 25000.0).notices[0]["message"]
+    assert not costs.payback_time.evaluate(1e5, "25000 USD/year").notices
+    with pytest.raises(InputError, match="7 %"):
+        costs.annual_capital_charge(1e5, 7.0, "5 year")

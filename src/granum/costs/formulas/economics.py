@@ -6,11 +6,14 @@ from typing import Annotated, Literal
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, limit_active
 from granum.core.kinds import Cost, CostRate, EnergyPrice, Fraction, MassFlow, MassPrice, PositiveNumber, Power, Ratio, Time, Within
 from granum.costs.tables import plant_cost_index
 from granum.numerics.smooth import safe_divide
 
+DAY = 86400.0
+SHORT_LIFE = "A life of less than a day: a number without a unit is in seconds; write '10 year'."
+SHORT_PAYBACK = "Paid back within a day: a gain without a unit is per second; write '25000 USD/year'."
 LANG = {"solids": 3.10, "solids_and_fluids": 3.63, "fluids": 4.74}
 
 
@@ -54,7 +57,7 @@ def capital_cost_lang(purchased_cost: Cost, plant_type: Literal["solids_and_flui
 
 @formula(source="peters2003, ch. 7", equation=r"A = C\,\frac{i(1+i)^n}{(1+i)^n-1}", title="Annual charge of capital",
          typical={"interest_rate": (0.02, 0.2), "lifetime": (1.6e8, 7.0e8)})  # fmt: skip
-def annual_capital_charge(capital_cost: Cost, interest_rate: Ratio, lifetime: Time) -> CostRate:
+def annual_capital_charge(capital_cost: Cost, interest_rate: Annotated[Ratio, Within(0.0, 1.0)], lifetime: Time) -> CostRate:
     """Constant charge that pays a capital back with interest over its life (annuity), per unit of time.
 
     The interest is per year and paid at the end of each. Without interest it is the capital over the life. The rate is that of the annuity spread
@@ -65,6 +68,7 @@ def annual_capital_charge(capital_cost: Cost, interest_rate: Ratio, lifetime: Ti
     162.7
     """
     year = 365.25 * 86400.0
+    limit_active(lifetime < DAY, lifetime, "lifetime", reason=SHORT_LIFE)
     n = lifetime / year
     growth = jnp.expm1(n * jnp.log1p(interest_rate))
     factor = jnp.where(interest_rate > 1e-9, safe_divide(interest_rate * (1.0 + growth), growth, 0.0), 1.0 / n)
@@ -102,4 +106,6 @@ def payback_time(capital_cost: Cost, annual_gain: CostRate) -> Time:
     >>> round(payback_time(capital_cost=3e6, annual_gain=1e6 / year) / year, 6)
     3.0
     """
-    return jnp.where(annual_gain > 0, safe_divide(capital_cost, annual_gain, 0.0), jnp.inf)
+    time = jnp.where(annual_gain > 0, safe_divide(capital_cost, annual_gain, 0.0), jnp.inf)
+    limit_active((time > 0) & (time < DAY), time, "payback_time", reason=SHORT_PAYBACK)
+    return time
