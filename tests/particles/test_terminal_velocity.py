@@ -194,6 +194,6 @@ def test_drag_carries_the_weight_at_the_terminal_velocity() -> None:
     v = terminal_velocity(d, gravity=9.81, **SAND)
     weight = np.pi / 6 * d**3 * (2650.0 - 998.0) * 9.81
     assert forces.drag_force(d, v, **WATER) == pytest.approx(weight, rel=1e-9)
-    measured = forces.drag_coefficient_settling(d, v, 2650.0, 998.0, gravity=9.81)
+    measured = forces.measured_drag_coefficient(d, v, 2650.0, 998.0, gravity=9.81)
     assert measured == pytest.approx(drag_modern.drag_coefficient_brown_lawler(v * d * 998.0 / 1.002e-3), rel=1e-9)
     assert forces.drag_force(d, 0.0, **WATER) == 0.0

@@ -36,8 +36,8 @@ def drag_force(
     return jnp.pi / 8.0 * eta**2 / rho * drag_of_shape(drag, sphericity)(moving) * moving * Re
 
 
-@formula(source="clift1978, chapter 5", equation=r"C_D = \frac{4 g d_p |\rho_p - \rho_f|}{3\,\rho_f v_t^2}", output="drag_coefficient")
-def drag_coefficient_settling(
+@formula(source="clift1978, chapter 5", equation=r"C_D = \frac{4 g d_p |\rho_p - \rho_f|}{3\,\rho_f v_t^2}")
+def measured_drag_coefficient(
     particle_diameter: Length,
     velocity: Speed,
     particle_density: Density,
@@ -46,7 +46,7 @@ def drag_coefficient_settling(
 ) -> PositiveNumber:
     """Drag coefficient of a particle from its measured terminal velocity, falling or rising.
 
-    >>> round(drag_coefficient_settling(particle_diameter="5 mm", velocity="0.6 m/s", particle_density=2500, fluid_density=1000,
+    >>> round(measured_drag_coefficient(particle_diameter="5 mm", velocity="0.6 m/s", particle_density=2500, fluid_density=1000,
     ...                                 gravity=9.81), 4)
     0.2725
     """
