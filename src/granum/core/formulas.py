@@ -24,6 +24,9 @@ from granum.core.results import Result
 
 _steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
 
+COLDEST = 150.0  # K: colder than any operation here, warmer than any Celsius number that forgot its unit
+KELVIN = "A temperature given here is below −123 °C: a number without a unit is read in kelvin."
+
 
 @contextmanager
 def record_steps() -> Iterator[list[Result]]:
@@ -176,6 +179,9 @@ class Formula:
 
     def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
         with flags.collect() as records:
+            for p, value in zip(self.card.parameters, values, strict=True):
+                if p.kind is not None and p.kind.name == "temperature" and value is not None:
+                    flags.record(flags.EXTRAPOLATED, jnp.asarray(value) < COLDEST, value, p.name, self.key, reason=KELVIN)
             guarded, possible = self._guard(values)
             out = self._body(guarded)
             if possible is not None:

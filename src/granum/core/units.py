@@ -78,7 +78,9 @@ def parse_unit(text: str) -> Any:
         spelled = spelled.replace(written, meant)
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
     # g/100 g of water, g per 100 g, g/(100 g)
-    spelled = re.sub(r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled)
+    spelled = re.sub(
+        r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled
+    )
     # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
     spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
     try:
