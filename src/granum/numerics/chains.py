@@ -13,6 +13,7 @@ from jax import lax
 
 GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a bad step
 LATE = 1e8  # first steps that make a step as good as infinite
+PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
@@ -248,7 +249,7 @@ def solve_chain(
             astray = (relative > 0.5 * last) & (relative > 1e-7)
             # a lane that goes to and fro over a bend takes less of its steps
             damping = jax.tree.map(lambda t, f: jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0)), turned, damping)
-            failed = trial & (~good | astray)  # Newton's method from the guess, given up at the first sign that it goes astray
+            failed = trial & (~good | (astray & (number >= PATIENCE)))  # Newton's method from the guess, given up when it goes astray
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
             ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)  # Newton's method is quadratic
