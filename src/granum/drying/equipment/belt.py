@@ -37,7 +37,7 @@ class BeltDryer(LayerDryer):
     specific_surface: SpecificSurface | None = None
     temperature_limit: Temperature | None = None
     layers: int = 24
-    steps: int = 60
+    steps: int = 120
 
     def extent(self) -> Any:
         return self.area
