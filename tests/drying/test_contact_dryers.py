@@ -58,6 +58,16 @@ def test_rotary_example_of_coulson_and_richardson() -> None:
     assert not bad
 
 
+def test_a_fluidized_bed_of_every_size_from_dust_to_lumps_is_solved() -> None:
+    """Each class in turn runs into its critical moisture, a bend at which a solver that steps too far goes to and fro."""
+    mixture = mixture_of(["water"], ["starch"], ["dry air", "water"], list(np.geomspace(1e-5, 4e-3, 9)))
+    dryer = FluidBedDryer(area=1.0, mass=200.0, kinetics=SurfaceKinetics(critical_moisture=0.005))
+    found = dryer.profile(wet(0.22, 0.07, 298.0, mixture), air(0.83, 0.009, 388.0, mixture))
+    assert found.converged
+    water = jnp.sum(found.water) + found.vapor
+    np.testing.assert_allclose(water, 0.22 * 0.07 + 0.83 * 0.009, rtol=1e-9)
+
+
 @pytest.mark.parametrize("name", ["fluid-bed", "direct-fired"])
 def test_fluidized_bed_example_of_coulson_and_richardson(name: str) -> None:
     """Example 16.6: gas at 811 K with 0.036 kg/kg, exhaust at 90 %: bed at 340 K, 4.54 m wide for 0.61 m/s. Its lines of heat and mass, drawn

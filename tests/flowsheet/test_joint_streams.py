@@ -179,7 +179,7 @@ def through(unit: Unit, given: dict[str, Stream]) -> Any:
 def test_every_unit_is_here() -> None:
     cards = registry.everything().values()
     units = {c.card.key for c in cards if isinstance(c, type) and issubclass(c, Unit)}
-    assert units == set(ALL)
+    assert units - {"drying.burner"} == set(ALL)  # which needs a fuel among the gases: test_dryer_closed
 
 
 @pytest.mark.parametrize("key", ALL)

@@ -180,7 +180,7 @@ class Formula:
     def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
         with flags.collect() as records:
             for p, value in zip(self.card.parameters, values, strict=True):
-                if p.kind is not None and p.kind.name == "temperature" and value is not None:
+                if p.kind is not None and p.kind.name == "temperature" and value is not None and p.name not in self.fitted:
                     flags.record(flags.EXTRAPOLATED, jnp.asarray(value) < COLDEST, value, p.name, self.key, reason=KELVIN)
             guarded, possible = self._guard(values)
             out = self._body(guarded)

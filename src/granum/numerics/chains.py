@@ -14,6 +14,7 @@ from jax import lax
 GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a bad step
 LATE = 1e8  # first steps that make a step as good as infinite
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
+SHARE = 0.8  # of the largest change allowed, which the next step aims at
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
@@ -243,19 +244,22 @@ def solve_chain(
             value, push = jax.linearize(f, u)
             r = _summed(value)
             change = solve_factored(factor_chain(chain_blocks(push, u).shifted(1.0, jax.tree.map(lambda c: -c / h, capacity))), r)
-            good = _all(jax.tree.map(lambda d, s: abs(d) <= s, change, size))  # false for what is not a number
+            far = jnp.maximum(*(jnp.max(abs(d) / s) for d, s in zip(change, size, strict=True)))
+            good = (far <= 1.0) & _all(jax.tree.map(jnp.isfinite, change))
             relative = jnp.maximum(*(jnp.max(abs(d) / jnp.maximum(abs(v), 1.0)) for d, v in zip(change, u, strict=True)))
             turned = jax.tree.map(lambda d, b: jnp.sum(d * b, axis=-1, keepdims=True) < 0, change, before)
-            astray = (relative > 0.5 * last) & (relative > 1e-7)
+            astray = (h >= LATE * first_step) & (relative > 0.5 * last) & (relative > 1e-7)
             # a lane that goes to and fro over a bend takes less of its steps
             damping = jax.tree.map(lambda t, f: jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0)), turned, damping)
             failed = trial & (~good | (astray & (number >= PATIENCE)))  # Newton's method from the guess, given up when it goes astray
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
             ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)  # Newton's method is quadratic
-            longer = jnp.minimum(h * GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0), 1e4 * LATE * first_step)
-            h = jnp.where(failed, first_step, jnp.where(good, longer, h * CAUTION))
-            lost = ~_all(jax.tree.map(jnp.isfinite, r))  # the step before went astray: back to where it started
+            # changes are nearly proportional to a step: the next is to come close to the largest allowed
+            most = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
+            fitting = h * jnp.clip(SHARE / far, CAUTION**2, most)
+            h = jnp.where(failed, first_step, jnp.where(jnp.isfinite(far), jnp.minimum(fitting, 1e4 * LATE * first_step), h * CAUTION))
+            lost = ~(jnp.isfinite(far) & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to where it started
             back = jax.tree.map(lambda s, v: jnp.where(lost, s, v), safe, u)
             new = jax.tree.map(lambda g, b, v, d, f: jnp.where(failed, g, jnp.where(good, v - f * d, b)), origin, back, u, change, damping)
             known = jax.tree.map(lambda d: jnp.where(good & ~failed, d, 0.0), change)

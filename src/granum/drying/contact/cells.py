@@ -18,7 +18,7 @@ from granum.drying.contact.matter import Matter, slope
 from granum.numerics import Cells, Rates, advance_chain, solve_chain
 
 ENTHALPY = 1e5  # J/kg, the unit of enthalpy among the unknowns
-WARMEST_STEP = 3.0  # largest change of an enthalpy in one step of the solver, in that unit
+WARMEST_STEP = 0.4  # largest change of an enthalpy in one step of the solver, in that unit
 NO_WATER = 1e-6  # of the wettest moisture
 MIXED = 1e6  # flow between neighbors, over the flow through, that counts as well mixed
 
