@@ -1,6 +1,6 @@
 """Two dynamic flowsheets of the simulator Dyssol 1.1.1 (TUHH, BSD-3), solved here and, where the program is installed, there.
 
-    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/ --materials FILE] [--limit 900]
+    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/ --materials FILE] [--limit 900] [--plant-time 1200]
 
 The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol; Debian ships the program as ``dyssol``. The first
 is two screens and two population-balance mills in nested recycles, 200 size × 50 attribute classes, 6 h. The second is an agglomerator,
@@ -247,13 +247,13 @@ def agglomeration_by_scipy(line: Flowsheet, held: dict[str, jax.Array], times: n
     return np.stack(found)
 
 
-def other(given: argparse.Namespace, path: Path) -> tuple[float, float, float, np.ndarray | None]:
+def other(given: argparse.Namespace, path: Path, end: float) -> tuple[float, float, float, np.ndarray | None]:
     """Plant time that Dyssol got through, its processor and wall time, and the product by time and size class if it came to the end."""
     text = path.read_text().replace('"Inlet flow"', '"InletFlow"').replace('"Outlet flow"', '"OutletFlow"')
     text = re.sub(r"MODELS_PATH .*\n(?=MODELS_PATH)", "", text)
     with tempfile.TemporaryDirectory() as folder:
         for key, value in {
-            "RESULT_FILE": f'"{folder}/r.dflw"', "MATERIALS_DATABASE": f'"{given.materials}"', "MODELS_PATH": f'"{given.models}"',
+            "SIMULATION_TIME": f"{end:g}", "RESULT_FILE": f'"{folder}/r.dflw"', "MATERIALS_DATABASE": f'"{given.materials}"', "MODELS_PATH": f'"{given.models}"',
         }.items():  # fmt: skip
             text = re.sub(rf"{key} .*", lambda _m, key=key, value=value: f"{key} {value}", text)
         (Path(folder) / "case.txt").write_text(text)
@@ -314,6 +314,11 @@ def solved(
 def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]) -> None:
     """One problem, here, by SciPy and by the program."""
     path = given.folder / f"{name}-process.txt"
+    spans = [
+        (min(end, given.plant_time), steps)
+        for start, (end, steps) in zip([0.0, *(s[0] for s in spans)], spans, strict=False)
+        if start < given.plant_time
+    ]
     line, profiles, held = (sieve_mill if name == "sieve-mill" else agglomeration)(script(path))
     few = gather_axes(line, held)
     end = spans[-1][0]
@@ -326,7 +331,7 @@ def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]
     print(f"  share of the product in another class than SciPy has it: at most {0.5 * miss.max():.1e}, median {0.5 * np.median(miss):.1e}")
     if not given.program:
         return
-    reached, theirs, took, found = other(given, path)
+    reached, theirs, took, found = other(given, path, end)
     late = "" if reached >= end else " (not to the end; it is slower at the start than later)"
     print(f"  Dyssol: {reached:.0f} s of plant time in {theirs:.0f} s of processor, {took:.0f} s of wall{late}")
     print(f"  ratio: {end / processor / (reached / theirs):.0f} by processor time, {end / wall / (reached / took):.0f} by wall time")
@@ -351,6 +356,7 @@ def main() -> None:
     options.add_argument("--models", default="/usr/lib/x86_64-linux-gnu/Dyssol/Units/")
     options.add_argument("--materials", default="/usr/share/Dyssol/MaterialsDB/Materials.dmdb")
     options.add_argument("--limit", type=float, default=900.0, help="seconds given to Dyssol for each problem")
+    options.add_argument("--plant-time", type=float, default=np.inf, help="seconds of plant time after which both stop")
     given = options.parse_args()
     compare("agglomeration", given, [(1500.0, 300), (9000.0, 300), (36000.0, 300)])
     compare("sieve-mill", given, [(end, 300) for end in (300.0, 7200.0, 7500.0, 14400.0, 14700.0, 21600.0)])

@@ -202,14 +202,12 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
     from granum.reports.progress import advancing, working
 
     case = Path(model)
-    of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limits": limit or [], "outputs": output or [], "steps": steps}
+    of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limit": limit or [], "output": output or [], "steps": steps}
     with working(_("Reading {file}").format(file=case.name), quiet=as_json):
         if case.suffix == ".toml" or case.exists():
             for option, given in of_card.items():
                 if given:
-                    raise InputError(
-                        _("--{option} is of a card: the file says it in its [study] tables.").format(option=option.rstrip("s"))
-                    )
+                    raise InputError(_("--{option} is of a card: the file says it in its [study] tables.").format(option=option))
             text, wanted = text_of(case), names or []
             known = studies_of_text(text, folder=case.parent, name=case.name)
         else:

@@ -12,7 +12,7 @@ import pytest
 from granum.core import record_steps, registry
 from granum.core.errors import ApplicabilityError, InputError, nearest
 from granum.core.files import write_atomic
-from granum.materials.formulas.water_transport import water_viscosity
+from granum.cyclones.formulas.efficiency import vortex_exponent_alexander
 from granum.particles import drag_coefficient_stokes, reynolds_number, terminal_velocity
 
 GOOD = {"particle_diameter": 1e-3, "velocity": 0.1, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
@@ -101,6 +101,6 @@ def test_law_with_options_as_text() -> None:
 
 
 def test_a_celsius_number_without_its_unit_is_told():
-    told = [n["message"] for n in water_viscosity.evaluate(temperature=25).notices]
+    told = [n["message"] for n in vortex_exponent_alexander.evaluate(diameter=0.3, temperature=25).notices]
     assert any("read in kelvin" in message for message in told)
-    assert not water_viscosity.evaluate(temperature="25 degC").notices
+    assert not vortex_exponent_alexander.evaluate(diameter=0.3, temperature="25 degC").notices

@@ -24,7 +24,7 @@ ROBUST = 200  # samples under which a design is kept safe when none are asked fo
 
 
 def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximize: str = "", sobol: bool = False, samples: int | None = None,
-               steps: int | None = None, limits: Sequence[str] = (), outputs: Sequence[str] = ()) -> str:  # fmt: skip
+               steps: int | None = None, limit: Sequence[str] = (), output: Sequence[str] = ()) -> str:  # fmt: skip
     """The text of a study file of one card.
 
     One range is a sweep and two are a map; spreads, or a number of samples, make a Monte Carlo study (ranges are then even); what is to be
@@ -59,9 +59,9 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
         study |= {"samples": samples or ROBUST} if uncertain else {}
     else:
         uncertain |= {path(n): {"distribution": "uniform", "lower": low, "upper": high} for n, (low, high) in ranges.items()}
-    shown = list(outputs) or [p.name for p in thing.card.outputs if p.kind is not None and not p.series][:SHOWN] * bool(unit)
+    shown = list(output) or [p.name for p in thing.card.outputs if p.kind is not None and not p.series][:SHOWN] * bool(unit)
     study |= {"outputs": [path(name) for name in shown]} if shown else {}
-    study |= {"limits": _limits(limits, path)} if limits else {}
+    study |= {"limits": _limits(limit, path)} if limit else {}
     middle = {n: low for n, (low, _other) in (ranges | spreads).items()}
     model = _line(thing, unit, fixed | middle) if unit else {"title": thing.card.title, "card": key, "inputs": fixed}
     tables = {**model, "uncertain": uncertain, "study": {kind: study}}
