@@ -197,10 +197,9 @@ def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax
     for lo, hi in itertools.pairwise(spans):
         if lo >= times[-1]:
             break
-        inside = times[(times >= lo) & ((times < hi) | ((times == times[-1]) & (hi >= times[-1])))]
-        path = solve_ivp(
-            slope, (lo, min(hi, times[-1])), start, "BDF", np.append(inside[inside < hi], min(hi, times[-1])), rtol=1e-8, atol=1e-12
-        )
+        hi = min(hi, times[-1])
+        inside = times[(times >= lo) & ((times < hi) | (times == times[-1]) & (hi == times[-1]))]
+        path = solve_ivp(slope, (lo, hi), start, "BDF", np.append(inside[inside < hi], hi), rtol=1e-8, atol=1e-12)
         states.append(path.y.T[: len(inside)])
         start = path.y[:, -1]
     return np.stack([flows(t, *y.reshape(2, n))[2] for t, y in zip(times, np.concatenate(states), strict=True)])
