@@ -136,3 +136,9 @@ def test_gas_filters_and_membranes_by_hand():
     assert flux == pytest.approx(1e-11 * (3e6 - 2 * 100.0 * 8.314462618 * 300.0))
     passed = 1.0 - me.rejection_solution_diffusion(flux, 1e-6)
     assert flux * passed == pytest.approx(1e-6 * (1.0 - passed))
+
+
+def test_a_pressure_below_the_osmotic_one_is_told():
+    found = me.filtrate_flux_permeance.evaluate(5e5, 5e-12, 30e5)
+    assert found.value == 0.0
+    assert "osmotic" in found.notices[0]["message"]

@@ -197,3 +197,8 @@ def test_drag_carries_the_weight_at_the_terminal_velocity() -> None:
     measured = forces.measured_drag_coefficient(d, v, 2650.0, 998.0, gravity=9.81)
     assert measured == pytest.approx(drag_modern.drag_coefficient_brown_lawler(v * d * 998.0 / 1.002e-3), rel=1e-9)
     assert forces.drag_force(d, 0.0, **WATER) == 0.0
+
+
+def test_a_particle_that_stands_shows_no_drag():
+    with pytest.raises(ApplicabilityError, match="stands still"):
+        forces.measured_drag_coefficient(5e-3, 0.0, 2500.0, 1000.0)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, limit_active
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
     Area,
@@ -24,6 +26,13 @@ from granum.core.kinds import (
 )
 
 _MEMBRANE = {"medium_resistance": (1e11, 1e13), "pressure_drop": (5e4, 1e6), "osmotic_pressure": (0.0, 4e4)}
+BELOW_OSMOTIC = "The pressure does not exceed the osmotic pressure: no permeate flows."
+
+
+def _driving(pressure_drop: Any, osmotic_pressure: Any) -> Any:
+    driving = jnp.asarray(pressure_drop) - osmotic_pressure
+    limit_active(driving <= 0.0, pressure_drop, "pressure_drop", BELOW_OSMOTIC)
+    return jnp.maximum(driving, 0.0)
 
 
 @formula(
@@ -46,7 +55,7 @@ def filtrate_flux_membrane(
     180.0
     """
     total = medium_resistance + cake_layer_resistance + fouling_resistance
-    return jnp.maximum(pressure_drop - osmotic_pressure, 0.0) / (dynamic_viscosity * total)
+    return _driving(pressure_drop, osmotic_pressure) / (dynamic_viscosity * total)
 
 
 @formula(source="wijmans1995", equation=r"J = A\,(\Delta p - \Delta\pi)", output="filtrate_flux", typical={"pressure_drop": (1e6, 6e6)})
@@ -58,7 +67,7 @@ def filtrate_flux_permeance(pressure_drop: PressureDrop, membrane_permeance: Per
     >>> round(filtrate_flux_permeance("30 bar", "2 L/(m^2 hour bar)", osmotic_pressure="5 bar") * 3.6e6, 6)
     50.0
     """
-    return membrane_permeance * jnp.maximum(pressure_drop - osmotic_pressure, 0.0)
+    return membrane_permeance * _driving(pressure_drop, osmotic_pressure)
 
 
 @formula(source="vanthoff1887", equation=r"\pi = i\,c\,R\,T", output="osmotic_pressure")

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Force, Length, PositiveNumber, Speed, Sphericity
 from granum.particles.falling import LEAST, drag_of_shape
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
+
+STANDS = "A particle that stands still shows no drag."
 
 
 @formula(
@@ -50,4 +52,7 @@ def measured_drag_coefficient(
     ...                                 gravity=9.81), 4)
     0.2725
     """
-    return 4.0 / 3.0 * gravity * particle_diameter * jnp.abs(particle_density - fluid_density) / (fluid_density * velocity**2)
+    v = jnp.asarray(velocity)
+    impossible(~(v > 0.0), v, "velocity", reason=STANDS)
+    v = jnp.where(v > 0.0, v, jnp.nan)
+    return 4.0 / 3.0 * gravity * particle_diameter * jnp.abs(particle_density - fluid_density) / (fluid_density * v**2)
