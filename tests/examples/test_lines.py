@@ -57,7 +57,7 @@ def test_batch_yield_is_that_of_the_solubilities() -> None:
 
 
 def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
-    """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery (Mujumdar 2014)."""
+    """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery (Mujumdar 2014, from memory)."""
     line = run("starch-drying")
     assert 3e6 < line.figure("heater.heat_duty") / line.figure("dryer.evaporation_rate") < 5e6
     assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
