@@ -12,7 +12,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from granum.core.errors import GranumError, InputError
+from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.core.i18n import _, set_language
 
 app = typer.Typer(
@@ -154,18 +154,36 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
             print_next(told, found)
 
 
+def _unsolved(problem: ConvergenceError, as_json: bool, partial: bool) -> None:
+    """The last iterate of a line without solution, for those who ask for it; it is said to be no result."""
+    if not partial or problem.last is None:
+        return
+    if as_json:
+        problem.details["partial"] = problem.last.as_json()  # type: ignore[attr-defined]
+        return
+    from granum.reports.terminal import print_run
+
+    print_run(problem.last, partial=True)
+
+
 @app.command()
 @_one_message
 def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
-        tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None) -> None:  # fmt: skip
+        tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None,
+        minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
+        partial: Annotated[bool, typer.Option("--partial", help="Of a line without solution: print the last iterate all the same, marked as such.")] = False) -> None:  # fmt: skip
     """Solve a case file: streams, sizes, duties, checks, audit."""
     from granum.cases import read
-    from granum.reports.progress import working
+    from granum.reports.progress import watching, working
 
     with working(_("Reading {file}").format(file=case.name), quiet=as_json):
         line = read(case)
-    with working(_("Solving {title}").format(title=line.title), quiet=as_json):
-        outcome = line.solve()
+    with watching(_("Solving {title}").format(title=line.title), 60.0 * minutes, quiet=as_json) as watch:
+        try:
+            outcome = line.solve(watch)
+        except ConvergenceError as problem:
+            _unsolved(problem, as_json, partial or watch.stopped)
+            raise
     if report is not None:
         with working(_("Writing the report"), quiet=as_json):
             outcome.report(report)

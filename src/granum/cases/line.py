@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -20,46 +20,21 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
 from granum.estimation.results import Fit
-from granum.flowsheet import Flowsheet, Solution, closures, solve
+from granum.flowsheet import Flowsheet, Solution
 from granum.flowsheet.dynamics import Course, Profile, march
-from granum.flowsheet.packing import compiled
+from granum.flowsheet.findings import Findings
+from granum.flowsheet.ladder import climb
+from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.schedule import Schedule, schedule
-from granum.flowsheet.specifications import Designed, Target, design, figure
-from granum.numerics import Anderson, Newton
+from granum.flowsheet.specifications import Target
+from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check
 
 
 @compiled
-def _solved(sheet: Flowsheet, targets: tuple[Target, ...]) -> Designed:
-    """The line with its specifications, figures and checks: one compilation."""
-    return design(sheet, targets, sheets=True)
-
-
-def _traced(tree: Any) -> Any:
-    """Numbers as arrays, so that a compiled line is reused when only values change."""
-    return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
-
-
-@compiled
-def _solved_patiently(sheet: Flowsheet, targets: tuple[Target, ...], start: dict[str, Stream]) -> Designed:
-    return design(sheet, targets, sheets=True, method=Anderson(window=10, damping=0.4), max_steps=2000)
-
-
-@compiled
-def _solved_by_newton(sheet: Flowsheet, targets: tuple[Target, ...], start: dict[str, Stream]) -> Designed:
-    return design(sheet, targets, sheets=True, start=start, method=Newton(), max_steps=50)
-
-
-@compiled
 def _marched(sheet: Flowsheet, times: Any, profiles: tuple[Profile, ...], start: str | dict[str, str]) -> Course:
     return march(sheet, times, profiles, start=start)
-
-
-@compiled
-def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
-    solution = solve(sheet)
-    return figure(sheet, solution, path), solution.converged
 
 
 @dataclass(frozen=True)
@@ -73,32 +48,21 @@ class Line:
     text: str = ""
     fits: Mapping[str, tuple[Fit, str]] = field(default_factory=dict)
 
-    def solve(self) -> Run:
-        """Solve, check and audit. Raises ``ConvergenceError`` (with the last iterate) rather than return an unconverged line."""
-        found = _solved(_traced(self.sheet), self.targets)
-        run = Run(self, found.line, found.solution, {k: float(v) for k, v in found.values.items()})
-        bad = [name for name, s in found.solution.streams.items() if not np.isfinite(float(s.mass_flow + s.temperature))]
-        if bool(found.converged) and not bad:
-            return run
-        for again in (_solved_patiently, _solved_by_newton) if self._loops_fail(found, bad) else ():
-            torn = {n: found.solution.streams[n] for block in self.sheet.blocks for n in block.tears}
-            found = again(_traced(self.sheet), self.targets, torn)
-            run = Run(self, found.line, found.solution, {k: float(v) for k, v in found.values.items()})
-            if bool(found.converged):
-                return run
-        raise ConvergenceError(_failure(found, bad, self.targets, self._reach), last=run, **_place(found, bad))
+    def solve(self, watch: Watch | None = None) -> Run:
+        """Solve, check and audit. Raises ``ConvergenceError`` (``last`` keeps the last iterate) for whatever is not a solution.
 
-    def _loops_fail(self, found: Designed, bad: list[str]) -> bool:
-        """Whether it is a loop that does not come to rest, rather than a specification that is out of reach."""
-        if not bad:
-            return not bool(found.solution.converged)
-        return any(not np.isfinite(sum(self._reach(t))) for t in self.targets)
-
-    def _reach(self, target: Target) -> tuple[float, float]:
-        """What the result of a specification is at both ends of the varied parameter, the other specifications left out."""
-        ends = (_figure(_traced(self.sheet.with_values({target.vary: x})), target.so_that) for x in (target.lower, target.upper))
-        low, high = (float(value) if bool(good) else float("nan") for value, good in ends)
-        return low, high
+        ``watch`` is told of each pass through a loop, and may limit the time or stop.
+        """
+        found, wrong = climb(self.sheet, self.targets, watch)
+        designed = found.designed
+        run = Run(self, designed.line, designed.solution, found.findings, {k: float(v) for k, v in designed.values.items()})
+        if wrong:
+            first, rest = wrong[0], wrong[1:]
+            raise ConvergenceError(
+                first.message, last=run, unit=first.unit or None, stream=first.stream or None, kind=first.kind,
+                also=[fault.message for fault in rest] or None,
+            )  # fmt: skip
+        return run
 
     def march(self) -> Course:
         """The line in time, as its ``[dynamic]`` table says. Raises where a loop does not converge at some instant."""
@@ -107,7 +71,7 @@ class Line:
         if self.case is None:
             raise InputError(_("Only a line read from a case file knows how it runs in time; call granum.flowsheet.march."))
         times, profiles, start = movement(self.case, self.sheet)
-        course = _marched(_traced(self.sheet), times, profiles, start)
+        course = _marched(as_arrays(self.sheet), times, profiles, start)
         bad = np.flatnonzero(~np.asarray(course.converged))
         if bad.size:
             raise ConvergenceError(
@@ -121,54 +85,6 @@ class Line:
     def with_values(self, **values: Any) -> Line:
         """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
         return Line(self.title, self.sheet.with_values(values), self.targets, self.case, self.text, self.fits)
-
-
-def _place(found: Any, bad: list[str]) -> dict[str, Any]:
-    links = {k.name: k for k in found.line.links}
-    if bad:
-        first = bad[0]
-        return {"stream": first, "unit": links[first].source_unit or None}
-    loops = [b for b in found.line.blocks if b.tears]
-    worst = max(range(len(loops)), key=lambda i: float(found.solution.residual[i]), default=None)
-    if worst is None:
-        return {}
-    tear = loops[worst].tears[0]
-    return {"stream": tear, "unit": links[tear].source_unit, "residual": float(found.solution.residual[worst])}
-
-
-def _failure(found: Any, bad: list[str], targets: tuple[Target, ...], reach: Callable[[Target], tuple[float, float]]) -> str:
-    place = _place(found, bad)
-    unmet = any(not np.isfinite(float(v)) for v in found.values.values())
-    if bad and not unmet:
-        return _(
-            "Stream '{stream}' from unit '{unit}' is not a finite number: check the inputs of that unit and of those before it."
-        ).format(**place)
-    if not bool(found.solution.converged) and not unmet:
-        return _(
-            "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
-        ).format(stream=place["stream"], unit=place["unit"], residual=f"{place['residual']:.2g}")
-    for t in targets:
-        low, high = reach(t)
-        if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
-            return _(
-                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI units). Vary another parameter."
-            ).format(result=t.so_that, vary=t.vary, value=f"{low:.6g}")
-        if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
-            return _(
-                "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at {upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
-            ).format(
-                result=t.so_that,
-                wanted=f"{t.equals:.6g}",
-                low=f"{low:.6g}",
-                high=f"{high:.6g}",
-                vary=t.vary,
-                lower=f"{t.lower:.6g}",
-                upper=f"{t.upper:.6g}",
-            )
-    wanted = "; ".join(f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets)
-    return _("No value of the varied parameters meets the specifications: {wanted}. Widen the limits or change the wanted value.").format(
-        wanted=wanted
-    )
 
 
 @dataclass(frozen=True)
@@ -216,6 +132,7 @@ class Run:
     line: Line
     sheet: Flowsheet
     solution: Solution
+    findings: Findings
     found: dict[str, float]
 
     @property
@@ -247,12 +164,11 @@ class Run:
     @cached_property
     def audit(self) -> dict[str, Any]:
         """Closure of the whole line and the worst unit: largest of both, relative."""
-        found, whole = closures(self.sheet, self.solution)
-        units = {name: (float(c.mass), float(c.energy)) for name, c in found.items()}
+        mass, energy = ([float(x) for x in side] for side in (self.findings.mass, self.findings.energy))
         return {
-            "mass_closure": max(float(whole.mass), *(m for m, _e in units.values())),
-            "energy_closure": max(float(whole.energy), *(e for _m, e in units.values())),
-            "units": {name: {"mass": m, "energy": e} for name, (m, e) in units.items()},
+            "mass_closure": max(mass),
+            "energy_closure": max(energy),
+            "units": {name: {"mass": m, "energy": e} for name, m, e in zip(self.sheet.order, mass, energy, strict=False)},
         }
 
     @cached_property
@@ -277,8 +193,11 @@ class Run:
             "title": self.title,
             "streams": {name: stream_json(s) for name, s in self.streams.items()},
             "units": {name: report.as_json() for name, report in self.units.items()},
-            "specifications": self.found,
-            "audit": self.audit,
+            "specifications": {name: plain(value) for name, value in self.found.items()},
+            "audit": {
+                **{side: plain(self.audit[side]) for side in ("mass_closure", "energy_closure")},
+                "units": {unit: {side: plain(x) for side, x in row.items()} for unit, row in self.audit["units"].items()},
+            },
             "converged": bool(self.solution.converged),
             "iterations": [int(n) for n in self.solution.steps],
             "flags": self.flags,

@@ -202,15 +202,21 @@ def _gas(table: FeedTable, mixture: Mixture, stream: Stream, where: str) -> Any:
     if table.relative_humidity is None:
         return jnp.asarray(flow * _shares("gases", table.gas, mixture, where))
     from granum.humid_gas import state
+    from granum.streams.equilibrium import HumidMixture
 
     if len(mixture.gases) != 2:
         raise CaseError(_("{where}: 'relative_humidity' needs a mixture with a carrier gas and a vapor.").format(where=where))
+    try:
+        humid = HumidMixture(mixture)
+    except GranumError as problem:
+        raise CaseError(f"{where}: {problem.message}") from None
     humidity = state(
         temperature=float(stream.temperature),
         pressure=float(stream.pressure),
         relative_humidity=quantity(table.relative_humidity, "RelativeHumidity", "relative_humidity", where),
+        pair=humid.pair,
     ).humidity_ratio
-    return jnp.asarray([flow, flow * humidity])
+    return jnp.full((2,), flow).at[humid.vapor].multiply(humidity)
 
 
 def _size_shares(table: SizeTable | None, mixture: Mixture, where: str) -> np.ndarray:

@@ -6,15 +6,35 @@ from typing import Any
 
 import jax.numpy as jnp
 
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
 from granum.humid_gas.pairs import AirWater
 from granum.numerics import safe_divide
+from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
 PAIR = AirWater()
 
 
+def require_water(mixture: Mixture, *, carried: bool = False) -> None:
+    """Refuse a mixture whose liquid is not water; ``carried``: also one whose gases are not a carrier and then its water vapor."""
+    gases = [gas.name for gas in mixture.gases]
+    if not mixture.liquids or mixture.liquids[0].name != "water" or "water" not in gases:
+        first = mixture.liquids[0].name if mixture.liquids else "–"
+        raise ApplicabilityError(
+            _("This dryer evaporates water only: the first liquid of the mixture must be water (it is {liquid}), with water among the gases ({gases}).").format(
+                liquid=first, gases=", ".join(gases) or "–")
+        )  # fmt: skip
+    if carried and (len(gases) != 2 or gases[1] != "water"):
+        raise ApplicabilityError(
+            _('This dryer knows one carrier gas and its water vapor, in that order, such as gases = ["dry air", "water"]; the mixture has {gases}.').format(
+                gases=", ".join(gases))
+        )  # fmt: skip
+
+
 def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: Any) -> tuple[Stream, Stream]:
     """Product of a moisture (never above the feed's), and what evaporates as a stream of vapor."""
+    require_water(feed.mixture)
     left = jnp.minimum(moisture * feed.solid_flow, feed.liquid[0])
     nothing = jnp.zeros_like(feed.gas)
     rest = crystallized(feed, 1.0 - safe_divide(left, feed.liquid[0], 1.0))
@@ -41,4 +61,5 @@ def crystallized(wet: Stream, share: Any) -> Stream:
 
 def humidity(stream: Stream) -> Any:
     """Vapor per dry gas."""
+    require_water(stream.mixture, carried=True)
     return safe_divide(stream.gas[1], stream.gas[0])

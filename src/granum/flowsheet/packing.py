@@ -31,6 +31,11 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
+def as_arrays(tree: Any) -> Any:
+    """Numbers as arrays, so that what is compiled is reused when only values change."""
+    return jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, tree)
+
+
 @lru_cache(maxsize=64)
 def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> Callable[[list[Any]], Any]:
     shape: list[Any] = []

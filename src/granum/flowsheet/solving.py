@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -11,8 +12,11 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
+from granum.core.errors import GranumError
+from granum.core.i18n import _
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.watching import reporter
 from granum.numerics import Anderson, Newton, Settled, fixed_point, settle, within_rounding
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
@@ -60,6 +64,18 @@ def _unpack(vector: Any, mixture: Mixture, pressure: Any, scale: Any) -> Stream:
     return Stream(solid.reshape(shape), liquid, gas, vector[-1] * TEMPERATURE_SCALE, pressure, mixture)
 
 
+@contextmanager
+def named(unit: str) -> Iterator[None]:
+    """Whatever a unit refuses inside the block is told with its name."""
+    try:
+        yield
+    except GranumError as problem:
+        if "unit" not in problem.details:
+            problem.message = _("Unit '{unit}': {problem}").format(unit=unit, problem=problem.message)
+            problem.args, problem.details["unit"] = (problem.message,), unit
+        raise
+
+
 class _Made(NamedTuple):
     streams: dict[str, Stream]
     powers: dict[str, dict[str, Any]]
@@ -73,9 +89,8 @@ def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets
     made = _Made({}, {}, {}, {})
     for unit in block.units:
         thing, inlets = line.units[unit], line.inlets_of(unit, streams)
-        with sharing():
-            with flags.collect() as records:
-                out = thing(**inlets)
+        with named(unit), sharing(), flags.collect() as records:
+            out = thing(**inlets)
             if sheets:
                 made.sheets[unit] = (thing.results(inlets, out), thing.checks(inlets, out))
         made.powers[unit] = {name: getattr(out, name) for name in thing.power_names()}
@@ -86,7 +101,7 @@ def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets
     return made
 
 
-def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson | Newton, max_steps: int) -> tuple[_Made, Settled]:  # fmt: skip
+def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson | Newton, max_steps: int, watched: bool) -> tuple[_Made, Settled]:  # fmt: skip
     """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
     words: list[Any] = []  # names and sources among what is made, which are no numbers
 
@@ -102,7 +117,8 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
 
     start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
     if isinstance(method, Anderson):
-        found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps)
+        watch = reporter(block.tears[0]) if watched else None
+        found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps, watch=watch)
     else:
         root = fixed_point(lambda x, _args: once(x)[0], start, method=method, tolerance=TOLERANCE, max_steps=max_steps, scale=1.0)
         good = root.residual <= within_rounding(root.state, TOLERANCE)
@@ -118,6 +134,7 @@ def solve(
     sheets: bool = False,
     method: Anderson | Newton = Anderson(),
     max_steps: int = 200,
+    watched: bool = False,
 ) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
@@ -128,6 +145,7 @@ def solve(
     sheets: also work out figures and checks of every unit (then jit with ``eqx.filter_jit``: checks carry words).
     method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn numbers), which compiles longer and
         solves some loops that do not contract. max_steps: most passes through a loop, or steps of Newton.
+    watched: whether Anderson's method tells the ``Watch`` of each pass and stops when that asks for it.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
@@ -140,7 +158,7 @@ def solve(
         if block.tears:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears}
-            made, found = _run_loop(line, block, streams, guess, scale, sheets, method, max_steps)
+            made, found = _run_loop(line, block, streams, guess, scale, sheets, method, max_steps, watched)
             converged = converged & found.converged
             steps.append(found.steps)
             residual.append(found.residual)
@@ -170,23 +188,34 @@ def line_closure(line: Flowsheet, solution: Solution) -> Closure:
 
 def closures(line: Flowsheet, solution: Solution) -> tuple[dict[str, Closure], Closure]:
     """Closure of every unit and of the whole line, all streams at once."""
-    stacked = jax.tree.map(
-        lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *(solution.streams[k.name] for k in line.links)
-    )
+    mass, energy, by_component = balances(line, solution, stacked(line, solution))
+    rows = [Closure(mass[i], energy[i], by_component[i]) for i in range(len(line.order) + 1)]
+    return dict(zip(line.order, rows[:-1], strict=True)), rows[-1]
+
+
+def stacked(line: Flowsheet, solution: Solution) -> Stream:
+    """All streams as one, along a leading axis in the order of ``line.links``."""
+    named = (solution.streams[k.name] for k in line.links)
+    return jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *named)
+
+
+def balances(line: Flowsheet, solution: Solution, streams: Stream) -> tuple[Any, Any, Any]:
+    """Imbalance of mass (worst component), energy and every component: of each unit, then of the whole line."""
     entering = np.array([[k.target_unit == unit for k in line.links] for unit in line.order] + [[not k.origin for k in line.links]])
     leaving = np.array([[k.source_unit == unit for k in line.links] for unit in line.order] + [[not k.target for k in line.links]])
     powers = [sum(solution.powers[unit].values(), 0.0) for unit in line.order]
     powers = jnp.stack([jnp.asarray(p, dtype=float) for p in [*powers, sum(powers, 0.0)]])
-    mass, energy, by_component = _closures(stacked, entering.astype(float), leaving.astype(float), powers)
-    rows = [Closure(mass[i], energy[i], by_component[i]) for i in range(len(line.order) + 1)]
-    return dict(zip(line.order, rows[:-1], strict=True)), rows[-1]
+    return _closures(streams, entering.astype(float), leaving.astype(float), powers)
 
 
 @jax.jit
 def _closures(streams: Stream, entering: Any, leaving: Any, powers: Any) -> tuple[Any, Any, Any]:
     components, enthalpies = jax.vmap(lambda s: (s.components, s.enthalpy_flow))(streams)
+    known = jnp.isfinite(jnp.sum(components, axis=1) + enthalpies)  # a lost stream spoils the balances of its own two units only
+    components, enthalpies = jnp.where(known[:, None], components, 0.0), jnp.where(known, enthalpies, 0.0)
+    lost = jnp.where((entering + leaving) @ ~known > 0, jnp.nan, 0.0)
     mass_in, mass_out = entering @ components, leaving @ components
     by_component = (mass_out - mass_in) / jnp.maximum(jnp.sum(mass_in, axis=1, keepdims=True), 1e-300)
     turnover = (entering + leaving) @ jnp.abs(enthalpies) + jnp.abs(powers)
     energy = jnp.abs((leaving - entering) @ enthalpies - powers) / jnp.maximum(turnover, 1e-300)
-    return jnp.max(jnp.abs(by_component), axis=1), energy, by_component
+    return jnp.max(jnp.abs(by_component), axis=1) + lost, energy + lost, by_component

@@ -262,11 +262,15 @@ def settle(
     method: Anderson = Anderson(),
     tolerance: float = 1e-10,
     max_steps: int = 200,
+    watch: Callable[[jax.Array, jax.Array], jax.Array] | None = None,
 ) -> Settled:
     """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further results on the way.
 
     The function is run once in Python and stands once in the compiled code, so that a large one compiles fast. Derivatives with
     respect to closed-over values follow from the implicit function theorem, forward and reverse, for the state and what is made.
+
+    ``watch`` is called with the number of each pass and the best residual so far and says whether to stop. Of a function that never
+    gives a number, what the first pass made is kept: it shows where the numbers were lost.
 
     Example:
         >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
@@ -290,18 +294,20 @@ def settle(
     @jax.custom_jvp
     def search(closed_over: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
-            iteration, kept = carry
+            iteration, kept, _ = carry
             image, made = traced(iteration[0], *closed_over)
             following = method.proceed(iteration, image - iteration[0])
-            return following, jnp.where(following[1][1] < iteration[1][1], made, kept)
+            better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
+            stop = jnp.asarray(False) if watch is None else watch(following[-1], following[1][1])
+            return following, jnp.where(better, made, kept), stop
 
         def unfinished(carry: tuple) -> jax.Array:
-            iteration = carry[0]
+            iteration, _, stop = carry
             x, size = iteration[1]
-            return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps)
+            return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps) & ~stop
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
-        iteration, made = lax.while_loop(unfinished, advance, (method.begin(start), blank))
+        iteration, made, _ = lax.while_loop(unfinished, advance, (method.begin(start), blank, jnp.asarray(False)))
         (x, size), number = iteration[1], iteration[-1]
         return x, made, size, number.astype(x.dtype)
 

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from granum.flowsheet.watching import Watch
 
 
 @contextmanager
@@ -18,6 +21,28 @@ def working(what: str, quiet: bool = False) -> Iterator[None]:
         return
     with console.status(what + " …"):
         yield
+
+
+@contextmanager
+def watching(what: str, seconds: float, quiet: bool = False) -> Iterator[Watch]:
+    """Shows how far each loop of a line is while the block solves it under the watch."""
+    from rich.console import Console
+
+    from granum.core.i18n import _
+    from granum.core.units import format_number
+    from granum.flowsheet.watching import Watch
+
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
+        yield Watch(seconds=seconds)
+        return
+    with console.status(what + " …") as status:
+
+        def tell(loop: str, number: int, residual: float) -> None:
+            told = _("loop through '{stream}': pass {number}, residual {residual}")
+            status.update(f"{what} · {told.format(stream=loop, number=number, residual=format_number(residual, 2))}")
+
+        yield Watch(tell, seconds)
 
 
 @contextmanager

@@ -139,10 +139,12 @@ def _bounds(p: Parameter) -> str:
     return text
 
 
-def print_run(outcome: Any, saved: Sequence[Path] = ()) -> None:
-    """The outcome of ``granum run``: streams, units with results and checks, audit, flags."""
+def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -> None:
+    """The outcome of ``granum run``: streams, units with results and checks, audit, flags; ``partial`` says that it is no solution."""
     console = _console()
     console.print(Text(outcome.title, style="bold"))
+    if partial:
+        console.print(Text(_("Last iterate, not a solution: these figures are no results."), style=OUT))
     streams = stream_table(outcome)
     table = _table((_("stream"), "left"), *((head, "right") for head in streams.heads))
     for name, cells in streams.rows:

@@ -28,7 +28,8 @@ class HumidMixture:
     """The gas–vapor pair in a mixture: its first gas carries the vapor of its first liquid."""
 
     def __init__(self, mixture: Mixture):
-        if not mixture.gases or not mixture.liquids or mixture.liquids[0].name not in [g.name for g in mixture.gases]:
+        names = [g.name for g in mixture.gases]
+        if not mixture.liquids or mixture.liquids[0].name not in names or len(names) < 2:
             raise ApplicabilityError(
                 _('The mixture needs a carrier gas, and its first liquid among the gases too: gases = ["dry air", "water"].')
             )

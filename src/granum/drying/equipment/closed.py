@@ -27,7 +27,7 @@ from granum.core.kinds import (
 )  # fmt: skip
 from granum.drying.balances.convective import COLDEST, PAIR
 from granum.drying.balances.savings import vapor_recompression
-from granum.drying.wet_surface import boiled
+from granum.drying.wet_surface import boiled, require_water
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
 from granum.materials.formulas.water import water_boiling_temperature
@@ -225,6 +225,7 @@ class ClosedDryer(Unit):
 
     @shared
     def _run(self, feed: Stream) -> Circuit:
+        require_water(feed.mixture)
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
         return self.drying_circuit.run(
             Duty(water, feed, self.temperature_inlet, self.moisture_outlet, self.temperature_product, self.heat_loss, self.fan_power)

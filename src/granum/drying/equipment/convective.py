@@ -28,6 +28,7 @@ from granum.core.kinds import (
 from granum.drying.balances.convective import PAIR
 from granum.drying.balances.indices import latent_heat
 from granum.drying.equipment.well_mixed import evaporate
+from granum.drying.wet_surface import humidity, require_water
 from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import find_root, safe_divide
 from granum.streams.sharing import shared
@@ -127,6 +128,7 @@ class ConvectiveDryer(Unit):
     @shared
     def inside(self, feed: Stream, gas: Stream) -> Inside:
         """The whole dryer, solved for the temperature of its exhaust."""
+        require_water(feed.mixture, carried=True)
         water = feed.liquid[0]
         r = self.recirculated_fraction
         back = r / (1.0 - r)
@@ -168,11 +170,11 @@ class ConvectiveDryer(Unit):
             W = water - self.moisture_outlet * feed.solid_flow
         else:
 
-            def humidity(T: Any) -> Any:
-                y = PAIR.fraction(_humidity(moved(jnp.clip(water_at(T), 0.0, water))))
+            def missing(T: Any) -> Any:
+                y = PAIR.fraction(humidity(moved(jnp.clip(water_at(T), 0.0, water))))
                 return y - self.relative_humidity_outlet * saturated_fraction(PAIR, T, gas.pressure)
 
-            T = find_root(humidity, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet).value
+            T = find_root(missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet).value
             W = water_at(T)
         W = jnp.clip(W, 0.0, water)
         guess = jnp.minimum(gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0)
@@ -196,7 +198,7 @@ class ConvectiveDryer(Unit):
         if isinstance(self.effectiveness, float | int) and self.effectiveness == 0:
             return jnp.zeros(()), out, out.part()
         # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
-        beyond = jnp.maximum(PAIR.fraction(_humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
+        beyond = jnp.maximum(PAIR.fraction(humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
 
         def drained(T: Any) -> tuple[Stream, Stream]:
             ys = jnp.minimum(beyond * saturated_fraction(PAIR, T, out.pressure), 1.0 - 1e-9)
@@ -224,14 +226,14 @@ class ConvectiveDryer(Unit):
         bought = found.heater + self.fan_power
         energy = safe_divide(bought, W)
         wet = jnp.clip(found.outlet.temperature, ZERO_CELSIUS, 450.0)
-        w2 = _humidity(found.outlet)
+        w2 = humidity(found.outlet)
         return ConvectiveFigures(
             evaporation_rate=W,
             moisture_dry_basis=found.product.moisture_dry_basis,
             temperature_inlet=found.inlet.temperature,
             temperature_outlet=found.outlet.temperature,
             temperature_product=found.product.temperature,
-            humidity_ratio_inlet=_humidity(found.inlet),
+            humidity_ratio_inlet=humidity(found.inlet),
             humidity_ratio_outlet=w2,
             relative_humidity_outlet=PAIR.fraction(w2) / saturated_fraction(PAIR, found.outlet.temperature, found.outlet.pressure),
             dry_gas_flow=found.inlet.gas[0],
@@ -261,8 +263,3 @@ class ConvectiveDryer(Unit):
         if self.temperature_limit is not None:
             found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
         return tuple(found)
-
-
-def _humidity(stream: Stream) -> Any:
-    """Vapor per dry gas."""
-    return safe_divide(stream.gas[1], stream.gas[0])

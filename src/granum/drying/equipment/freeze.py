@@ -29,6 +29,7 @@ from granum.core.kinds import (
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
 from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
+from granum.drying.wet_surface import require_water
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
@@ -101,6 +102,7 @@ class FreezeDryer(Unit):
     sublimation_capacity: MassFlow | None = None
 
     def __call__(self, feed: Stream) -> FreezeDried:
+        require_water(feed.mixture)
         keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
         kept = feed.liquid.at[0].set(keep)
         product = feed.replace(liquid=kept, gas=jnp.zeros_like(feed.gas), temperature=jnp.asarray(self.temperature_shelf_secondary))

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
 from granum.drying.contact.dryer import Dried
-from granum.drying.wet_surface import crystallized
+from granum.drying.wet_surface import crystallized, require_water
 from granum.humid_gas.pairs import AirWater
 from granum.humid_gas.relations import saturated_fraction, wet_bulb_balance
 from granum.materials.library import fluid
@@ -51,6 +51,7 @@ class WellMixedDryer(Unit):
     heat_loss: Power = 0.0
 
     def __call__(self, feed: Stream, gas: Stream) -> Dried:
+        require_water(feed.mixture, carried=True)
         pair = AirWater()
         water = feed.liquid[0]
         wet = feed + gas.replace(liquid=jnp.zeros_like(gas.liquid), solid=jnp.zeros_like(gas.solid))

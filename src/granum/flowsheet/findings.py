@@ -1,0 +1,234 @@
+"""Is a solved line a solution? What is measured on every stream and unit, and what is wrong, in words that name unit and cause."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import flags
+from granum.core.errors import GranumError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS, Kind
+from granum.core.parameters import Parameter
+from granum.core.units import format_number, show
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.solving import Solution, balances, stacked
+from granum.streams.equilibrium import HumidMixture
+from granum.streams.stream import COLDEST, HOTTEST, Stream
+
+CLOSURE = 1e-9  # of what enters: a balance that misses by more than this is not a balance
+NEGATIVE = -1e-9  # of the largest stream: what rounding may leave of a flow that is zero
+SATURATED = 1.001  # a gas that leaves saturated may lie this far above by the difference between two vapor pressures
+PHASES = {"solid": "solids", "liquid": "liquids", "gas": "gases"}
+WRONG = flags.OUTSIDE_DOMAIN | flags.NOT_FINITE | flags.NOT_CONVERGED
+
+
+class Findings(NamedTuple):
+    """Numbers that decide whether a solution is one. Streams in the order of ``line.links``, units in ``line.order``, the whole line last.
+
+    Parameters
+    ----------
+    finite: whether flows and temperature of each stream are finite numbers.
+    lowest: lowest flow of any species and class, as a share of the largest stream.
+    saturation: partial pressure of the vapor over its saturation pressure; zero where there is no gas, or no vapor among the gases.
+    temperature: K. mass, energy: relative imbalance. by_component: the same for each conserved component.
+    lost: whether a formula inside each unit said that there is no value, or an iteration did not converge.
+    figures: whether all figures of each unit, where they were asked for, are finite and within the bounds of their quantity.
+    """
+
+    finite: Any
+    lowest: Any
+    saturation: Any
+    temperature: Any
+    mass: Any
+    energy: Any
+    by_component: Any
+    lost: Any
+    figures: Any
+
+
+class Fault(NamedTuple):
+    """Something that cannot be: its kind (``no value``, ``stream``, ``balance``, ``figure``, ``loop``, ``target``, ``stopped``), unit, stream and sentence."""
+
+    kind: str
+    unit: str
+    stream: str
+    message: str
+
+
+def findings(line: Flowsheet, solution: Solution) -> Findings:
+    """Measure a solution. Pure, so that studies batch it."""
+    streams = stacked(line, solution)
+    mass_flow = jax.vmap(lambda s: s.mass_flow)(streams)
+    largest = jnp.max(mass_flow)
+    largest = jnp.where(largest > 0, largest, 1.0)
+    mass, energy, by_component = balances(line, solution, streams)
+    return Findings(
+        finite=jnp.isfinite(mass_flow + streams.temperature),
+        lowest=jax.vmap(_lowest)(streams) / largest,
+        saturation=_saturations(streams, 1e-9 * largest),
+        temperature=streams.temperature,
+        mass=mass,
+        energy=energy,
+        by_component=by_component,
+        lost=jnp.stack([_lost(solution.records[name]) for name in line.order]),
+        figures=jnp.stack([_possible_figures(line, solution, name) for name in line.order]),
+    )
+
+
+def sound(found: Findings) -> Any:
+    """Whether the solution is one, loops apart."""
+    return (
+        jnp.all(found.finite)
+        & jnp.all(found.lowest >= NEGATIVE)
+        & jnp.all(found.saturation <= SATURATED)
+        & jnp.all((found.temperature > COLDEST + 1.0) & (found.temperature < HOTTEST - 1.0))
+        & jnp.all(found.mass <= CLOSURE)
+        & jnp.all(found.energy <= CLOSURE)
+        & ~jnp.any(found.lost)
+        & jnp.all(found.figures)
+    )
+
+
+def faults(line: Flowsheet, solution: Solution, found: Findings) -> list[Fault]:
+    """What is wrong with a solution, in the order in which the units are calculated: the first is the cause."""
+    fed = [fault for k in line.links if not k.origin for fault in _of_stream(line, solution, found, k.name)]
+    return fed + [fault for block in line.blocks for unit in block.units for fault in _of_unit(line, solution, found, unit)]
+
+
+def _lowest(s: Stream) -> Any:
+    flows = jnp.concatenate([jnp.ravel(s.solid), s.liquid, s.gas])
+    return jnp.min(flows, initial=0.0)
+
+
+def _saturations(streams: Stream, least: Any) -> Any:
+    try:
+        humid = HumidMixture(streams.mixture)
+    except GranumError:  # one gas alone, or vapors that the library does not know: nothing to hold against it
+        return jnp.zeros(jnp.shape(streams.temperature))
+    return jax.vmap(lambda s: jnp.where(s.gas_flow > least, humid.relative_humidity(s), 0.0))(streams)
+
+
+def _lost(records: list[flags.Record]) -> Any:
+    return jnp.any(jnp.stack([jnp.any(r.mask) for r in records if r.bit & WRONG] or [jnp.asarray(False)]))
+
+
+def _place(line: Flowsheet, name: str) -> int:
+    return [k.name for k in line.links].index(name)
+
+
+def _of_unit(line: Flowsheet, solution: Solution, found: Findings, unit: str) -> Iterator[Fault]:
+    for row in flags.describe([r for r in solution.records[unit] if r.bit & WRONG]):
+        yield Fault("no value", unit, "", _("Unit '{unit}' has no solution: {cause}").format(unit=unit, cause=row["message"]))
+    for k in line.links:
+        if k.source_unit == unit:
+            yield from _of_stream(line, solution, found, k.name)
+    yield from _of_balance(line, found, unit)
+    if not bool(found.figures[line.order.index(unit)]):
+        yield from _of_figures(line, solution, unit)
+
+
+def _of_stream(line: Flowsheet, solution: Solution, found: Findings, name: str) -> Iterator[Fault]:
+    link, i = line.link(name), _place(line, name)
+    unit, stream = link.source_unit, solution.streams[name]
+    what = _("Stream '{stream}' from unit '{unit}'").format(stream=name, unit=unit) if unit else _("Feed '{stream}'").format(stream=name)
+    if not bool(found.finite[i]):
+        before = [k.name for k in line.links if unit and k.target_unit == unit and not bool(found.finite[_place(line, k.name)])]
+        if not before:  # a unit that is given no number gives none: the fault lies before it
+            yield Fault("no value", unit, name, _("{what} is not a finite number: check the inputs of that unit.").format(what=what))
+        return
+    if float(found.lowest[i]) < NEGATIVE:
+        phase, species, flow = _most_negative(stream)
+        yield Fault(
+            "stream", unit, name,
+            _("{what} would carry {flow} kg/s of {species} ({phase}): a negative flow.").format(
+                what=what, flow=format_number(flow), species=species, phase=_(phase)),
+        )  # fmt: skip
+    if float(found.saturation[i]) > SATURATED:
+        yield Fault(
+            "stream", unit, name,
+            _("{what} would hold {share} times the vapor that saturates it at {temperature}: give it more gas or a higher temperature, or let it condense in a streams.humid_mixer or streams.condenser_cooler.").format(
+                what=what, share=format_number(float(found.saturation[i])), temperature=_kelvin(found.temperature[i])),
+        )  # fmt: skip
+    if not COLDEST + 1.0 < float(found.temperature[i]) < HOTTEST - 1.0:
+        yield Fault(
+            "stream", unit, name,
+            _("{what} would be at {temperature}, outside all that its properties are known for: check the heat that goes in and out.").format(
+                what=what, temperature=_kelvin(found.temperature[i])),
+        )  # fmt: skip
+
+
+def _of_balance(line: Flowsheet, found: Findings, unit: str) -> Iterator[Fault]:
+    i = line.order.index(unit)
+    known = [bool(found.finite[_place(line, k.name)]) for k in line.links if unit in (k.source_unit, k.target_unit)]
+    if not all(known):
+        return
+    if not float(found.mass[i]) <= CLOSURE:
+        row = np.asarray(found.by_component[i])
+        worst = int(np.argmax(np.abs(row)))
+        component = next(iter(line.feeds.values())).mixture.components[worst]
+        yield Fault(
+            "balance", unit, "",
+            _("Unit '{unit}' does not conserve {component}: {share} of what enters the unit is missing or too much.").format(
+                unit=unit, component=component, share=format_number(abs(float(row[worst])), 2)),
+        )  # fmt: skip
+    if not float(found.energy[i]) <= CLOSURE:
+        yield Fault(
+            "balance", unit, "",
+            _("The energy balance of unit '{unit}' is off by {share} of its turnover: its temperatures and duties cannot be used.").format(
+                unit=unit, share=format_number(float(found.energy[i]), 2)),
+        )  # fmt: skip
+
+
+def _figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[tuple[Parameter, Any]]:
+    """The quantities on the data sheet of a unit, where sheets were asked for."""
+    if unit in solution.sheets:
+        values, _checks = solution.sheets[unit]
+        for p, value in zip(type(line.units[unit]).card.outputs, values, strict=True):
+            if value is not None and p.kind is not None:
+                yield p, value
+
+
+def _possible_figures(line: Flowsheet, solution: Solution, unit: str) -> Any:
+    rows = [(jnp.ravel(jnp.asarray(value, dtype=float)), *_bounds(p.kind)) for p, value in _figures(line, solution, unit)]
+    if not rows:
+        return jnp.asarray(True)
+    low, high = (np.concatenate([np.full(row[0].shape, row[side]) for row in rows]) for side in (1, 2))
+    values = jnp.concatenate([row[0] for row in rows])
+    return jnp.all((values >= low) & (values <= high))
+
+
+def _bounds(kind: Kind) -> tuple[float, float]:
+    """The bounds of a quantity, widened by rounding; the largest finite numbers where it has none."""
+    low, high = kind.lower - 1e-9 * max(abs(kind.lower), 1.0), kind.upper + 1e-9 * max(abs(kind.upper), 1.0)
+    most = np.finfo(float).max
+    return (low if np.isfinite(low) else -most), (high if np.isfinite(high) else most)
+
+
+def _of_figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[Fault]:
+    for p, value in _figures(line, solution, unit):
+        array, (low, high) = np.ravel(np.asarray(value, dtype=float)), _bounds(p.kind)
+        bad = array[~((array >= low) & (array <= high))]
+        if not bad.size:
+            continue
+        told = _("'{figure}' of unit '{unit}' would be {value}, which is not possible.")
+        if not np.isfinite(bad[0]):
+            told = _("'{figure}' of unit '{unit}' is not a finite number.")
+        yield Fault("figure", unit, "", told.format(figure=p.label, unit=unit, value=show(float(bad[0]), p.kind)))
+
+
+def _most_negative(s: Stream) -> tuple[str, str, float]:
+    flows = {"solid": s.solid_by_species if s.mixture.solids else np.zeros(0), "liquid": s.liquid, "gas": s.gas}
+    if s.mixture.solids:  # a class may be negative though its species is not
+        flows["solid"] = np.min(np.reshape(np.asarray(s.solid), (len(s.mixture.solids), -1)), axis=1)
+    rows = [(float(f), phase, i) for phase, row in flows.items() for i, f in enumerate(np.asarray(row))]
+    flow, phase, i = min(rows)
+    return phase, getattr(s.mixture, PHASES[phase])[i].name, flow
+
+
+def _kelvin(value: Any) -> str:
+    return show(float(value), KINDS["Temperature"])

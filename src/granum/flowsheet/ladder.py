@@ -1,0 +1,160 @@
+"""From the quick solver to the patient one: a line is tried with each until it has a solution that stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from granum.core.i18n import _
+from granum.core.units import format_number
+from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
+from granum.flowsheet.packing import as_arrays, compiled
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.solving import solve
+from granum.flowsheet.specifications import Designed, Target, design, figure
+from granum.flowsheet.watching import Watch
+from granum.numerics import Anderson, Newton
+from granum.streams.stream import Stream
+
+
+class Tried(NamedTuple):
+    """What one solver found, what was measured on it, and whether it stands."""
+
+    designed: Designed
+    findings: Findings
+    stands: Any
+
+
+def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
+    found = design(sheet, targets, sheets=True, **how)
+    measured = findings(found.line, found.solution)
+    return Tried(found, measured, found.converged & sound(measured))
+
+
+@compiled
+def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool) -> Tried:
+    """The line with its specifications, figures, checks and audit: one compilation."""
+    return _measured(sheet, targets, watched=watched)
+
+
+@compiled
+def _patiently(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool, _torn: dict[str, Stream]) -> Tried:
+    return _measured(sheet, targets, method=Anderson(window=10, damping=0.4), max_steps=2000, watched=watched)
+
+
+@compiled
+def _by_newton(sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, torn: dict[str, Stream]) -> Tried:
+    return _measured(sheet, targets, start=torn, method=Newton(), max_steps=50)
+
+
+@compiled
+def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
+    solution = solve(sheet)
+    return figure(sheet, solution, path), solution.converged
+
+
+def climb(sheet: Flowsheet, targets: tuple[Target, ...] = (), watch: Watch | None = None) -> tuple[Tried, list[Fault]]:
+    """The line solved by the first solver whose result stands; where none does, the last iterate and what is wrong with it, the cause first."""
+
+    def attempt(solver: Callable[..., Tried], *more: Any) -> tuple[Tried, list[Fault]]:
+        found = (watch.run if watch is not None else _at_once)(lambda: solver(as_arrays(sheet), targets, watch is not None, *more))
+        return found, wrongs(found, targets)
+
+    found, wrong = attempt(_quickly)
+    for solver in (_patiently, _by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
+        if watch is not None and (watch.stopped or watch.late):
+            break
+        torn = {n: found.designed.solution.streams[n] for block in sheet.blocks for n in block.tears}
+        other, told = attempt(solver, torn)
+        if not told:
+            return other, []
+        if np.all(other.findings.finite) or not np.all(found.findings.finite):
+            found, wrong = other, told
+    if watch is not None and wrong and (watch.stopped or watch.late):
+        wrong = [Fault("stopped", "", "", _stopped(watch)), *wrong]
+    if wrong and wrong[0].kind == "target":
+        wrong = [wrong[0]._replace(message=_unmet(sheet, targets))]
+    return found, wrong
+
+
+def wrongs(found: Tried, targets: tuple[Target, ...]) -> list[Fault]:
+    """Why this is no solution, the cause first; empty when it is one."""
+    designed, solution = found.designed, found.designed.solution
+    if bool(found.stands):
+        return []
+    if not all(np.isfinite(float(v)) for v in designed.values.values()):
+        return [Fault("target", "", "", "")]
+    told = faults(designed.line, solution, found.findings)
+    if not bool(solution.converged):  # what hangs in the air balances nowhere: only what a unit says of itself may be a cause
+        return [fault for fault in told if fault.kind == "no value"] or [_open_loop(found)]
+    if not bool(designed.converged):
+        return [Fault("target", "", "", "")]
+    return told
+
+
+def _at_once(work: Callable[[], Tried]) -> Tried:
+    return work()
+
+
+def _loops_fail(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:
+    """Whether it is a loop that does not come to rest, rather than a specification that is out of reach."""
+    if not any(block.tears for block in sheet.blocks):
+        return False
+    if wrong[0].kind != "target":
+        return wrong[0].kind in ("loop", "no value")
+    return any(not np.isfinite(sum(_reach(sheet, t))) for t in targets)
+
+
+def _open_loop(found: Tried) -> Fault:
+    solution, line = found.designed.solution, found.designed.line
+    loops = [b for b in line.blocks if b.tears]
+    worst = max(range(len(loops)), key=lambda i: float(solution.residual[i]))
+    tear = line.link(loops[worst].tears[0])
+    told = _(
+        "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
+    )
+    shown = format_number(float(solution.residual[worst]), 2)
+    return Fault("loop", tear.source_unit, tear.name, told.format(stream=tear.name, unit=tear.source_unit, residual=shown))
+
+
+def _stopped(watch: Watch) -> str:
+    told = (
+        _("Stopped after {passes} passes, scaled residual {residual}.")
+        if watch.stopped
+        else _("Not solved within {seconds} s: {passes} passes, scaled residual {residual}. Give it more time, or make the line easier.")
+    )
+    return told.format(passes=watch.passes, residual=format_number(watch.residual, 2), seconds=format_number(watch.seconds or 0.0))
+
+
+def _reach(sheet: Flowsheet, target: Target) -> tuple[float, float]:
+    """What the result of a specification is at both ends of the varied parameter, the other specifications left out."""
+    ends = (_figure(as_arrays(sheet.with_values({target.vary: x})), target.so_that) for x in (target.lower, target.upper))
+    low, high = (float(value) if bool(good) else float("nan") for value, good in ends)
+    return low, high
+
+
+def _unmet(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
+    for t in targets:
+        low, high = _reach(sheet, t)
+        if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
+            return _(
+                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI units). Vary another parameter."
+            ).format(result=t.so_that, vary=t.vary, value=f"{low:.6g}")
+        if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
+            return _(
+                "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at {upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
+            ).format(
+                result=t.so_that,
+                wanted=f"{t.equals:.6g}",
+                low=f"{low:.6g}",
+                high=f"{high:.6g}",
+                vary=t.vary,
+                lower=f"{t.lower:.6g}",
+                upper=f"{t.upper:.6g}",
+            )
+    wanted = "; ".join(f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets)
+    return _("No value of the varied parameters meets the specifications: {wanted}. Widen the limits or change the wanted value.").format(
+        wanted=wanted
+    )

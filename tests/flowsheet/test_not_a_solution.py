@@ -1,0 +1,202 @@
+"""What is not a solution is not a result: every way in which a line can be wrong ends in one sentence that names unit and cause."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jax.numpy as jnp
+import pytest
+from typer.testing import CliRunner
+
+import granum as gr
+from granum.cases.line import Line
+from granum.cli import app
+from granum.core import flags
+from granum.core.errors import ApplicabilityError, ConvergenceError, GranumError
+from granum.flowsheet import Flowsheet
+from granum.flowsheet.watching import Watch
+from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import Stream, empty
+
+WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
+MIXTURE = Mixture((), (WATER,), (), (1e-6, 1e-3))
+FEED = empty(MIXTURE, 330.0).replace(liquid=jnp.array([1.0]))
+
+
+class Leak(Mixer):
+    """Loses a millionth."""
+
+    def __call__(self, **inlets: Stream) -> Single:
+        return Single(sum(inlets.values(), start=empty(MIXTURE)).part(1.0, 1.0 - 1e-6, 1.0))
+
+
+class Warmer(Mixer):
+    """Gives a warmth that nobody pays for."""
+
+    def __call__(self, **inlets: Stream) -> Single:
+        joined = sum(inlets.values(), start=empty(MIXTURE))
+        return Single(joined.replace(temperature=joined.temperature + 1e-3))
+
+
+class Nowhere(Mixer):
+    """Gives no number."""
+
+    def __call__(self, **inlets: Stream) -> Single:
+        return Single(sum(inlets.values(), start=empty(MIXTURE)).replace(temperature=jnp.asarray(jnp.nan)))
+
+
+class Unsettled(Mixer):
+    """Says that its own iteration did not converge."""
+
+    def __call__(self, **inlets: Stream) -> Single:
+        flags.record(flags.NOT_CONVERGED, jnp.asarray(True), jnp.zeros(()), "inner balance", "streams.mixer")
+        return Single(sum(inlets.values(), start=empty(MIXTURE)))
+
+
+def loop(middle) -> Line:
+    """The recycle of the other tests, with one unit between the mixer and the splitter."""
+    units = {"mix": Mixer(), "middle": middle, "split": Splitter(side_fraction=0.7), "cool": Heater(temperature=300.0)}
+    links = {"feed": ("", "mix.fresh"), "mixed": ("mix", "middle.feed"), "hot": ("middle", "split"), "back_hot": ("split.side", "cool"),
+             "back": ("cool", "mix.back")}  # fmt: skip
+    return Line("loop", Flowsheet(units, {"feed": FEED}, links))
+
+
+def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
+    with pytest.raises(ConvergenceError) as caught:
+        line.solve(watch)
+    assert caught.value.exit_code == 3
+    assert caught.value.last.streams.keys() == {k.name for k in line.sheet.links}
+    return caught.value
+
+
+@pytest.mark.parametrize(("unit", "words"), [
+    (Leak(), "'middle' does not conserve water"),
+    (Warmer(), "energy balance of unit 'middle'"),
+    (Nowhere(), "from unit 'middle' is not a finite number"),
+    (Unsettled(), "Unit 'middle' has no solution"),
+])  # fmt: skip
+def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:
+    problem = refusal(loop(unit))
+    assert words in problem.message
+    assert problem.details["unit"] == "middle"
+
+
+AIR = """
+title = "two airs"
+[mixture]
+liquids = {liquids}
+gases = {gases}
+[feeds.warm]
+to = "{unit}.warm"
+temperature = "40 degC"
+gas_flow = "1 kg/s"
+relative_humidity = "{humidity}"
+[feeds.cold]
+to = "{unit}.cold"
+temperature = "-10 degC"
+gas_flow = "1 kg/s"
+relative_humidity = "90 %"
+[units.{unit}]
+model = "{model}"
+"""
+
+
+def air(tmp_path: Path, **words: str) -> Line:
+    given = {"liquids": '["water"]', "gases": '["dry air", "water"]', "unit": "mix", "humidity": "95 %", "model": "streams.mixer"} | words
+    text = AIR.format(**given)
+    path = tmp_path / "line.toml"
+    path.write_text(text)
+    return gr.read(path)
+
+
+def test_fog_is_no_gas(tmp_path: Path) -> None:
+    """Two airs near saturation lie on a chord above the saturation curve: a dry mixing point must say so, the humid one makes drops."""
+    problem = refusal(air(tmp_path))
+    assert "mix" in problem.message
+    assert "humid_mixer" in problem.message
+    run = air(tmp_path, model="streams.humid_mixer").solve()
+    assert float(run.streams["mix.product"].liquid_flow) > 0
+
+
+def test_relative_humidity_of_a_feed_is_that_of_its_own_vapor(tmp_path: Path) -> None:
+    """Ethanol at 40 °C: 134.1 mmHg by Antoine (8.11220, 1592.864, 226.184); half of it in nitrogen, by moles, whatever the order."""
+    p = 10 ** (8.11220 - 1592.864 / (226.184 + 40.0)) / 760.0
+    expected = 0.5 * p / (1 - 0.5 * p) * 46.069 / 28.013
+    for gases in ('["nitrogen", "ethanol"]', '["ethanol", "nitrogen"]'):
+        line = air(tmp_path, liquids='["ethanol"]', gases=gases, humidity="50 %", model="streams.humid_mixer")
+        feed = line.sheet.feeds["warm"]
+        vapor = feed.mixture.index("gases", "ethanol")
+        assert float(feed.gas[vapor] / feed.gas[1 - vapor]) == pytest.approx(expected, rel=0.01)
+
+
+DRYER = """
+title = "order of gases"
+[mixture]
+liquids = {liquids}
+solids = ["quartz"]
+gases = {gases}
+sizes = {{ smallest = "100 um", largest = "1 mm", classes = 4 }}
+[feeds.wet]
+to = "dryer.feed"
+solid_flow = "100 kg/h"
+liquid_flow = "10 kg/h"
+sizes = {{ fractions = [0.25, 0.25, 0.25, 0.25] }}
+[feeds.air]
+to = "dryer.gas"
+gas_flow = "1000 kg/h"
+gas = {gas}
+[units.dryer]
+model = "drying.{model}"
+{more}
+"""
+CONVECTIVE = 'temperature_inlet = "120 degC"\nmoisture_outlet = "1 %"'
+
+
+@pytest.mark.parametrize(("liquids", "gases", "gas"), [
+    ('["water"]', '["water", "dry air"]', '{ "dry air" = 0.99, water = 0.01 }'),
+    ('["water"]', '["dry air", "nitrogen", "water"]', '{ "dry air" = 0.5, nitrogen = 0.49, water = 0.01 }'),
+    ('["ethanol"]', '["nitrogen", "ethanol"]', '{ nitrogen = 1.0 }'),
+])  # fmt: skip
+@pytest.mark.parametrize(
+    ("model", "more"), [("convective_dryer", CONVECTIVE), ("well_mixed_dryer", 'residence_time = "10 min"\ngas_velocity = "1 m/s"')]
+)
+def test_a_dryer_refuses_gases_and_liquids_that_it_would_mistake(tmp_path, liquids, gases, gas, model, more) -> None:
+    path = tmp_path / "dryer.toml"
+    path.write_text(DRYER.format(liquids=liquids, gases=gases, gas=gas, model=model, more=more))
+    with pytest.raises(GranumError, match=r"Unit 'dryer': This dryer") as caught:
+        gr.read(path).solve()
+    assert isinstance(caught.value, ApplicabilityError)
+
+
+def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:
+    told: list[tuple[str, int, float]] = []
+    watch = Watch(lambda *row: told.append(row))
+    run = loop(Heater(temperature=333.15)).solve(watch)
+    assert told[0][:2] == ("back", 1)
+    assert float(run.streams["mixed"].mass_flow) == pytest.approx(1 / 0.3, rel=1e-10)
+    stopped = Watch(lambda *row: stopped.stop())
+    problem = refusal(loop(Heater(temperature=333.15)), stopped)
+    assert problem.details["kind"] == "stopped"
+    assert "Stopped after" in problem.message
+
+
+def test_time_is_bounded() -> None:
+    problem = refusal(loop(Heater(temperature=333.15)), Watch(seconds=1e-9))
+    assert "Not solved within" in problem.message
+
+
+def test_command_line_gives_no_figures_unless_asked(tmp_path: Path) -> None:
+    air(tmp_path)
+    path = str(tmp_path / "line.toml")
+    plain = CliRunner().invoke(app, ["run", path])
+    assert plain.exit_code == 3
+    assert plain.stdout == ""
+    assert "humid_mixer" in plain.stderr
+    data = CliRunner().invoke(app, ["run", path, "--json"])
+    assert data.exit_code == 3
+    assert set(json.loads(data.stdout)) == {"error"}
+    asked = CliRunner().invoke(app, ["run", path, "--partial"])
+    assert asked.exit_code == 3
+    assert "not a solution" in asked.stdout
