@@ -9,7 +9,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.comminution.kinds import MassPerEnergy
-from granum.core import formula, law
+from granum.core import formula, impossible, law
 from granum.core.kinds import Fraction, Frequency, Length, Mass, PositiveNumber, Power, Ratio
 from granum.numerics.smooth import safe_divide
 
@@ -98,6 +98,7 @@ def selection_rate_herbst_fuerstenau(specific_selection: MassPerEnergy, shaft_po
     >>> round(selection_rate_herbst_fuerstenau("1 tonne/kWh", "10 kW", "1 tonne") * 3600, 6)
     10.0
     """
+    impossible(shaft_power < 0.0, shaft_power, "shaft_power", 0.0, jnp.inf)
     return safe_divide(specific_selection * shaft_power, holdup_mass, jnp.nan)
 
 

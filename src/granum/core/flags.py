@@ -48,8 +48,9 @@ class Record:
 
 
 class _Collector:
-    def __init__(self) -> None:
+    def __init__(self, only: int) -> None:
         self.records: list[Record] = []
+        self.only = only
         self.level = jax.extend.core.get_opaque_trace_state()
 
     def accepts(self) -> bool:
@@ -61,9 +62,9 @@ _current: ContextVar[Any] = ContextVar("granum_formula", default=None)
 
 
 @contextmanager
-def collect() -> Iterator[list[Record]]:
-    """Open a collector; the list fills with records while formulas run at this trace level."""
-    collector = _Collector()
+def collect(only: int = 0) -> Iterator[list[Record]]:
+    """Open a collector; the list fills with records (``only`` those of one bit) while formulas run at this trace level."""
+    collector = _Collector(only)
     token = _active.set(collector)
     try:
         yield collector.records
@@ -72,9 +73,15 @@ def collect() -> Iterator[list[Record]]:
 
 
 def listening() -> bool:
-    """Whether a record made now would be kept: limits that cost much to compute are worth it only then."""
+    """Whether a record made now would be told to somebody: limits that cost much to compute are worth it only then."""
     collector = _active.get()
-    return collector is not None and collector.accepts()
+    return collector is not None and not collector.only and collector.accepts()
+
+
+def kept() -> list[Record]:
+    """What the collector at this trace level has kept so far; empty where none listens."""
+    collector = _active.get()
+    return collector.records if collector is not None and collector.accepts() else []
 
 
 @contextmanager
@@ -91,11 +98,16 @@ def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -
            reason: str = "", computed: tuple[Any, Any] | None = None) -> None:  # fmt: skip
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
-    if collector is not None and listening():
+    if collector is not None and collector.only in (0, bit) and collector.accepts():
         mask = jnp.asarray(mask)
         if computed is not None:
             computed = (jnp.broadcast_to(computed[0], mask.shape), jnp.broadcast_to(computed[1], mask.shape))
         collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed))
+
+
+def nested() -> bool:
+    """Whether a formula is running, so that a call made now stands inside another one."""
+    return _current.get() is not None
 
 
 def watch(**values: Any) -> None:
@@ -104,7 +116,7 @@ def watch(**values: Any) -> None:
     ``@formula(fitted={"reynolds": (1e-4, 2e5)})`` with ``watch(reynolds=Re)`` in the body flags the extrapolation.
     """
     formula = _current.get()
-    if formula is None or _active.get() is None:
+    if formula is None or not listening():
         return
     for name, value in values.items():
         low, high = formula.fitted[name]
@@ -121,6 +133,7 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
 def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
     """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
 
+    The outermost call on concrete values gives none there; a body whose number would look plausible says NaN itself, for its callers.
     Of several records the first one is what a reader is told; ``reason`` as for ``limit_active``, after the limits where there are
     any. These may be computed: they are told for the element that lies farthest out.
     """

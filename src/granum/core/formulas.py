@@ -13,7 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import flags
+from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
@@ -24,7 +24,6 @@ from granum.core.results import Result
 
 _steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
 
-COLDEST = 150.0  # K: colder than any operation here, warmer than any Celsius number that forgot its unit
 KELVIN = "A temperature given here is below −123 °C: a number without a unit is read in kelvin."
 
 
@@ -111,7 +110,7 @@ class Formula:
         traced = batched = False
         for i, (p, value) in enumerate(zip(self.card.parameters, values, strict=True)):
             if type(value) is float and p.kind is not None and not p.law and not p.series:
-                if not p.kind.contains(value) or value in (np.inf, -np.inf):
+                if not p.kind.contains(value) or value in (np.inf, -np.inf) or (p.coldest is not None and value < p.coldest):
                     values[i] = convert(value, p, _(" for {owner}").format(owner=self.key))
                 continue
             if is_tracer(value):
@@ -155,63 +154,75 @@ class Formula:
         return found
 
     def _bare(self, values: list[Any]) -> Any:
-        with flags.inside(self):
-            return self.function(*values)
+        """The value, NaN where none exists."""
+        with flags.collect(flags.OUTSIDE_DOMAIN) as records:
+            out = self._body(values)
+        return self._possible(out, records)
 
     def _masked(self, values: list[Any]) -> Any:
-        """The value with NaN wherever an element lies outside the hard bounds; both branches stay finite."""
-        guarded, possible = self._guard(values)
-        out = self._bare(guarded)
-        return jax.tree.map(lambda x: jnp.where(possible, x, jnp.nan), out) if possible is not None else out
+        """The value, NaN where none exists or an input lies outside the hard bounds; both branches stay finite."""
+        with flags.collect(flags.OUTSIDE_DOMAIN) as records:
+            out = self._body(self._guard(values))
+        return self._possible(out, records)
 
-    def _guard(self, values: list[Any]) -> tuple[list[Any], Any]:
-        if any(p.series for p in self.card.parameters):
-            return values, None
-        guarded, possible = list(values), jnp.asarray(True)
+    def _possible(self, out: Any, records: list[flags.Record]) -> Any:
+        """Of the outermost call alone: the number of a formula inside another stays, as it may stand in a branch not taken."""
+        return bounds.without_impossible(self.card.outputs, out, records, self._along)
+
+    @functools.cached_property
+    def _along(self) -> bool:
+        """Whether some inputs are series, over which a check concerns the result as a whole."""
+        return any(p.series for p in self.card.parameters)
+
+    def _guard(self, values: list[Any]) -> list[Any]:
+        """The values with ordinary ones in place of elements outside the hard bounds, which are recorded."""
+        if self._along:
+            return values
+        guarded = list(values)
         for i, p in enumerate(self.card.parameters):
             if p.kind is None or values[i] is None or (p.kind.lower == -np.inf and p.kind.upper == np.inf):
                 continue
             inside = p.kind.contains(values[i])
             flags.record(flags.OUTSIDE_DOMAIN, ~jnp.asarray(inside), values[i], p.name, self.key, p.kind.lower, p.kind.upper)
             guarded[i] = jnp.where(inside, values[i], sum(p.ordinary()) / 2)
-            possible = possible & inside
-        return guarded, possible
+        return guarded
 
     def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
         with flags.collect() as records:
-            for p, value in zip(self.card.parameters, values, strict=True):
-                if p.kind is not None and p.kind.name == "temperature" and value is not None and p.name not in self.fitted:
-                    flags.record(flags.EXTRAPOLATED, jnp.asarray(value) < COLDEST, value, p.name, self.key, reason=KELVIN)
-            guarded, possible = self._guard(values)
-            out = self._body(guarded)
-            if possible is not None:
-                out = jax.tree.map(lambda x: jnp.where(possible, x, jnp.nan), out)
-            finite = jnp.asarray(True) if possible is None else possible
+            out = self._body(self._guard(values))
             # where the body itself has said that a state is impossible, its outputs need not be reported one by one
-            outside = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN and found.card == self.key]
+            outside = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN]
             for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
-                lost = ~jnp.isfinite(jnp.asarray(value, dtype=float)) & finite
+                lost = ~jnp.isfinite(jnp.asarray(value, dtype=float))
                 for mask in outside:
-                    lost = lost & ~mask if mask.shape in ((), lost.shape) else lost
+                    lost = lost & ~bounds.concerned(mask, lost, self._along)
                 flags.record(flags.NOT_FINITE, lost, jnp.zeros(()), p.name, self.key)
-        return out, list(records)
+        return self._possible(out, records), list(records)
 
     def _body(self, values: list[Any]) -> Any:
-        """Run the function, recording inputs and outputs outside the declared ranges."""
+        """Run the function, recording inputs and outputs outside the declared ranges and outputs outside their own bounds."""
+        start = len(flags.kept())
         for p, value in zip(self.card.parameters, values, strict=True):
-            if p.fitted is not None and value is not None:
-                self._record_range(p, value)
-        out = self._bare(values)
-        for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
-            if p.fitted is not None:
-                self._record_range(p, value)
+            if p.kind is not None and value is not None:
+                self._record_range(p, value, p.coldest)
+        with flags.inside(self):
+            out = self.function(*values)
+        for p, value in bounds.figures(self.card.outputs, out):
+            self._record_range(p, value, None)
+        bounds.record_outside(self.card.outputs, out, self.key, self.source, start)
         return out
 
-    def _record_range(self, p: Parameter, value: Any) -> None:
-        assert p.fitted is not None
-        low, high = p.fitted
+    def _record_range(self, p: Parameter, value: Any, coldest: float | None) -> None:
+        if not flags.listening() or (p.fitted is None and coldest is None):
+            return
         value = jnp.asarray(value)
-        flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, p.name, self.key, low, high, self.source)
+        without_unit = value < (-np.inf if coldest is None else coldest)
+        if coldest is not None:
+            flags.record(flags.EXTRAPOLATED, without_unit, value, p.name, self.key, reason=KELVIN)
+        if p.fitted is not None:
+            low, high = p.fitted
+            beyond = (value < low) & ~without_unit | (value > high)
+            flags.record(flags.EXTRAPOLATED, beyond, value, p.name, self.key, low, high, self.source)
 
     def _prepare(self, names: tuple[str, ...]) -> tuple[Any, ...]:
         """For calls with these keywords as plain floats: bounds as strict limits, order of the arguments, compiled body."""
@@ -222,10 +233,13 @@ class Formula:
                 values[i] = convert(values[i], p)
         if any(p.law or p.kind is None or p.series or p.sort is int for p in self.card.parameters if p.name in given):
             return ()
-        kinds = [kind for n in names if (kind := self.card.parameter(n).kind) is not None]
         limits = [
-            (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf), k.upper if k.open_upper else np.nextafter(k.upper, np.inf))
-            for k in kinds
+            (
+                self.card.parameter(n).coldest or (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf)),
+                k.upper if k.open_upper else np.nextafter(k.upper, np.inf),
+            )
+            for n in names
+            if (k := self.card.parameter(n).kind) is not None
         ]
         key, _dynamic = self._split(values)
         order = [
@@ -251,12 +265,13 @@ class Formula:
         return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        if not args and _steps.get() is None:
+        nested = flags.nested()
+        if not args and not nested and _steps.get() is None:
             quick = self._quick(kwargs)
             if quick is not _DYNAMIC:
                 return self._told(quick, kwargs)
         values, traced, batched = self._collect_values(args, kwargs)
-        if traced:
+        if traced or nested:
             return self._body(values)
         if _steps.get() is not None:
             return self._evaluate(values).value

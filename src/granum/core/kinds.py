@@ -121,6 +121,7 @@ SpecificSurfaceMass = Annotated[Any, _positive("surface per mass", "m^2/kg", "m^
 # mass, amount, flow
 Mass = Annotated[Any, _nonnegative("mass", "kg", "kg", "g", "mg", "tonne", "lb")]
 MassFlow = Annotated[Any, _nonnegative("mass flow", "kg/s", "kg/hour", "tonne/hour", "lb/hour")]
+SignedMassFlow = Annotated[Any, _any("mass flow", "kg/s", "kg/hour", "tonne/hour", "lb/hour")]
 VolumeFlow = Annotated[Any, _nonnegative("volume flow", "m^3/s", "m^3/hour", "L/min", "L/s", "gallon/min")]
 MassFlux = Annotated[Any, _nonnegative("mass flux", "kg/(m^2*s)", "kg/(m^2*hour)", "tonne/(m^2*hour)")]
 SignedMassFlux = Annotated[Any, _any("mass flux", "kg/(m^2*s)", "kg/(m^2*hour)")]

@@ -13,12 +13,14 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import numpy as np
 
 from granum.core import units
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.glossary import Term, ending, glossary
 from granum.core.i18n import _
 from granum.core.kinds import Kind, Law, Series, extra_of, kind_of
 
 REQUIRED = inspect.Parameter.empty
+COLDEST = 150.0  # K: colder than any operation here, warmer than any Celsius number that forgot its unit
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,13 @@ class Parameter:
     def required(self) -> bool:
         """Whether a value must be given."""
         return self.default is REQUIRED
+
+    @property
+    def coldest(self) -> float | None:
+        """The temperature below which a number has forgotten its unit; None for other kinds."""
+        if self.kind is None or self.kind.name != "temperature":
+            return None
+        return COLDEST if self.fitted is None else min(COLDEST, self.fitted[0])
 
     @property
     def term(self) -> Term | None:
@@ -208,6 +217,14 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
     return InputError(message, name=parameter.name, value=float(value), allowed=allowed)
 
 
+def _forgotten_unit(value: float, parameter: Parameter, where: str) -> InputError:
+    """The error for a bare number colder than any temperature here: it was meant in degrees Celsius."""
+    message = _(
+        "{label} ('{name}') = {value} K is below any operation here{where}: a number without a unit is read in kelvin. Did you mean {value} °C?"
+    ).format(label=parameter.label, name=parameter.name, value=units.format_number(value), where=where)
+    return InputError(message, name=parameter.name, value=value)
+
+
 def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
     """Whatever a user passes for a parameter as what the function body takes; raises one clear error otherwise.
 
@@ -226,7 +243,8 @@ def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
         return _choice(value, parameter, where)
     if parameter.kind is None:
         return _plain(value, parameter, where)
-    kind = parameter.kind
+    kind, coldest = parameter.kind, parameter.coldest
+    bare = not units.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
     if isinstance(value, str):
         value = (units.read_series if parameter.series else units.read_quantity)(value, kind, parameter.name)
     elif units.is_quantity(value):
@@ -242,6 +260,8 @@ def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
         )
     if np.ndim(value) == 0 and not hasattr(value, "at"):
         value = float(value)
+        if bare and coldest is not None and -ZERO_CELSIUS < value < coldest:
+            raise _forgotten_unit(value, parameter, where)
         if not kind.contains(value) or np.isinf(value):
             raise out_of_bounds(value, parameter, where)
         if parameter.sort is int:

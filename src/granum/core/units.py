@@ -211,6 +211,16 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
     return number if not found.group(2) else float(to_si(number, found.group(2), kind, name))
 
 
+def has_unit(text: str) -> bool:
+    """Whether text is a number with a unit.
+
+    >>> has_unit("25 degC"), has_unit("25")
+    (True, False)
+    """
+    found = _NUMBER.match(text)
+    return bool(found and found.group(2))
+
+
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value without a unit takes the next one's."""
     cleaned = re.sub(r"[\[\];]", " ", text)

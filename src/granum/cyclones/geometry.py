@@ -10,8 +10,10 @@ from importlib.resources import files
 from typing import Any, Literal, NamedTuple, get_type_hints
 
 import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
 
-from granum.core import law
+from granum.core import impossible, law
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Length, PositiveNumber
@@ -40,6 +42,25 @@ class Dimensions(NamedTuple):
     dust_outlet_diameter: Length
 
 
+WIDE_FINDER = "The vortex finder must be narrower than the body."
+WIDE_DUST_OUTLET = "The dust outlet must not be wider than the body."
+WIDE_INLET = "The inlet must not reach beyond the axis of the body."
+LONG_CYLINDER = "The cylinder must be shorter than the cyclone."
+LONG_FINDER = "The vortex finder must end inside the cyclone."
+
+
+def misfits(cyclone: Dimensions) -> list[tuple[Any, Any, str, Any, str]]:
+    """What no cyclone can be: where, the length, its name, the limit below which it must stay, and why."""
+    D, _a, b, De, S, h, H, B = cyclone
+    return [
+        (~(De < D), De, "outlet_diameter", D, WIDE_FINDER),
+        (~(B <= D), B, "dust_outlet_diameter", D, WIDE_DUST_OUTLET),
+        (~(b <= D / 2.0), b, "inlet_width", D / 2.0, WIDE_INLET),
+        (~(h < H), h, "cylinder_height", H, LONG_CYLINDER),
+        (~(S < H), S, "finder_length", H, LONG_FINDER),
+    ]
+
+
 def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
     """Let a law written with one argument ``cyclone``, its ``Dimensions``, be declared and called with each length by its name."""
     hints = get_type_hints(function, include_extras=True)
@@ -52,7 +73,10 @@ def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(function)
     def flat(*values: Any) -> Any:
-        return function(*values[:start], Dimensions(*values[start:stop]), *values[stop:])
+        cyclone = Dimensions(*map(jnp.asarray, values[start:stop]))
+        for wrong, length, name, limit, reason in misfits(cyclone):
+            impossible(wrong, length, name, 0.0, limit, reason)
+        return function(*values[:start], cyclone, *values[stop:])
 
     flat.__signature__ = signature.replace(parameters=[*taken[:start], *apart, *taken[start + 1 :]])  # type: ignore[attr-defined]
     flat.__annotations__ = {name: hint for name, hint in hints.items() if name != "cyclone"} | lengths
@@ -98,21 +122,16 @@ class FreeCyclone(eqx.Module):
     dust_outlet_ratio: PositiveNumber
 
     def __check_init__(self) -> None:
-        values = (self.inlet_width_ratio, self.outlet_diameter_ratio, self.finder_length_ratio, self.cylinder_height_ratio,
-                  self.height_ratio, self.dust_outlet_ratio)  # fmt: skip
-        if not all(isinstance(v, (int, float)) for v in values):
+        shape = self(1.0)
+        if not all(isinstance(v, (int, float)) for v in shape):
             return
-        rules = (
-            (self.outlet_diameter_ratio < 1, _("the vortex finder must be narrower than the body")),
-            (self.dust_outlet_ratio <= 1, _("the dust outlet must not be wider than the body")),
-            (self.inlet_width_ratio <= (1 - self.outlet_diameter_ratio) / 2 + 1e-9, _("the inlet must fit between wall and vortex finder")),
-            (self.cylinder_height_ratio < self.height_ratio, _("the cylinder must be shorter than the cyclone")),
-            (self.finder_length_ratio < self.height_ratio, _("the vortex finder must end inside the cyclone")),
-            (self.inlet_height_ratio <= self.cylinder_height_ratio, _("the inlet must fit into the cylinder")),
-        )
-        broken = [text for kept, text in rules if not kept]
+        broken = [_(reason) for wrong, *_rest, reason in misfits(Dimensions(*map(np.float64, shape))) if wrong]
+        if shape.inlet_width > (1 - shape.outlet_diameter) / 2 + 1e-9:
+            broken.append(_("The inlet must fit between wall and vortex finder."))
+        if shape.inlet_height > shape.cylinder_height:
+            broken.append(_("The inlet must fit into the cylinder."))
         if broken:
-            raise InputError(_("This cyclone cannot be built: {reasons}.").format(reasons="; ".join(broken)))
+            raise InputError(" ".join([_("This cyclone cannot be built."), *broken]))
 
     def __call__(self, diameter: Length) -> Dimensions:
         """Lengths for a body diameter."""

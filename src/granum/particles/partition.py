@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import formula, law
+from granum.core import formula, impossible, law
 from granum.core.kinds import Fraction, Law, Length, Number, PositiveNumber, Ratio, Within
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 
 _LN2, _LN3 = 0.6931471805599453, 1.0986122886681098
 _LARGE = 500.0
+ORDER = "The coarser of two sizes goes to the coarse product with the greater share."
 
 
 class PartitionCurve(eqx.Module):
@@ -203,6 +204,7 @@ def probable_error(percentile_75: Length, percentile_25: Length) -> Length:
     >>> probable_error(percentile_75=3.0, percentile_25=1.0)
     1.0
     """
+    impossible(percentile_75 < percentile_25, percentile_75, "percentile_75", percentile_25, jnp.inf, ORDER)
     return 0.5 * (percentile_75 - percentile_25)
 
 
@@ -213,6 +215,7 @@ def imperfection(percentile_75: Length, percentile_25: Length, cut_size: Length)
     >>> imperfection(percentile_75=3.0, percentile_25=1.0, cut_size=2.0)
     0.5
     """
+    impossible(percentile_75 < percentile_25, percentile_75, "percentile_75", percentile_25, jnp.inf, ORDER)
     return (percentile_75 - percentile_25) / (2.0 * cut_size)
 
 

@@ -17,6 +17,7 @@ from granum.core import formula, impossible
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 
 SAMPLES = 400
+MORE_BELOW = "The underflow would take more than the feed brings."
 Settling = Annotated[Any, Law("settling_velocity")]
 _SLUDGE = {"solids_concentration": (1.0, 10.0), "feed_concentration": (2.0, 4.0), "underflow_concentration": (6.0, 12.0)}
 
@@ -58,7 +59,7 @@ def least(function: Any, lower: Any, upper: Any) -> tuple[Any, Any]:
 
     curvature = lax.stop_gradient(jax.jvp(slope, (middle,), (jnp.ones_like(middle),))[1])
     step = slope(middle) / jnp.where(curvature > 0, curvature, jnp.inf)
-    middle = middle - jnp.where(jnp.abs(step) < 1e-3 * (high - low), step, 0.0)
+    middle = jnp.clip(middle - jnp.where(jnp.abs(step) < 1e-3 * (high - low), step, 0.0), low, high)
     # The ends belong to the interval, and the best of a scan may lie on one; there the end itself moves with its own derivative.
     candidates = jnp.stack([jnp.broadcast_to(low, middle.shape), middle, jnp.broadcast_to(high, middle.shape)])
     found = function(candidates)
@@ -187,6 +188,7 @@ def state_point_clarifier(
     >>> round(state.underflow_concentration, 4), round(state.overflow_concentration, 6), round(state.loading_ratio, 3)
     (6.6667, 0.0, 0.639)
     """
+    impossible(underflow_volume_flow > volume_flow, underflow_volume_flow, "underflow_volume_flow", 0.0, volume_flow, MORE_BELOW)
     q, qu = volume_flow / area, underflow_volume_flow / area
     C, top = jnp.asarray(feed_concentration), jnp.asarray(concentration_maximum)
     _down, Cu, Ce, where = steady_state(C, q, qu, settling, jnp.maximum(top, C))

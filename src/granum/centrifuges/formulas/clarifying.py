@@ -6,6 +6,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.flags import impossible
 from granum.core.kinds import (
     Angle,
     Area,
@@ -22,6 +23,10 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
 )
+
+INSIDE_OUT = "The inner radius, that of the free surface, must be smaller than the outer one."
+STEEP = "A disc stands between 0 and 90° to the axis."
+NO_INTERFACE = "No interface lies between these overflows: the heavy liquid must leave farther out."
 
 _BOWL = {"bowl_length": (0.3, 1.5), "radius_inner": (0.02, 0.1), "radius_outer": (0.12, 0.4), "rotation_speed": (100.0, 1500.0)}
 _MUD = {
@@ -47,6 +52,7 @@ def sigma_factor_tubular(bowl_length: Length, radius_inner: Length, radius_outer
     143.3
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
     return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (STANDARD_GRAVITY * jnp.log(r2 / r1))
 
 
@@ -67,6 +73,7 @@ def sigma_factor_tubular_half_thickness(
     196.2
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
     return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * r2 / (r1 + r2)))
 
 
@@ -85,6 +92,7 @@ def sigma_factor_tubular_half_area(bowl_length: Length, radius_inner: Length, ra
     204.5
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
     return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (STANDARD_GRAVITY * jnp.log(2.0 * r2**2 / (r1**2 + r2**2)))
 
 
@@ -111,6 +119,8 @@ def sigma_factor_disc(
     40533
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
+    impossible((disc_angle <= 0.0) | (disc_angle >= jnp.pi / 2.0), disc_angle, "disc_angle", 0.0, jnp.pi / 2.0, STEEP)
     return 2.0 * jnp.pi * disc_number * rotation_speed**2 * (r2**3 - r1**3) / (3.0 * STANDARD_GRAVITY * jnp.tan(disc_angle))
 
 
@@ -129,6 +139,7 @@ def sigma_factor_scroll(
     2054
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
     cylinder = bowl_length * (0.75 * r2**2 + 0.25 * r1**2)
     beach = beach_length * (r2**2 + 3.0 * r1 * r2 + 4.0 * r1**2) / 8.0
     return 2.0 * jnp.pi * rotation_speed**2 / STANDARD_GRAVITY * (cylinder + beach)
@@ -146,6 +157,7 @@ def sigma_factor_bottle(volume: Volume, radius_inner: Length, radius_outer: Leng
     >>> round(sigma_factor_bottle("50 mL", 0.08, 0.12, 300), 2)
     1.26
     """
+    impossible(~(radius_inner < radius_outer), radius_inner, "radius_inner", 0.0, radius_outer, INSIDE_OUT)
     return volume * rotation_speed**2 / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * radius_outer / (radius_inner + radius_outer)))
 
 
@@ -173,6 +185,7 @@ def cut_size_centrifuge(
     """
     excess = particle_density - fluid_density
     some = excess > 0
+    impossible(~some, particle_density, "particle_density", fluid_density, jnp.inf)
     settled = flow_multiple * sigma_efficiency * sigma_factor * STANDARD_GRAVITY * jnp.where(some, excess, 1.0)
     return jnp.where(some, jnp.sqrt(18.0 * dynamic_viscosity * volume_flow / settled), jnp.inf)
 
@@ -244,6 +257,7 @@ def grade_efficiency_tubular(
     0.2332
     """
     r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
     hold_up = jnp.pi * bowl_length * (r2**2 - r1**2) / volume_flow
     swept = -jnp.expm1(-2.0 * terminal_velocity * rotation_speed**2 * hold_up / STANDARD_GRAVITY)
     return jnp.minimum(swept / (1.0 - (r1 / r2) ** 2), 1.0)
@@ -280,7 +294,9 @@ def radius_interface(radius_heavy: Length, radius_light: Length, density_heavy: 
     >>> round(radius_interface(radius_heavy=0.010414, radius_light=0.010160, density_heavy=919.5, density_light=865) * 1e3, 2)
     13.83
     """
+    impossible(density_heavy <= density_light, density_heavy, "density_heavy", density_light, jnp.inf)
     square = (density_heavy * radius_heavy**2 - density_light * radius_light**2) / (density_heavy - density_light)
+    impossible(~(square > 0), radius_heavy, "radius_heavy", radius_light * jnp.sqrt(density_light / density_heavy), jnp.inf, NO_INTERFACE)
     return jnp.sqrt(jnp.where(square > 0, square, jnp.nan))
 
 
@@ -296,6 +312,8 @@ def radius_heavy_dam(radius_interface: Length, radius_light: Length, density_hea
     >>> round(radius_heavy_dam(radius_interface=0.08, radius_light=0.05, density_heavy=1000, density_light=900), 5)
     0.05376
     """
+    impossible(density_heavy <= density_light, density_heavy, "density_heavy", density_light, jnp.inf)
+    impossible(~(radius_interface > radius_light), radius_interface, "radius_interface", radius_light, jnp.inf)
     i2, l2 = radius_interface**2, radius_light**2
     return jnp.sqrt(i2 - density_light / density_heavy * (i2 - l2))
 

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT
+from granum.core.flags import impossible
 from granum.core.kinds import (
     Density,
     Diffusivity,
@@ -20,6 +21,11 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )
+
+TOP_BELOW = "The inner radius, at the top of the liquid, must be smaller than the outer one."
+FLOATS = "Specific volume times density of the fluid reaches 1: the particle does not settle."
+FLOATS_IN_WATER = "The particle would not settle in water at 20 °C."
+WATER_20 = 998.2  # kg/m³
 
 _ROTOR = {"radius_inner": (0.03, 0.06), "radius_outer": (0.08, 0.12), "rotation_speed": (500.0, 5000.0)}
 
@@ -60,7 +66,9 @@ def sedimentation_coefficient_standard(
     >>> round(sedimentation_coefficient_standard(4e-13, 0.73e-3, 998.2, 1.002e-3) * 1e13, 6)
     4.0
     """
-    water = 1.0 - partial_specific_volume * 998.2
+    impossible(~(partial_specific_volume * fluid_density < 1.0), fluid_density, "fluid_density", 0.0, 1.0 / partial_specific_volume, FLOATS)
+    water = 1.0 - partial_specific_volume * WATER_20
+    impossible(~(water > 0.0), partial_specific_volume, "partial_specific_volume", 0.0, 1.0 / WATER_20, FLOATS_IN_WATER)
     return sedimentation_coefficient * dynamic_viscosity / 1.002e-3 * water / (1.0 - partial_specific_volume * fluid_density)
 
 
@@ -89,6 +97,7 @@ def molar_mass_svedberg(
     >>> round(molar_mass_svedberg(4.31e-13, 6.9e-11, 0.749e-3, 998.2), 1)
     60.3
     """
+    impossible(~(partial_specific_volume * fluid_density < 1.0), fluid_density, "fluid_density", 0.0, 1.0 / partial_specific_volume, FLOATS)
     return sedimentation_coefficient * GAS_CONSTANT * temperature / (diffusivity * (1.0 - partial_specific_volume * fluid_density))
 
 
@@ -105,6 +114,7 @@ def pelleting_time(radius_inner: Length, radius_outer: Length, rotation_speed: R
     >>> round(pelleting_time("5 cm", "10 cm", "40000 rpm", 80e-13) / 60, 1)
     82.3
     """
+    impossible(~(radius_inner < radius_outer), radius_inner, "radius_inner", 0.0, radius_outer, TOP_BELOW)
     return jnp.log(radius_outer / radius_inner) / (rotation_speed**2 * sedimentation_coefficient)
 
 
@@ -121,6 +131,7 @@ def clearing_factor(radius_inner: Length, radius_outer: Length, rotation_speed: 
     >>> round(clearing_factor("5 cm", "10 cm", "40000 rpm"), 1)
     109.7
     """
+    impossible(~(radius_inner < radius_outer), radius_inner, "radius_inner", 0.0, radius_outer, TOP_BELOW)
     return 1e13 / 3600.0 * jnp.log(radius_outer / radius_inner) / rotation_speed**2
 
 
@@ -156,5 +167,6 @@ def pelleted_fraction(
     >>> round(pelleted_fraction(1e-9, 60, 500, "5 cm", "10 cm"), 4)
     0.0298
     """
+    impossible(~(radius_inner < radius_outer), radius_inner, "radius_inner", 0.0, radius_outer, TOP_BELOW)
     reached = radius_outer * jnp.exp(-sedimentation_coefficient * rotation_speed**2 * time)
     return (radius_outer - jnp.maximum(radius_inner, reached)) / (radius_outer - radius_inner)

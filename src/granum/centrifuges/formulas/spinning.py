@@ -5,6 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, watch
+from granum.core.flags import impossible
 from granum.core.kinds import (
     Density,
     DynamicViscosity,
@@ -22,6 +23,16 @@ from granum.core.kinds import (
 
 _BASKET = {"basket_height": (0.2, 0.8), "radius_outer": (0.4, 0.6), "cake_radius": (0.3, 0.38), "radius_inner": (0.2, 0.29), "rotation_speed": (50.0, 150.0),
            "cake_permeability": (1e-13, 1e-11), "medium_resistance": (1e8, 1e10)}  # fmt: skip
+
+
+CAKE_OUTSIDE = "The cake lies inside the basket."
+SURFACE_IN_CAKE = "The free surface of the liquid lies inside the ring of cake, not in the cake."
+
+
+def _check_rings(radius_outer, cake_radius, radius_inner):
+    """Basket, cake and free surface follow one another inward."""
+    impossible(cake_radius > radius_outer, cake_radius, "cake_radius", 0.0, radius_outer, CAKE_OUTSIDE)
+    impossible(radius_inner > cake_radius, radius_inner, "radius_inner", 0.0, cake_radius, SURFACE_IN_CAKE)
 
 
 def _conductance(basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance):
@@ -51,6 +62,7 @@ def filtrate_flow_basket(
     >>> round(filtrate_flow_basket(0.4, 0.5, 0.4, 0.35, 100, 1000, 1e-3, 1e-12) * 1e3, 3)
     7.18
     """
+    _check_rings(radius_outer, cake_radius, radius_inner)
     drive = 0.5 * liquid_density * rotation_speed**2 * (radius_outer**2 - radius_inner**2)
     return drive * _conductance(basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance)
 
@@ -105,6 +117,7 @@ def loading_time_basket(
     72.9
     """
     ro, rc = radius_outer, cake_radius
+    _check_rings(ro, rc, radius_inner)
     built = (ro**2 - rc**2) * (1.0 + 2.0 * medium_resistance * cake_permeability / ro) + 2.0 * rc**2 * jnp.log(rc / ro)
     drive = liquid_density * rotation_speed**2 * (ro**2 - radius_inner**2)
     return built * dynamic_viscosity / (2.0 * cake_volume_per_filtrate * cake_permeability * drive)
@@ -130,6 +143,7 @@ def spin_off_time(
     >>> round(spin_off_time(0.5, 0.4, 0.35, 100, 1000, 1e-3, 1e-12), 2)
     7.77
     """
+    _check_rings(radius_outer, cake_radius, radius_inner)
     through = jnp.log(radius_outer / cake_radius) / cake_permeability + medium_resistance / radius_outer
     head = (radius_outer**2 - radius_inner**2) / (radius_outer**2 - cake_radius**2)
     return dynamic_viscosity * through / (liquid_density * rotation_speed**2) * jnp.log(head)

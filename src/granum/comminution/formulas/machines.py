@@ -9,6 +9,8 @@ from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Angle, Density, Distance, Fraction, Length, PositiveNumber, RotationSpeed, VolumeFlow
 
+FLAT_NIP = "The tangents to the rolls at the feed meet at less than 180°; rolls bite at 20 to 35°."
+
 
 @formula(source="coulson2002, ch. 2", equation=r"\omega_c = \sqrt{\frac{2g}{D - d}}", output="rotation_speed", title="Critical speed of a tumbling mill",
          typical={"mill_diameter": (1.0, 5.0), "ball_diameter": (0.01, 0.1)})  # fmt: skip
@@ -74,6 +76,7 @@ def feed_size_rolls(roll_diameter: Length, gap_width: Length, nip_angle: Angle) 
     >>> round(feed_size_rolls(roll_diameter=1.0, gap_width="12.5 mm", nip_angle="31 degree") * 1e3, 1)
     50.7
     """
+    impossible((nip_angle < 0.0) | (nip_angle >= jnp.pi), nip_angle, "nip_angle", 0.0, jnp.pi, FLAT_NIP)
     return (roll_diameter + gap_width) / jnp.cos(0.5 * nip_angle) - roll_diameter
 
 
@@ -99,6 +102,7 @@ def roll_diameter_rolls(feed_size: Length, gap_width: Length, nip_angle: Angle) 
     1.0
     """
     cosine = jnp.cos(0.5 * nip_angle)
+    impossible((nip_angle <= 0.0) | (nip_angle >= jnp.pi), nip_angle, "nip_angle", 0.0, jnp.pi, FLAT_NIP)
     fits = (cosine < 1.0) & (feed_size * cosine > gap_width)
     impossible(~fits, gap_width, "gap_width", 0.0, feed_size * cosine)
     return jnp.where(fits, (feed_size * cosine - gap_width) / jnp.where(cosine < 1.0, 1.0 - cosine, 1.0), jnp.nan)

@@ -6,13 +6,14 @@ from typing import Annotated, Literal
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible, limit_active
 from granum.core.kinds import Cost, CostRate, EnergyPrice, Fraction, MassFlow, MassPrice, PositiveNumber, Power, Ratio, Time, Within
 from granum.costs.tables import plant_cost_index
 from granum.numerics.smooth import safe_divide
 
 DAY = 86400.0
 SHORT_LIFE = "A life of less than a day: a number without a unit is in seconds; write '10 year'."
+NO_GAIN = "Without a gain nothing is paid back."
 SHORT_PAYBACK = "Paid back within a day: a gain without a unit is per second; write '25000 USD/year'."
 LANG = {"solids": 3.10, "solids_and_fluids": 3.63, "fluids": 4.74}
 
@@ -100,12 +101,14 @@ def material_cost_rate(mass_flow: MassFlow, mass_price: MassPrice, operating_fra
 
 @formula(source="peters2003, ch. 8", equation=r"t = \frac{C}{\dot G}", title="Payback time", typical={"annual_gain": (0.001, 0.01)})
 def payback_time(capital_cost: Cost, annual_gain: CostRate) -> Time:
-    """Time in which the yearly gain returns the capital, without interest. Infinite where there is no gain.
+    """Time in which the yearly gain returns the capital, without interest.
 
     >>> year = 365.25 * 86400.0
     >>> round(payback_time(capital_cost=3e6, annual_gain=1e6 / year) / year, 6)
     3.0
     """
+    impossible(~(annual_gain > 0), annual_gain, "annual_gain", 0.0, jnp.inf, NO_GAIN)
+    impossible(capital_cost < 0, capital_cost, "capital_cost", 0.0, jnp.inf)
     time = jnp.where(annual_gain > 0, safe_divide(capital_cost, annual_gain, 0.0), jnp.inf)
     limit_active((time > 0) & (time < DAY), time, "payback_time", reason=SHORT_PAYBACK)
     return time

@@ -26,6 +26,7 @@ def _cost(equipment: str, value: Any, name: str, card: str, cost_index: Any, uni
     """``unit``: SI units in the unit of the table."""
     row = correlations()[equipment]
     low, high = row.smallest * unit, row.largest * unit
+    flags.impossible(~(value > 0), value, name, 0.0, jnp.inf)
     flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, name, card, low, high, "turton2018, table A.1")
     decades = jnp.log10(value / unit)
     bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from typing import Any
 
@@ -21,6 +22,8 @@ from granum.core.kinds import (
     SpecificPower,
     Temperature,
 )
+
+SMALL_EDDIES = (8.0 * math.pi / 15.0) ** 0.5  # Saffman and Turner, 1.2944
 
 
 class AgglomerationKernel(eqx.Module):
@@ -90,7 +93,8 @@ def agglomeration_coefficient_brownian(
     return 2.0 * BOLTZMANN * temperature / (3.0 * dynamic_viscosity) * (L + other) ** 2 / (L * other)
 
 
-@formula(source="saffman1956; smoluchowski1917", equation=r"\beta = 1.294\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}", output="agglomeration_coefficient",
+@formula(source="saffman1956; smoluchowski1917", equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
+         output="agglomeration_coefficient",
          typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)})  # fmt: skip
 def agglomeration_coefficient_turbulent(
     crystal_size: Length, crystal_size_other: Length, shear_rate: Frequency, capture_efficiency: Fraction = 1.0
@@ -103,7 +107,7 @@ def agglomeration_coefficient_turbulent(
     >>> round(k * 1e13, 3)
     1.294
     """
-    return 1.294 * capture_efficiency * shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
+    return SMALL_EDDIES * capture_efficiency * shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
 
 
 @formula(source="saffman1956", equation=r"\dot\gamma = \sqrt{\varepsilon/\nu}", output="shear_rate")
@@ -133,7 +137,7 @@ class BrownianKernel(AgglomerationKernel):
 
 
 @law("agglomeration_kernel", name="turbulent_kernel", source="saffman1956", title="Turbulent shear (orthokinetic) kernel",
-     equation=r"\beta = 1.294\,\psi\,\dot\gamma\,(L+\lambda)^3/8")  # fmt: skip
+     equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,(L+\lambda)^3/8")  # fmt: skip
 class TurbulentKernel(AgglomerationKernel):
     """Agglomeration in the small eddies of a stirred suspension, with the share of collisions that last."""
 
@@ -141,7 +145,7 @@ class TurbulentKernel(AgglomerationKernel):
     capture_efficiency: Fraction = 1.0
 
     def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
-        return 1.294 * self.capture_efficiency * self.shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
+        return SMALL_EDDIES * self.capture_efficiency * self.shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
 
 
 class Breakage(eqx.Module):

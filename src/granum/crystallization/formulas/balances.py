@@ -23,12 +23,15 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
 )
-from granum.crystallization.kinds import PositiveTemperatureDifference
+from granum.crystallization.kinds import PositiveTemperatureDifference, SoluteShare
 from granum.materials.library import solute
 from granum.numerics.smooth import safe_divide, safe_log
 
 NOT_SATURATED = "The solution is not saturated at the end: no crystals form."
 NO_LIQUOR = "No mother liquor would be left: too much solvent is evaporated, or the hydrate takes more of it than there is."
+COLDER_FEED = "Nothing flashes off: to reach this temperature the feed would have to be heated."
+MORE_THAN_FEED = "Crystals and vapor together would be more than the feed."
+HYDRATE_LIGHTER = "A hydrate weighs more than its anhydrous solute."
 COLD_GIVES_MORE = "Without any evaporation more than this yield crystallizes."
 HYDRATE_DISSOLVED = (
     "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water becomes one of anhydrous solute with "
@@ -65,6 +68,7 @@ def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarM
     >>> round(solute_fraction_of_crystal(molar_mass="105.99 g/mol", hydrate_molar_mass="286.14 g/mol"), 4)
     0.3704
     """
+    impossible(molar_mass > hydrate_molar_mass, hydrate_molar_mass, "hydrate_molar_mass", molar_mass, jnp.inf, HYDRATE_LIGHTER)
     return molar_mass / hydrate_molar_mass
 
 
@@ -79,7 +83,7 @@ def crystallizer_balance(
     mass_flow: MassFlow,
     solute_mass_fraction: MassFraction,
     solubility_per_solvent: MassRatio,
-    solute_fraction_of_crystal: PositiveNumber = 1.0,
+    solute_fraction_of_crystal: SoluteShare = 1.0,
     evaporation: MassFlow = 0.0,
 ) -> Balance:
     """Crystals, mother liquor and yield of a crystallizer that leaves a saturated solution, hydrates and evaporation included.
@@ -123,6 +127,8 @@ def heat_duty_crystallizer(
     >>> round(q * 3600 / 1e6, 1)
     -261.9
     """
+    left = mass_flow - evaporation
+    impossible(crystal_flow > left * (1.0 + 1e-12), crystal_flow, "crystal_flow", 0.0, left, MORE_THAN_FEED)
     sensible = mass_flow * specific_heat_capacity * (temperature - temperature_inlet)
     return sensible - crystal_flow * heat_released_per_crystal + evaporation * heat_of_vaporization
 
@@ -152,7 +158,7 @@ def vacuum_crystallizer_balance(
     specific_heat_capacity: HeatCapacity,
     heat_released_per_crystal: SpecificEnergy,
     heat_of_vaporization: SpecificEnergy,
-    solute_fraction_of_crystal: PositiveNumber = 1.0,
+    solute_fraction_of_crystal: SoluteShare = 1.0,
 ) -> FlashBalance:
     """Solvent flashed off and crystals made when a hot feed flashes adiabatically to a temperature, hydrates included.
 
@@ -172,6 +178,7 @@ def vacuum_crystallizer_balance(
     dry = A * (solute_mass_fraction - x_L) / (x - x_L)
     V = (q * dry + sensible) / (L - q * x_L / (x - x_L))
     V = jnp.where(A * solute_mass_fraction > (A - V) * x_L, V, sensible / L)  # no crystals, no heat of theirs
+    impossible(V < 0.0, V, "evaporation", reason=COLDER_FEED)
     return FlashBalance(V, *_crystals_and_liquor(A, V, solute_mass_fraction, x, x_L))
 
 
@@ -192,7 +199,7 @@ def evaporation_for_yield(
     yield_fraction: Fraction,
     solute_mass_fraction: MassFraction,
     solubility_per_solvent: PositiveNumber,
-    solute_fraction_of_crystal: PositiveNumber = 1.0,
+    solute_fraction_of_crystal: SoluteShare = 1.0,
 ) -> MassFlow:
     """Solvent to be evaporated so that a given share of the solute crystallizes and leaves a saturated mother liquor.
 
@@ -299,4 +306,6 @@ def yield_fraction_anhydrous(
     >>> round(yield_fraction_anhydrous(solute_per_solvent=0.5, solubility_per_solvent=0.2, evaporated_fraction=0.1), 2)
     0.64
     """
-    return 1.0 - solubility_per_solvent * (1.0 - evaporated_fraction) / solute_per_solvent
+    dissolved = solubility_per_solvent * (1.0 - evaporated_fraction)
+    limit_active(dissolved > solute_per_solvent, solute_per_solvent, "solute_per_solvent", reason=NOT_SATURATED)
+    return jnp.maximum(1.0 - dissolved / solute_per_solvent, 0.0)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from granum.core import formula
-from granum.core.kinds import Energy, Mass, MassFraction, MassRatio, PositiveNumber, Ratio, Temperature
+from granum.core.kinds import Energy, Mass, MassFraction, MassRatio, Ratio, Temperature
 from granum.crystallization.formulas.balances import crystallizer_balance, crystallizer_balance_library
+from granum.crystallization.kinds import SoluteShare
 
 
 class BatchBalance(NamedTuple):
@@ -28,7 +29,7 @@ def crystallizer_batch_balance(
     mass: Mass,
     solute_mass_fraction: MassFraction,
     solubility_per_solvent: MassRatio,
-    solute_fraction_of_crystal: PositiveNumber = 1.0,
+    solute_fraction_of_crystal: SoluteShare = 1.0,
     evaporated_mass: Mass = 0.0,
 ) -> BatchBalance:
     """Crystals, mother liquor and yield of a charge that is left in equilibrium, hydrates and evaporation included.

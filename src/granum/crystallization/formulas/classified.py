@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Concentration, Density, Distance, Length, NucleationRate, PopulationDensity, PositiveNumber, Time
+from granum.crystallization.formulas.msmpr import NO_GROWTH
 from granum.crystallization.kinds import ForwardGrowthRate, ProductionRate
 
 
@@ -39,6 +40,8 @@ def population_density_classified(
     0.002479
     """
     L, Lf, Lp = crystal_size, fines_cut_size, product_cut_size
+    impossible(Lf > Lp, Lf, "fines_cut_size", 0.0, Lp)
+    impossible(~(growth_rate * residence_time > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
     path = fines_removal_ratio * jnp.minimum(L, Lf) + jnp.clip(L - Lf, 0.0, Lp - Lf) + product_removal_ratio * jnp.maximum(L - Lp, 0.0)
     return nuclei_population_density * jnp.exp(-path / (growth_rate * residence_time))
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import HeatTransferCoefficient, Temperature, TemperatureDifference
+
+OVERALL = "All resistances together pass less heat than the film on one side alone."
 
 
 @formula(
@@ -26,6 +28,8 @@ def wall_temperature_jacket(
     >>> wall_temperature_jacket(temperature=320.0, jacket_temperature=300.0, heat_transfer_coefficient=500, heat_transfer_coefficient_inside=1000)
     310.0
     """
+    overall, inside = heat_transfer_coefficient, heat_transfer_coefficient_inside
+    impossible(overall > inside, overall, "heat_transfer_coefficient", 0.0, inside, OVERALL)
     return temperature - heat_transfer_coefficient / heat_transfer_coefficient_inside * (temperature - jacket_temperature)
 
 

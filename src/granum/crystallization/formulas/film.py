@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula, law, unconverged
+from granum.core import formula, impossible, law, unconverged
 from granum.core.kinds import (
     Concentration,
     Density,
@@ -182,4 +182,5 @@ def damkohler_growth(
     1.0
     """
     driving = solute_concentration - solubility_concentration
+    impossible(driving < 0.0, solute_concentration, "solute_concentration", solubility_concentration, jnp.inf)
     return integration_coefficient * safe_power(driving, integration_order - 1.0) / diffusion_coefficient

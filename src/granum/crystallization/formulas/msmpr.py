@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Concentration,
     Density,
@@ -20,6 +20,9 @@ from granum.core.kinds import (
 from granum.crystallization.kinds import ForwardGrowthRate
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
+
+NO_GROWTH = "Without growth, or without time for it, no crystal becomes larger."
+RISING = "The sizes below which 16, 50 and 84 % lie rise in this order."
 
 _GROWTH = {"growth_rate": (1e-8, 1e-7), "residence_time": (1800.0, 7200.0)}
 
@@ -116,7 +119,9 @@ def undersize_mass_fraction(crystal_size: Distance, growth_rate: ForwardGrowthRa
     >>> round(undersize_mass_fraction(crystal_size=3.672e-4, growth_rate=1e-7, residence_time=1000), 4)
     0.5
     """
-    x = crystal_size / (growth_rate * residence_time)
+    path = growth_rate * residence_time
+    impossible(~(path > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
+    x = crystal_size / path
     return gamma_share(x)
 
 
@@ -172,7 +177,12 @@ def population_density_size_dependent(
     """
     b, g = size_exponent, size_parameter
     base = 1.0 + g * crystal_size
-    return nuclei_population_density * base**-b * jnp.exp((1.0 - base ** (1.0 - b)) / (g * growth_rate * residence_time * (1.0 - b)))
+    path = g * growth_rate * residence_time
+    impossible(~(path > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
+    u = (1.0 - b) * jnp.log(base)
+    near = jnp.abs(u) < 1e-5
+    stretch = jnp.where(near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u))  # (base^(1-b) - 1)/(1-b) over ln base
+    return nuclei_population_density * base**-b * jnp.exp(-jnp.log(base) * stretch / path)
 
 
 @formula(source="randolph1988, ch. 4; garside1980", equation=r"i = b/g")
@@ -240,4 +250,6 @@ def coefficient_of_variation(percentile_16: Length, percentile_50: Length, perce
     >>> round(coefficient_of_variation(percentile_16=186.0e-6, percentile_50=367.2e-6, percentile_84=568.0e-6), 3)
     0.52
     """
+    impossible(percentile_16 > percentile_50, percentile_16, "percentile_16", 0.0, percentile_50, RISING)
+    impossible(percentile_84 < percentile_50, percentile_84, "percentile_84", percentile_50, jnp.inf, RISING)
     return safe_divide(percentile_84 - percentile_16, 2.0 * percentile_50)

@@ -88,6 +88,7 @@ def nucleation_barrier(
     >>> round(nucleation_barrier(supersaturation_ratio=4.0, interfacial_energy="10 mN/m", crystal_density=2000, molar_mass=0.120443), 3)
     1.25
     """
+    impossible(~(jnp.asarray(supersaturation_ratio) > 1.0), supersaturation_ratio, "supersaturation_ratio", 1.0, jnp.inf)
     log_ratio = safe_log(supersaturation_ratio, otherwise=0.0)
     return _barrier(
         log_ratio, interfacial_energy, molecular_volume(crystal_density, molar_mass), temperature, ions_per_formula, heterogeneous_factor
@@ -176,6 +177,7 @@ def interfacial_energy_mersmann(
     >>> round(interfacial_energy_mersmann(crystal_molar_density=19000.0, solubility_molar=0.01) * 1e3, 1)
     125.1
     """
+    impossible(solubility_molar >= crystal_molar_density, solubility_molar, "solubility_molar", 0.0, crystal_molar_density)
     ratio = crystal_molar_density / solubility_molar
     return 0.414 * BOLTZMANN * temperature * (crystal_molar_density * AVOGADRO) ** (2.0 / 3.0) * safe_log(ratio)
 

@@ -8,9 +8,11 @@ from typing import Annotated
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import formula, law
+from granum.core import formula, impossible, law
 from granum.core.kinds import Fraction, MassFlow, Number, PositiveNumber, Ratio, Series, Temperature, Time
 from granum.numerics.smooth import safe_power
+
+OVER = "The program is over by this time."
 
 
 class Program(eqx.Module):
@@ -38,6 +40,7 @@ def temperature_cooling_power(
     >>> round(temperature_cooling_power(time="40 min", duration="80 min", temperature_start="32 degC", temperature_end="28 degC") - 273.15, 2)
     31.5
     """
+    impossible(time > duration, time, "time", 0.0, duration, OVER)
     return temperature_start - (temperature_start - temperature_end) * safe_power(time / duration, cooling_exponent)
 
 

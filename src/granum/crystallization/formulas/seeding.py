@@ -19,6 +19,7 @@ from granum.core.kinds import (
     SpecificSurfaceMass,
     Time,
 )
+from granum.crystallization.formulas.msmpr import NO_GROWTH
 from granum.crystallization.kinds import ForwardGrowthRate
 from granum.numerics import find_root
 
@@ -35,6 +36,7 @@ def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mas
     >>> round(product_size_from_seed(seed_size="100 um", seed_mass=1.0, product_mass=125.0) * 1e6, 6)
     500.0
     """
+    impossible(product_mass < seed_mass, product_mass, "product_mass", seed_mass, jnp.inf)
     return seed_size * (product_mass / seed_mass) ** (1.0 / 3.0)
 
 
@@ -50,6 +52,7 @@ def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass:
     >>> round(seed_mass_for_product(seed_size="100 um", product_size="500 um", product_mass=125.0), 6)
     1.0
     """
+    impossible(product_size < seed_size, product_size, "product_size", seed_size, jnp.inf)
     return product_mass * (seed_size / product_size) ** 3
 
 
@@ -112,6 +115,8 @@ def duration_for_growth(seed_size: Length, product_size: Length, growth_rate: Fo
     >>> round(duration_for_growth(seed_size="100 um", product_size="500 um", growth_rate=1e-7))
     4000
     """
+    impossible(product_size < seed_size, product_size, "product_size", seed_size, jnp.inf)
+    impossible(~(growth_rate > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
     return (product_size - seed_size) / growth_rate
 
 

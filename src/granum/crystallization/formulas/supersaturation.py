@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import MassFraction, MassRatio, Number, OpenFraction, PositiveNumber, Ratio, TemperatureDifference
-from granum.crystallization.kinds import SolubilitySlope
+from granum.crystallization.kinds import SolubilitySlope, SoluteShare
 from granum.numerics.smooth import safe_log
+
+NO_FREE_WATER = "The crystal water of so much hydrate would be more than all the water."
 
 
 @formula(source="mullin2001, ch. 3", equation=r"\beta = C / C^*")
@@ -94,7 +96,7 @@ def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio
     output="solute_per_solvent",
     typical={"solute_per_solvent": (0.1, 0.5)},
 )
-def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of_crystal: PositiveNumber) -> MassRatio:
+def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare) -> MassRatio:
     """Hydrate per mass of free water from the anhydrous solute per mass of total water.
 
     The water of the hydrate counts as solute, so the ratio grows without bound as the free water is used up; beyond that there
@@ -105,6 +107,7 @@ def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of
     """
     c, x = solute_per_solvent, solute_fraction_of_crystal
     free = x - c * (1.0 - x)
+    impossible(~(free > 0), c, "solute_per_solvent", 0.0, x / jnp.maximum(1.0 - x, 1e-300), NO_FREE_WATER)
     return jnp.where(free > 0, c / jnp.where(free > 0, free, 1.0), jnp.nan)
 
 
@@ -115,7 +118,7 @@ def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of
     title="Anhydrous solute per solvent from hydrate per water",
     typical={"hydrate_per_solvent": (0.3, 1.0)},
 )
-def solute_per_solvent_from_hydrate(hydrate_per_solvent: MassRatio, solute_fraction_of_crystal: PositiveNumber) -> MassRatio:
+def solute_per_solvent_from_hydrate(hydrate_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare) -> MassRatio:
     """Anhydrous solute per mass of all the water from the hydrate per mass of water it is dissolved in, as older tables give solubilities.
 
     The water of the hydrate joins the solvent. Magnesium sulfate of Bhatt and Vora, example 6.10: 401.2 kg of heptahydrate in 100 kg of

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
-from granum.core.kinds import Density, DynamicViscosity, Fraction, Length, PositiveNumber, PressureDrop, Ratio, VolumeFlow, VolumeFraction
+from granum.core import formula, impossible, limit_active
+from granum.core.kinds import Density, DynamicViscosity, Fraction, Length, PositiveNumber, PressureDrop, VolumeFlow, VolumeFraction
 from granum.cyclones.formulas.efficiency import heavier
 
 SLURRY = {
@@ -15,6 +15,11 @@ SLURRY = {
     "underflow_diameter": (0.015, 0.025), "free_height": (0.3, 0.5), "solids_volume_fraction": (0.01, 0.1),
     "pressure_drop": (5e4, 2e5), "length": (0.4, 0.6),
 }  # fmt: skip
+
+
+WIDE_OPENING = "The openings of a hydrocyclone must be narrower than its body."
+ALL_WATER = "By this law nearly all the water would leave below: its share is cut to 99.9 %."
+MOST_WATER = 0.999
 
 
 class HydrocycloneFigures(NamedTuple):
@@ -52,6 +57,12 @@ def hydrocyclone_plitt(
     >>> 5e-6 < x.cut_size < 4e-5 and 0.0 < x.underflow_share < 0.5
     True
     """
+    for opening, name in (
+        (inlet_diameter, "inlet_diameter"),
+        (outlet_diameter, "outlet_diameter"),
+        (underflow_diameter, "underflow_diameter"),
+    ):
+        impossible(~(opening < diameter), opening, name, 0.0, diameter, WIDE_OPENING)
     Dc, Di, Do, Du, h = (100.0 * x for x in (diameter, inlet_diameter, outlet_diameter, underflow_diameter, free_height))
     Q, phi = 6e4 * volume_flow, 100.0 * solids_volume_fraction
     excess = heavier(particle_density, fluid_density) / 1600.0
@@ -112,7 +123,10 @@ def hydrocyclone_castilho_medronho(
     v = 4.0 * volume_flow / (jnp.pi * D**2)
     Re = rho * v * D / eta
     Eu = 371.5 * Re**0.116 * jnp.exp(-2.12 * c)
-    water = jnp.clip(1218.0 * (underflow_diameter / D) ** 4.75 * Eu**-0.30, 1e-6, 0.999)
+    impossible(~(underflow_diameter < D), underflow_diameter, "underflow_diameter", 0.0, D, WIDE_OPENING)
+    water = 1218.0 * (underflow_diameter / D) ** 4.75 * Eu**-0.30
+    limit_active(water > MOST_WATER, water, "underflow_share", ALL_WATER)
+    water = jnp.clip(water, 1e-6, MOST_WATER)
     product = 0.0474 * jnp.log(1.0 / water) ** 0.742 * jnp.exp(8.96 * c)
     cut = jnp.sqrt(18.0 * eta * D * product / (Eu * heavier(particle_density, rho) * v))
     return HydrocycloneFigures(cut, Eu * rho * v**2 / 2.0, water, sharpness * jnp.ones_like(water))
@@ -120,7 +134,7 @@ def hydrocyclone_castilho_medronho(
 
 @formula(source="svarovsky2001", equation=r"G = R_w + (1 - R_w)\left[1 - e^{-\ln 2\,(d/d_{50})^m}\right]",
          typical={"cut_size": (5e-6, 3e-5), "sharpness": (2.0, 3.5), "underflow_share": (0.05, 0.3), "particle_diameter": (1e-6, 1e-4)})  # fmt: skip
-def hydrocyclone_efficiency(particle_diameter: Length, cut_size: Length, sharpness: PositiveNumber, underflow_share: Ratio) -> Fraction:
+def hydrocyclone_efficiency(particle_diameter: Length, cut_size: Length, sharpness: PositiveNumber, underflow_share: Fraction) -> Fraction:
     """Grade efficiency of a hydrocyclone: what follows the water to the underflow, and Plitt's curve for the rest.
 
     >>> round(hydrocyclone_efficiency(particle_diameter=1e-5, cut_size=1e-5, sharpness=2.5, underflow_share=0.2), 6)

@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Concentration,
@@ -21,7 +21,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.cyclones.formulas.efficiency import TYPICAL, core_flow, heavier, muschelknautz_flow, wall_area
-from granum.cyclones.geometry import Dimensions, takes_lengths
+from granum.cyclones.geometry import WIDE_INLET, Dimensions, takes_lengths
 
 
 def inlet_over_outlet(cyclone: Dimensions) -> Any:
@@ -168,5 +168,6 @@ def saltation_velocity_kalen_zenz(
     True
     """
     W = (4.0 * STANDARD_GRAVITY * dynamic_viscosity * heavier(particle_density, fluid_density) / (3.0 * fluid_density**2)) ** (1.0 / 3.0)
+    impossible(inlet_width >= diameter, inlet_width, "inlet_width", 0.0, diameter, WIDE_INLET)
     K = inlet_width / diameter
     return 4.913 * W * K**0.4 * diameter**0.067 * velocity ** (2.0 / 3.0) / (1.0 - K) ** (1.0 / 3.0)

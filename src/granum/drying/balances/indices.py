@@ -9,7 +9,6 @@ import jax.numpy as jnp
 from granum.core import formula, impossible
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import (
-    Fraction,
     HumidityRatio,
     MassFlow,
     Power,
@@ -25,6 +24,12 @@ _AIR = {
     "enthalpy_fresh": (3e4, 5e4), "enthalpy_inlet": (7e4, 9e4), "dry_gas_flow": (0.5, 5.0),
 }  # fmt: skip
 
+DAMP_AIR = "Fresh air as humid as this takes no water from the product."
+
+
+def _check_equilibrium(fresh: Any, equilibrium: Any) -> None:
+    impossible(~(equilibrium > fresh), equilibrium, "humidity_ratio_equilibrium", fresh, jnp.inf, DAMP_AIR)
+
 
 @formula(source=_NOTES, equation=r"\eta_m = \frac{w_2 - w_a}{w_{2e} - w_a}", typical=_AIR, title="Mass efficiency of a dryer")
 def mass_efficiency(
@@ -37,6 +42,8 @@ def mass_efficiency(
     >>> round(mass_efficiency("9.9 g/kg", "15 g/kg", "20.1 g/kg"), 2)
     0.5
     """
+    _check_equilibrium(humidity_ratio_fresh, humidity_ratio_equilibrium)
+    impossible(humidity_ratio_outlet < humidity_ratio_fresh, humidity_ratio_outlet, "humidity_ratio_outlet", humidity_ratio_fresh, jnp.inf)
     return (humidity_ratio_outlet - humidity_ratio_fresh) / (humidity_ratio_equilibrium - humidity_ratio_fresh)
 
 
@@ -77,6 +84,7 @@ def energy_consumption_ratio(energy_per_water: SpecificEnergy, temperature: Temp
     >>> round(energy_consumption_ratio("4870 kJ/kg", "25.1 degC"), 3)
     2.0
     """
+    impossible(energy_per_water < 0.0, energy_per_water, "energy_per_water", 0.0, jnp.inf)
     return energy_per_water / latent_heat(temperature)
 
 
@@ -91,6 +99,7 @@ def evaporative_capacity(
     >>> round(evaporative_capacity(2284.0, "9.9 g/kg", "20.1 g/kg"), 1)
     23.3
     """
+    _check_equilibrium(humidity_ratio_fresh, humidity_ratio_equilibrium)
     return dry_gas_flow * (humidity_ratio_equilibrium - humidity_ratio_fresh)
 
 
@@ -122,15 +131,17 @@ def moisture_extraction_rate(evaporation_rate: MassFlow, shaft_power: Power) -> 
     >>> round(moisture_extraction_rate("3.6 kg/hour", "1 kW") * 3.6e6, 6)
     3.6
     """
+    impossible(~(shaft_power > 0.0), shaft_power, "shaft_power", 0.0, jnp.inf)
     return evaporation_rate / jnp.where(shaft_power == 0, jnp.nan, shaft_power)
 
 
 @formula(source=_NOTES, equation=r"\eta = \frac{\dot m_e\,L_v}{\dot Q}", typical={"energy_per_water": (2.6e6, 6.5e6), "temperature": (295.0, 360.0)},
          title="Thermal efficiency of a dryer")  # fmt: skip
-def drying_efficiency(energy_per_water: SpecificEnergy, temperature: Temperature) -> Fraction:
+def drying_efficiency(energy_per_water: SpecificEnergy, temperature: Temperature) -> Ratio:
     """Heat of vaporization over the energy spent: the inverse of the energy consumption ratio.
 
     >>> round(drying_efficiency("4870 kJ/kg", "25.1 degC"), 3)
     0.5
     """
+    impossible(~(energy_per_water > 0.0), energy_per_water, "energy_per_water", 0.0, jnp.inf)
     return latent_heat(temperature) / energy_per_water

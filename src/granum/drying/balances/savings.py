@@ -31,6 +31,7 @@ from granum.materials.formulas.steam import steam_density, steam_enthalpy, steam
 from granum.materials.formulas.water import water_boiling_temperature, water_enthalpy
 from granum.numerics import find_root
 
+NOTHING_TAKEN = "The air would leave no more humid than it came: it takes no water."
 _FRESH = {"temperature_fresh": (285.0, 300.0), "humidity_ratio_fresh": (0.005, 0.009), "relative_humidity_outlet": (0.6, 0.9)}
 
 
@@ -74,6 +75,8 @@ def staged_heating(
         T = temperature_of(P, phi=phi, h=hot)
         w = humidity_at(T, phi, P)
     taken = w - humidity_ratio_fresh
+    flags.impossible(temperature_inlet < temperature_fresh, temperature_inlet, "temperature_inlet", temperature_fresh, jnp.inf)
+    flags.impossible(~(taken > 0.0), relative_humidity_outlet, "relative_humidity_outlet", reason=NOTHING_TAKEN)
     return StagedHeating(T, w, heat / taken, 1.0 / taken, heat)
 
 
@@ -112,6 +115,7 @@ def exhaust_heat_recovery(
     """
     P = jnp.asarray(pressure, dtype=float)
     h2, h0 = enthalpy(temperature_outlet, humidity_ratio_outlet, P), enthalpy(temperature_fresh, humidity_ratio_fresh, P)
+    flags.impossible(temperature_fresh > temperature_outlet, temperature_fresh, "temperature_fresh", 0.0, temperature_outlet)
     coldest = cooled.function(temperature_outlet, humidity_ratio_outlet, temperature_fresh, 1.0, P, PAIR)
     fresh_most = fresh_per_exhaust * (enthalpy(temperature_outlet, humidity_ratio_fresh, P) - h0)
     passed = effectiveness * jnp.minimum(fresh_most, -coldest.heat_duty)
@@ -231,6 +235,8 @@ def superheated_steam_drying(
     energy = out - water_enthalpy.function(jnp.asarray(temperature_product), p)
     possible = boiling <= temperature_outlet
     flags.impossible(~possible, temperature_outlet, "temperature_outlet", boiling)
+    flags.impossible(~(temperature_inlet > temperature_outlet), temperature_inlet, "temperature_inlet", temperature_outlet, jnp.inf)
+    flags.impossible(~(energy > 0.0), temperature_product, "temperature_product", 0.0, temperature_outlet)
     ratio = energy / (steam_enthalpy.function(jnp.asarray(temperature_inlet), p) - out)
     return SteamDrying(
         jnp.where(possible, ratio, jnp.nan), energy, boiling + 0.0 * energy, out - water_enthalpy.function(boiling * (1.0 - 1e-9), p)
@@ -259,6 +265,7 @@ def vapor_recompression(pressure_inlet: Pressure, pressure_outlet: Pressure, com
     167
     """
     p1, p2 = jnp.asarray(pressure_inlet, dtype=float), jnp.asarray(pressure_outlet, dtype=float)
+    flags.impossible(~(p2 > p1), p2, "pressure_outlet", p1, jnp.inf)
     T1 = water_boiling_temperature.function(p1) * (1.0 + 1e-9)
     steps, start = 6, jnp.log(p1)
     dx = (jnp.log(p2) - start) / steps

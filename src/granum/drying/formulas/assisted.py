@@ -15,9 +15,9 @@ from granum.core.kinds import (
     HeatTransferCoefficient,
     HumidityRatio,
     Length,
-    MassFlux,
     Power,
     Pressure,
+    SignedMassFlux,
     Temperature,
 )  # fmt: skip
 from granum.humid_gas.pairs import AirWater
@@ -31,7 +31,7 @@ class AssistedDrying(NamedTuple):
     """A wet surface with help."""
 
     surface_temperature: Temperature
-    drying_rate_constant: MassFlux
+    drying_rate_constant: SignedMassFlux
 
 
 @formula(source="treybal1980, ch. 12; dutta2007", equation=r"h\,(T-T_s) + q_r + \varepsilon\sigma(T_r^4 - T_s^4) = \frac{h}{c_h}\,L_v\,(w_s - w)",

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Density,
     DynamicViscosity,
@@ -182,4 +182,5 @@ def drying_time_droplet(
     1.92
     """
     d0, d1 = droplet_diameter, droplet_diameter_end
+    impossible(d1 > d0, d1, "droplet_diameter_end", 0.0, d0)
     return density * heat_of_vaporization * (d0**2 - d1**2) / (8.0 * thermal_conductivity * temperature_difference)

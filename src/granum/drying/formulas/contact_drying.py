@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import GAS_CONSTANT, STANDARD_GRAVITY
 from granum.core.kinds import (
     Distance,
@@ -123,6 +123,8 @@ def penetration_drying(
     >>> round(wet.heat_transfer_coefficient, 1), round(wet.latent_share, 3)
     (500.0, 1.0)
     """
+    impossible(wall_temperature < temperature_bed, wall_temperature, "wall_temperature", temperature_bed, jnp.inf)
+    impossible(~(heat_of_vaporization > 0.0), heat_of_vaporization, "heat_of_vaporization", 0.0, jnp.inf)
     stefan = specific_heat_capacity * (wall_temperature - temperature_bed) / (jnp.maximum(moisture_dry_basis, 1e-9) * heat_of_vaporization)
     ratio = heat_transfer_coefficient_bed / heat_transfer_coefficient_wall
 

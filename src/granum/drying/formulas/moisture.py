@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Fraction,
     Law,
@@ -15,6 +15,7 @@ from granum.core.kinds import (
     MoistureDryBasis,
     MoistureWetBasis,
     Number,
+    SignedMassFlow,
     SpecificEnergy,
     Temperature,
     WaterActivity,
@@ -54,6 +55,7 @@ def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDr
     >>> moisture_dry_basis_from_mass(mass="500 g", dry_solid_mass="100 g")
     4.0
     """
+    impossible(mass < dry_solid_mass, mass, "mass", dry_solid_mass, jnp.inf)
     return (mass - dry_solid_mass) / dry_solid_mass
 
 
@@ -62,7 +64,7 @@ def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDr
          title="Water evaporated from a solid")  # fmt: skip
 def evaporation_rate(
     dry_solid_flow: MassFlow, moisture_dry_basis_inlet: MoistureDryBasis, moisture_dry_basis_outlet: MoistureDryBasis
-) -> MassFlow:
+) -> SignedMassFlow:
     """Water that a dryer takes from a flow of dry solid; negative where the solid leaves wetter.
 
     >>> evaporation_rate(dry_solid_flow=0.5, moisture_dry_basis_inlet=0.5, moisture_dry_basis_outlet=0.1)
@@ -200,5 +202,6 @@ def glass_transition_temperature(
     >>> round(glass_transition_temperature(0.05, "101 degC", 6.7) - 273.15, 0)
     42.0
     """
+    impossible(gordon_taylor_constant < 0.0, gordon_taylor_constant, "gordon_taylor_constant", 0.0, jnp.inf)
     k = gordon_taylor_constant * moisture_dry_basis
     return (glass_transition_temperature_dry + k * glass_transition_temperature_water) / (1.0 + k)

@@ -293,6 +293,7 @@ def drying_time_receding_front(
     1.0
     """
     L = thickness
+    flags.impossible(~(temperature_difference > 0.0), temperature_difference, "temperature_difference", 0.0, jnp.inf)
     load = heat_of_vaporization * liquid_density * void_fraction / temperature_difference
     return load * (L / heat_transfer_coefficient + L**2 / (2.0 * thermal_conductivity))
 

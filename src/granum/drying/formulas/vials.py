@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import (
     Area,
     Concentration,
@@ -83,6 +83,7 @@ def frozen_height(volume_fill: Volume, area_product: Area, concentration: Concen
     >>> round(frozen_height("2 mL", "3.14 cm^2", "0.05 g/mL") * 100, 4)
     0.6919
     """
+    impossible(concentration >= solid_density, concentration, "concentration", 0.0, solid_density)
     return volume_fill / (area_product * ICE_DENSITY) * (WATER_DENSITY - concentration * (WATER_DENSITY - ICE_DENSITY) / solid_density)
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Density, Distance, DynamicViscosity, Fraction, Length, OpenFraction, Series, Speed, Sphericity, VoidFraction
 from granum.fluidization.formulas.expansion import graded_bed_expansion
 from granum.numerics import find_root
@@ -57,4 +57,5 @@ def head_loss_backwash(
     >>> round(head_loss_backwash(bed_depth=1.0, particle_density=2650, fluid_density=1000, void_fraction_settled=0.4), 6)
     0.99
     """
+    impossible(~(particle_density > fluid_density), particle_density, "particle_density", fluid_density, jnp.inf)
     return bed_depth * (1.0 - void_fraction_settled) * (particle_density / fluid_density - 1.0)

@@ -20,7 +20,7 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
 )
-from granum.filtration.quantities import RuthConstant
+from granum.filtration.quantities import FittedVolume, RuthConstant
 
 _SMALL = {"area": (0.1, 2.0), "filtrate_volume": (0.01, 0.2), "cake_resistance": (1e9, 1e11)}
 
@@ -82,7 +82,7 @@ class Ruth(NamedTuple):
     """Constants of (V + V₀)² = a (t + t₀)."""
 
     ruth_constant: RuthConstant
-    ruth_volume: Volume
+    ruth_volume: FittedVolume
     ruth_time: Time
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula, impossible, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Density,
@@ -145,4 +145,5 @@ def gas_velocity_deliquoring(
     S = reduced_saturation
     relative = (1.0 - S) ** 2 * (1.0 - jnp.maximum(S, 1e-300) ** ((2.0 + pore_size_index) / pore_size_index))
     p1, p2 = pressure, pressure_outlet
+    impossible(p2 > p1, p2, "pressure_outlet", 0.0, p1)
     return cake_permeability * relative / dynamic_viscosity * (p1**2 - p2**2) / (2.0 * p2 * cake_thickness)

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from granum.core import formula
-from granum.core.kinds import Area, Concentration, Density, Distance, Mass, MassFraction, Number, Ratio, VoidFraction, Volume
+import jax.numpy as jnp
+
+from granum.core import formula, impossible
+from granum.core.kinds import Area, Concentration, Density, Distance, Mass, MassFraction, Ratio, VoidFraction, Volume
+
+NO_FILTRATE = "The cake would hold all the liquid of the slurry: no filtrate is left."
+TOO_HEAVY = "The dry solid alone would take more room than that."
 
 
 @formula(source="carman1938", equation=r"s = \frac{M_s}{M_p}")
@@ -13,6 +18,7 @@ def solids_mass_fraction_weighed(solid_mass: Mass, slurry_mass: Mass) -> MassFra
     >>> round(solids_mass_fraction_weighed(solid_mass="15 g", slurry_mass="1 kg"), 6)
     0.015
     """
+    impossible(solid_mass > slurry_mass, solid_mass, "solid_mass", 0.0, slurry_mass)
     return solid_mass / slurry_mass
 
 
@@ -27,6 +33,8 @@ def solids_mass_fraction_sampled(solid_mass: Mass, slurry_volume: Volume, liquid
     >>> round(solids_mass_fraction_sampled(solid_mass=0.2, slurry_volume="1 L", liquid_density=1000, solid_density=2000), 6)
     0.181818
     """
+    most = slurry_volume * solid_density
+    impossible(solid_mass > most, solid_mass, "solid_mass", 0.0, most, TOO_HEAVY)
     return solid_mass / (slurry_volume * liquid_density + solid_mass * (1.0 - liquid_density / solid_density))
 
 
@@ -45,12 +53,14 @@ def solids_mass_fraction_mixed(solid_mass: Mass, volume: Volume, liquid_density:
     equation=r"\varepsilon = 1 - \frac{M}{V_g\,\rho_s}",
     typical={"dry_cake_mass": (0.1, 0.2), "cake_volume": (1.4e-4, 2e-4)},
 )
-def void_fraction_cake(dry_cake_mass: Mass, cake_volume: Volume, solid_density: Density) -> Number:
+def void_fraction_cake(dry_cake_mass: Mass, cake_volume: Volume, solid_density: Density) -> VoidFraction:
     """Void fraction of a cake from its volume and its dry mass.
 
     >>> round(void_fraction_cake(dry_cake_mass=0.236, cake_volume="145 cm^3", solid_density=2630), 2)
     0.38
     """
+    most = cake_volume * solid_density
+    impossible(dry_cake_mass >= most, dry_cake_mass, "dry_cake_mass", 0.0, most, TOO_HEAVY)
     return 1.0 - dry_cake_mass / (cake_volume * solid_density)
 
 
@@ -79,6 +89,9 @@ def dry_cake_per_filtrate(solids_mass_fraction: MassFraction, liquid_density: De
     >>> round(dry_cake_per_filtrate(solids_mass_fraction=0.191, liquid_density=996.9, wet_to_dry_mass_ratio=2.0), 1)
     308.1
     """
+    left = 1.0 - wet_to_dry_mass_ratio * solids_mass_fraction
+    most = 1.0 / jnp.maximum(wet_to_dry_mass_ratio, 1.0)
+    impossible(~(left > 0), solids_mass_fraction, "solids_mass_fraction", 0.0, most, NO_FILTRATE)
     return liquid_density * solids_mass_fraction / (1.0 - wet_to_dry_mass_ratio * solids_mass_fraction)
 
 

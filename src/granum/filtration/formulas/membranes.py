@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, impossible, limit_active
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import (
     Area,
@@ -118,6 +118,7 @@ def filtrate_flux_limiting(
     >>> round(filtrate_flux_limiting(1e-5, concentration_gel=300, concentration_bulk=30) * 1e5, 4)
     2.3026
     """
+    impossible(~(concentration_permeate < concentration_bulk), concentration_permeate, "concentration_permeate", 0.0, concentration_bulk)
     ratio = (concentration_gel - concentration_permeate) / jnp.maximum(concentration_bulk - concentration_permeate, 1e-300)
     return mass_transfer_coefficient * jnp.log(jnp.maximum(ratio, 1.0))
 

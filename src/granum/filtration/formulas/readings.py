@@ -6,13 +6,12 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible
+from granum.core import formula, impossible, limit_active
 from granum.core.kinds import (
     Area,
     CakeResistance,
     Concentration,
     DynamicViscosity,
-    MediumResistance,
     PressureDrop,
     Series,
     Time,
@@ -20,12 +19,13 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.filtration.formulas.constant_pressure import Ruth
-from granum.filtration.quantities import RuthConstant
+from granum.filtration.quantities import FittedMediumResistance, RuthConstant
 
 _SMALL = {"time": (60.0, 600.0), "filtrate_volume": (1e-3, 1e-2), "area": (0.01, 0.1), "pressure_drop": (1e4, 1e5)}
 
 
 NO_CAKE = "The readings do not lie on a rising line: at least two different ones are needed, of a cake that grows."
+BELOW_ZERO = "The line through the readings meets the axis below zero, as if the medium had a negative resistance: scatter, or settling beside filtration."
 
 
 def _line(x: Any, y: Any) -> tuple[Any, Any]:
@@ -36,14 +36,16 @@ def _line(x: Any, y: Any) -> tuple[Any, Any]:
     slope = jnp.sum(away * v) / jnp.where(spread > 0, spread, jnp.nan)
     impossible(~(slope > 0), slope, "time", reason=NO_CAKE)
     slope = jnp.where(slope > 0, slope, jnp.nan)
-    return slope, jnp.mean(v) - slope * jnp.mean(u)
+    level = jnp.mean(v) - slope * jnp.mean(u)
+    limit_active(level < 0, level, "medium_resistance", BELOW_ZERO)
+    return slope, level
 
 
 class Resistances(NamedTuple):
     """Of a cake per mass of solids and area, and of its medium."""
 
     cake_resistance: CakeResistance
-    medium_resistance: MediumResistance
+    medium_resistance: FittedMediumResistance
 
 
 @formula(source="ruth1935; geankoplis2003, § 14.2", typical=_SMALL, title="Ruth's constants from readings",

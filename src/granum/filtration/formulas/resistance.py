@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, limit_active
 from granum.core.kinds import CakeResistance, Density, Length, Permeability, PositiveNumber, PressureDrop, Ratio, VoidFraction
+from granum.filtration.quantities import OVER_COMPRESSIBLE
 
 
 @formula(
@@ -58,6 +59,7 @@ def cake_resistance_power_law(
     >>> format_number(cake_resistance_power_law(pressure_drop=67e3, cake_resistance_reference=4.37e9, compressibility=0.3), 4)
     '1.225 × 10¹¹'
     """
+    limit_active(compressibility > 1.0, compressibility, "compressibility", OVER_COMPRESSIBLE)
     return cake_resistance_reference * (pressure_drop / reference_pressure) ** compressibility
 
 
@@ -75,4 +77,5 @@ def cake_resistance_threshold(
     >>> round(cake_resistance_threshold(1e5, 1e10, 0.5, threshold_pressure=2.5e4) / 1e10, 6)
     2.0
     """
+    limit_active(compressibility > 1.0, compressibility, "compressibility", OVER_COMPRESSIBLE)
     return cake_resistance_reference * jnp.maximum(pressure_drop / threshold_pressure, 1.0) ** compressibility

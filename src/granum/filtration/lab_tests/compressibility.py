@@ -26,6 +26,7 @@ from granum.core.kinds import (
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.filtration.lab_tests.starts import bad_start
+from granum.filtration.quantities import OVER_COMPRESSIBLE
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -202,7 +203,7 @@ class Compressibility(LabTest):
 
     def _judged(self, found: Fit) -> Fit:
         if found["compressibility"].value > 1.0:
-            sentence = _("A compressibility above 1 means that more pressure gives less filtrate; tests seldom bear that out.")
+            sentence = _(OVER_COMPRESSIBLE)
             found.flags.append(self.note("unusual value", sentence, "compressibility"))
         return found
 

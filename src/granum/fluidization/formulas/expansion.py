@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active, watch
+from granum.core import formula, impossible, limit_active, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -29,6 +29,7 @@ from granum.fluidization.formulas.buoyancy import archimedes, excess
 from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
 from granum.particles.formulas.terminal import terminal_velocity
 
+MORE_THAN_SOLID = "The layer would weigh more than one without voids."
 LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
 BED = {"mass": (40.0, 60.0), "area": (0.05, 0.1), "length": (0.8, 1.2), "height": (0.8, 1.2)}
 
@@ -141,7 +142,9 @@ def bed_void_fraction_from_pressure_drop(
     >>> round(bed_void_fraction_from_pressure_drop(pressure_drop=5883.99, height=1.0, particle_density=2000, fluid_density=1000), 4)
     0.4
     """
-    return 1.0 - pressure_drop / (height * gravity * excess(particle_density, fluid_density))
+    weight = height * gravity * excess(particle_density, fluid_density)
+    impossible(pressure_drop > weight, pressure_drop, "pressure_drop", 0.0, weight, MORE_THAN_SOLID)
+    return 1.0 - pressure_drop / weight
 
 
 @formula(source="richardson1954; couderc1985", equation=r"n = \frac{\ln(v_t/U_{mf})}{\ln(1/\varepsilon_{mf})}",
@@ -155,6 +158,9 @@ def expansion_exponent(terminal_velocity: Speed, minimum_fluidization_velocity: 
     >>> round(expansion_exponent(terminal_velocity=0.1, minimum_fluidization_velocity=0.01, void_fraction=0.4), 3)
     2.513
     """
+    impossible(
+        ~(terminal_velocity > minimum_fluidization_velocity), terminal_velocity, "terminal_velocity", minimum_fluidization_velocity, jnp.inf
+    )
     return jnp.log(terminal_velocity / minimum_fluidization_velocity) / jnp.log(1.0 / void_fraction)
 
 

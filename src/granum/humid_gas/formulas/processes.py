@@ -24,6 +24,9 @@ from granum.humid_gas.formulas.state import GasVaporPair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; keey1978"
+SHARES = "The shares of the fuel add up to more than 1."
+BURNT = "The fuel holds more oxygen than it can burn with."
+ONLY_WATER = "So little air leaves no dry gas."
 TOO_HOT = "The gas would be hotter than 1230 °C, where it dissociates: no temperature is given. Take more air."
 _WARM = {"temperature": (303.15, 343.15), "humidity_ratio": (0.005, 0.015), "pressure": (9e4, 2e5), "dry_gas_flow": (1.0, 2.0)}
 
@@ -334,9 +337,14 @@ def combustion_gas(
     """
     P = jnp.asarray(pressure, dtype=float)
     oxygen = fuel_fraction_carbon / 12.011 + fuel_fraction_hydrogen / 4.032 + fuel_fraction_sulfur / 32.06 - fuel_fraction_oxygen / 31.998
+    others = fuel_fraction_hydrogen + fuel_fraction_oxygen + fuel_fraction_sulfur + fuel_fraction_water
+    too_much = fuel_fraction_carbon + others > 1.0 + 1e-9
+    flags.impossible(too_much, fuel_fraction_carbon, "fuel_fraction_carbon", 0.0, 1.0 - others, SHARES)
+    flags.impossible(oxygen < 0.0, fuel_fraction_oxygen, "fuel_fraction_oxygen", reason=BURNT)
     air = excess_air_ratio * oxygen / 0.2095 * 28.966
     water = 8.937 * fuel_fraction_hydrogen + fuel_fraction_water
     dry = air + 1.0 - water
+    flags.impossible(~(dry > 0.0), excess_air_ratio, "excess_air_ratio", reason=ONLY_WATER)
     _gas, h1 = gas_at(AIR_WATER, temperature, humidity_ratio, P)
     latent = AIR_WATER.vapor_molar_enthalpy(273.15) / AIR_WATER.vapor_molar_mass
     # the lower heating value leaves the water as vapor; the scale of enthalpies counts from the liquid

@@ -7,9 +7,13 @@ from typing import Literal
 
 import jax.numpy as jnp
 
-from granum.core import formula, procedure
+from granum.core import formula, impossible, procedure
 from granum.core.kinds import Area, Length, PositiveNumber, Ratio, Sphericity, Volume
 from granum.numerics.smooth import safe_power
+
+ROUNDEST = "Of all bodies of one volume the sphere has the smallest surface."
+LONGEST = "Length, width and thickness are given in falling order."
+ROUNDING = 1e-12
 
 
 @formula(source="wadell1933", equation=r"\psi = \left(\frac{d_v}{d_s}\right)^2", title="Sphericity from two diameters")
@@ -18,11 +22,10 @@ def sphericity_diameters(diameter_volume: Length, diameter_surface: Length) -> S
 
     Known as Wadell's sphericity.
 
-    A volume diameter above the surface diameter is impossible: the result, above 1, then only shows a measuring error.
-
     >>> round(sphericity_diameters(diameter_volume=1.2407, diameter_surface=1.3820), 3)
     0.806
     """
+    impossible(diameter_volume > diameter_surface, diameter_volume, "diameter_volume", 0.0, diameter_surface, ROUNDEST)
     return (diameter_volume / diameter_surface) ** 2
 
 
@@ -34,7 +37,9 @@ def sphericity_volume_surface(particle_volume: Volume, particle_surface: Area) -
     >>> round(sphericity_volume_surface(particle_volume=1.0, particle_surface=6.0), 3)
     0.806
     """
-    return pi ** (1 / 3) * safe_power(6.0 * particle_volume, 2 / 3) / particle_surface
+    least = pi ** (1 / 3) * safe_power(6.0 * particle_volume, 2 / 3)
+    impossible(particle_surface < least * (1.0 - ROUNDING), particle_surface, "particle_surface", least, jnp.inf, ROUNDEST)
+    return least / particle_surface
 
 
 @formula(source="wadell1933", equation=r"\psi = \frac{\pi^{1/3} (6 L I E)^{2/3}}{2 (LI + IE + EL)}", title="Sphericity of a box")
@@ -57,6 +62,8 @@ def sphericity_krumbein(particle_length: Length, particle_width: Length, particl
     >>> round(sphericity_krumbein(particle_length="6 mm", particle_width="4 mm", particle_thickness="3 mm"), 3)
     0.693
     """
+    impossible(particle_width > particle_length, particle_width, "particle_width", 0.0, particle_length, LONGEST)
+    impossible(particle_thickness > particle_width, particle_thickness, "particle_thickness", 0.0, particle_width, LONGEST)
     return (particle_width * particle_thickness / particle_length**2) ** (1 / 3)
 
 

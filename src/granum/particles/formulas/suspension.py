@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -27,6 +27,7 @@ from granum.core.kinds import (
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag, terminal_velocity
 
+PACKED = "The particles touch: the suspension no longer flows."
 Packed = Annotated[OpenFraction, Within(0.5, 1.0)]
 
 
@@ -106,6 +107,7 @@ def relative_viscosity_mooney(
     """
     free = 1.0 - solids_volume_fraction / solids_fraction_maximum
     flows = free > 0.0
+    impossible(~flows, solids_volume_fraction, "solids_volume_fraction", 0.0, solids_fraction_maximum, PACKED)
     return jnp.where(flows, jnp.exp(viscosity_coefficient * solids_volume_fraction / jnp.where(flows, free, 1.0)), jnp.inf)
 
 
@@ -125,6 +127,7 @@ def relative_viscosity_krieger_dougherty(
     """
     free = 1.0 - solids_volume_fraction / solids_fraction_maximum
     flows = free > 0.0
+    impossible(~flows, solids_volume_fraction, "solids_volume_fraction", 0.0, solids_fraction_maximum, PACKED)
     return jnp.where(flows, jnp.where(flows, free, 1.0) ** (-viscosity_coefficient * solids_fraction_maximum), jnp.inf)
 
 
@@ -250,6 +253,7 @@ def diluted_suspension(
     density = (D * rho_f + 1.0) / (D + 1.0 / rho_p)
     room = D - dilution_limit
     open_ = room > 0.0
+    impossible(~open_, D, "liquid_volume_per_solid_mass", dilution_limit, jnp.inf, PACKED)
     viscosity = jnp.where(open_, kinematic_viscosity * (D + 1.0 / rho_p) / jnp.where(open_, room, 1.0), jnp.nan)
     velocity = gravity * particle_diameter**2 * (rho_p - density) / (18.0 * viscosity * density)
     return DilutedSuspension(density, viscosity, velocity)

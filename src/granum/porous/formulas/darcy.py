@@ -92,6 +92,7 @@ def permeability_from_conductivity(
     >>> permeability_from_conductivity(hydraulic_conductivity=1e-4, fluid_density=1000, dynamic_viscosity="1 cP", gravity=10.0)
     1.0...e-11
     """
+    impossible(~(hydraulic_conductivity > 0), hydraulic_conductivity, "hydraulic_conductivity", 0.0, jnp.inf)
     return hydraulic_conductivity * dynamic_viscosity / (fluid_density * gravity)
 
 

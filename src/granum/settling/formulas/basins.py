@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Area, Density, Fraction, Length, PositiveNumber, Series, Speed, VolumeFlow
 from granum.particles.formulas.means import Masses, weighted
@@ -49,6 +49,7 @@ def basin_length(horizontal_velocity: Speed, height: Length, settling_velocity: 
     >>> basin_length(horizontal_velocity="3 cm/s", height="2 m", settling_velocity="1 cm/s")
     6.0
     """
+    impossible(~(settling_velocity > 0), settling_velocity, "settling_velocity", 0.0, jnp.inf)
     return horizontal_velocity * height / settling_velocity
 
 

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, impossible
 from granum.core.kinds import Angle, Area, KinematicViscosity, Length, PositiveNumber, Ratio, Speed
 
 _ANGLES = {"plate_angle": (0.7, 1.1)}
+UPRIGHT = "Plates stand at an angle to the horizontal from 0 to below 90°."
+SHORT_PLATES = "The plates are too short for their spacing: what settles between them is carried off with the sludge."
+
+
+def _check_angle(plate_angle: Any) -> None:
+    impossible((plate_angle < 0.0) | (plate_angle >= jnp.pi / 2.0), plate_angle, "plate_angle", 0.0, jnp.pi / 2.0, UPRIGHT)
 
 
 @formula(source="yao1970; metcalf2003", equation=r"A_p = N\,S\cos\alpha", typical=_ANGLES)
@@ -19,6 +27,7 @@ def lamella_area(plate_number: PositiveNumber, area: Area, plate_angle: Angle) -
     >>> round(lamella_area(plate_number=100, area=2.0, plate_angle="60 degree"), 6)
     100.0
     """
+    _check_angle(plate_angle)
     return plate_number * area * jnp.cos(plate_angle)
 
 
@@ -35,6 +44,7 @@ def critical_velocity_countercurrent(
     0.2
     """
     ratio = plate_length / plate_spacing
+    _check_angle(plate_angle)
     return yao_shape_parameter * velocity / (jnp.sin(plate_angle) + ratio * jnp.cos(plate_angle))
 
 
@@ -51,6 +61,8 @@ def critical_velocity_cocurrent(
     """
     sweep = plate_length / plate_spacing * jnp.cos(plate_angle) - jnp.sin(plate_angle)
     reachable = sweep > 0
+    _check_angle(plate_angle)
+    impossible(~reachable, plate_length, "plate_length", plate_spacing * jnp.tan(plate_angle), jnp.inf, SHORT_PLATES)
     return jnp.where(reachable, yao_shape_parameter * velocity / jnp.where(reachable, sweep, 1.0), jnp.inf)
 
 
@@ -63,6 +75,7 @@ def critical_velocity_crosscurrent(
     >>> round(critical_velocity_crosscurrent("3 mm/s", "0.72 m", "2.54 cm", "60 degree") * 1e3, 3)
     0.212
     """
+    _check_angle(plate_angle)
     return yao_shape_parameter * velocity * plate_spacing / (plate_length * jnp.cos(plate_angle))
 
 

@@ -24,6 +24,7 @@ from granum.core.kinds import (
 )
 from granum.settling.quantities import UnitArea
 
+DENSER = "A layer denser than the underflow limits nothing: any flux passes it."
 SAME = "Both layers have one concentration: there is no boundary between them."
 
 _TANGENT = {"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)}
@@ -163,4 +164,5 @@ def solids_flux_layer(solids_concentration: Concentration, settling_velocity: Sp
     0.066667
     """
     gap = 1.0 / solids_concentration - 1.0 / underflow_concentration
+    impossible(~(gap > 0), solids_concentration, "solids_concentration", 0.0, underflow_concentration, DENSER)
     return jnp.where(gap > 0, settling_velocity / jnp.where(gap > 0, gap, 1.0), jnp.inf)

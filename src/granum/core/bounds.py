@@ -1,0 +1,79 @@
+"""Outputs against the hard bounds of their own kinds: a figure outside them is not a value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import flags
+from granum.core.errors import ApplicabilityError
+from granum.core.parameters import Parameter
+
+ROUNDING = 1e-12  # by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
+CONTRADICTION = "The values given contradict one another, or lie beyond what this holds for."
+
+
+def limits(parameter: Parameter) -> tuple[float, float]:
+    """Bounds that a computed value keeps: those of its kind, widened by what rounding does to numbers of ordinary size."""
+    kind = parameter.kind
+    assert kind is not None
+    ends = (kind.lower, kind.upper, *parameter.ordinary())
+    slack = ROUNDING * max(abs(x) for x in ends if np.isfinite(x))
+    return kind.lower - slack, kind.upper + slack
+
+
+def figures(outputs: Iterable[Parameter], out: Any) -> Iterator[tuple[Parameter, Any]]:
+    """The outputs that are quantities, each with its value."""
+    for p, value in zip(outputs, out if isinstance(out, tuple) else (out,), strict=True):
+        if p.kind is not None and value is not None:
+            yield p, value
+
+
+def concerned(mask: Any, value: Any, whole: bool) -> Any:
+    """The elements of a value that a check concerns; ``whole`` where a check over another axis concerns all of it."""
+    shape = jnp.shape(value)
+    fits = len(mask.shape) <= len(shape) and all(n in (1, m) for n, m in zip(mask.shape[::-1], shape[::-1], strict=False))
+    return mask if fits else jnp.any(mask) if whole else jnp.asarray(False)
+
+
+def record_outside(outputs: Iterable[Parameter], out: Any, card: str, source: str, start: int) -> None:
+    """Record the finite outputs outside their own bounds, where no record made since ``start`` has said so of the inputs."""
+    told = [found.mask for found in flags.kept()[start:] if found.bit == flags.OUTSIDE_DOMAIN]
+    for p, value in figures(outputs, out):
+        low, high = limits(p)
+        if (low, high) == (-np.inf, np.inf):
+            continue
+        value = jnp.asarray(value)
+        beyond = jnp.isfinite(value) & ((value < low) | (value > high))
+        for mask in told:
+            beyond = beyond & ~concerned(mask, beyond, False)
+        assert p.kind is not None
+        flags.record(flags.OUTSIDE_DOMAIN, beyond, value, p.name, card, p.kind.lower, p.kind.upper, source, CONTRADICTION)
+
+
+def without_impossible(outputs: Iterable[Parameter], out: Any, records: Iterable[flags.Record], whole: bool) -> Any:
+    """Outputs with NaN where a record says that no value exists, and where one of them is infinite."""
+    masks = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN]
+    masks += [jnp.isinf(value) for _p, value in figures(outputs, out) if jnp.issubdtype(jnp.result_type(value), jnp.floating)]
+
+    def kept(value: Any) -> Any:
+        if jnp.issubdtype(jnp.result_type(value), jnp.floating):
+            for mask in masks:
+                value = jnp.where(concerned(mask, value, whole), jnp.nan, value)
+        return value
+
+    return jax.tree.map(kept, out)
+
+
+def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
+    """Raise where a result of concrete numbers lies outside the bounds of its own kind."""
+    if not isinstance(out, (tuple, float, np.ndarray, jax.Array)):
+        return
+    with flags.collect(flags.OUTSIDE_DOMAIN) as records:
+        record_outside(outputs, out, card, "", 0)
+    for row in flags.describe(records)[:1]:
+        raise ApplicabilityError(row["message"], name=row["name"])

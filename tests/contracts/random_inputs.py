@@ -1,0 +1,85 @@
+"""Random valid inputs for any card, and what its answer to them must hold."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import jax
+import numpy as np
+
+from granum.core.bounds import figures, limits
+from granum.core.formulas import Formula
+from granum.core.parameters import Parameter
+from granum.core.results import Result
+
+SETS = int(os.environ.get("GRANUM_RANDOM_SETS", "1000"))
+"""Sets of random inputs a card; the long run gives 1000000."""
+BLOCK = 10_000  # of them in one array
+DECADES = 8.0  # on either side of an ordinary value
+
+
+def drawn(f: Formula) -> list[Parameter]:
+    """The numeric inputs: required ones, and those whose default is a number."""
+    numeric = [p for p in f.card.parameters if p.kind is not None and p.sort is not int]
+    return [p for p in numeric if p.required or p.typical is not None or isinstance(p.default, float)]
+
+
+def ordinary(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
+    """Values from the ordinary range: log-uniform where it is positive and spans more than a factor of three."""
+    low, high = p.ordinary()
+    u = rng.uniform(0.02, 0.98, count)
+    return np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
+
+
+def wide(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
+    """Values over many decades inside the hard bounds, crowding towards finite ones."""
+    kind = p.kind
+    assert kind is not None
+    low, high = kind.lower, kind.upper
+    scale = max(map(abs, p.ordinary())) * 10.0 ** rng.uniform(-DECADES, DECADES, count)
+    if np.isfinite(low) and np.isfinite(high):
+        near = (high - low) * 10.0 ** rng.uniform(-DECADES, 0.0, count)
+        return np.where(rng.random(count) < 0.5, low + near, high - near).clip(np.nextafter(low, high), np.nextafter(high, low))
+    if np.isfinite(low):
+        return low + np.maximum(scale, abs(low) * 1e-15)
+    if np.isfinite(high):
+        return high - np.maximum(scale, abs(high) * 1e-15)
+    return np.where(rng.random(count) < 0.5, scale, -scale)
+
+
+def random_inputs(f: Formula, count: int, seed: int) -> dict[str, np.ndarray]:
+    """Half the sets ordinary throughout; in the others each input is as likely to be wide."""
+    rng = np.random.default_rng(seed)
+    far = rng.random(count) < 0.5
+    values = {}
+    for p in drawn(f):
+        chosen = far & (rng.random(count) < 0.5)
+        values[p.name] = np.where(chosen, wide(p, rng, count), ordinary(p, rng, count))
+    return values
+
+
+def wrong(result: Result, inputs: Mapping[str, Any]) -> list[str]:
+    """What is wrong in an answer: a number outside its own bounds, an infinite one, or none without a flag."""
+    found = []
+    for p, value in figures(result.card.outputs, result.value):
+        array = np.asarray(value, dtype=float)
+        low, high = limits(p)
+        flags = np.broadcast_to(result.flags, array.shape) if result.flags.shape in ((), array.shape) else np.asarray(result.flags.any())
+        for word, bad in (
+            ("outside its bounds", (array < low) | (array > high)),
+            ("infinite", np.isinf(array)),
+            ("no number and no flag", np.isnan(array) & (flags == 0)),
+        ):
+            if bad.any():
+                at = int(np.argmax(bad.ravel()))
+                given = {n: float(np.ravel(v)[at]) for n, v in inputs.items() if np.size(v) == array.size}
+                found.append(f"{result.card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} at {given}")
+    return found
+
+
+def no_value(result: Result) -> int:
+    """Sets without a value."""
+    return int(np.any([np.isnan(np.broadcast_to(x, result.flags.shape)) for x in jax.tree.leaves(result.value)
+                       if np.shape(x) in ((), result.flags.shape)] or [False], axis=0).sum())  # fmt: skip
