@@ -6,6 +6,7 @@ import jax.numpy as jnp
 import pytest
 
 from granum.core.errors import GranumError
+from granum.core.flags import collect, describe
 from granum.drying.contact.kinetics import SurfaceKinetics
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
@@ -33,7 +34,9 @@ def cake(crystals: float, water: float) -> Stream:
 def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     dryer, flow = DRYERS[name]
     feed, gas = cake(0.3, 0.02), empty(SALT, 400.0).replace(gas=flow * jnp.array([1.0, 0.01]))
-    out = dryer(feed, gas)
+    with collect() as records:
+        out = dryer(feed, gas)
+    assert not describe(records)
     closed = closure([feed, gas], [out.product, out.exhaust], out.heat_duty)
     assert float(closed.mass) < 1e-12
     assert float(closed.energy) < 1e-12
@@ -41,8 +44,6 @@ def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     assert 0.0 < float(water) < 0.015
     assert float(salt / water) == pytest.approx(DISSOLVED, rel=1e-12)  # the liquor left is still the saturated one
     assert float(jnp.sum(out.product.solid[1]) + salt) == pytest.approx(0.3 + 0.02 * DISSOLVED, rel=1e-12)
-    some = {c.name: c.ok for c in dryer.checks({"feed": feed, "gas": gas}, out)}
-    assert some["solution of the dryer found"]
 
 
 def test_a_solution_is_spray_dried_to_powder() -> None:

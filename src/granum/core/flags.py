@@ -130,6 +130,11 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
         record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
 
 
+def unsolved(converged: Any, card: Any, name: str = "iteration", reason: str = "") -> None:
+    """Inside a unit: record that its inner solution was not found. ``card`` is the unit's; ``reason`` as for ``limit_active``."""
+    record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, card.key, source=card.source, reason=reason)
+
+
 def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
     """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
 

@@ -102,6 +102,7 @@ class SiloDryer(LayerDryer):
 
     def __call__(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> DriedGrain:
         found, vapor, heat = _grain(self, feed, gas, cooling)
+        self.judged(found)
         if cooling is None:
             product, exhaust, duty = dried(feed, gas, found)
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)

@@ -82,7 +82,9 @@ class SprayDryer(Dryer):
         return _sprayed(self, feed, gas)[1]
 
     def __call__(self, feed: Stream, gas: Stream) -> Dried:
-        return parted(self.atomized(counted(feed), gas), composition(feed), gas, self.profile(feed, gas))
+        found = self.profile(feed, gas)
+        self.judged(found)
+        return parted(self.atomized(counted(feed), gas), composition(feed), gas, found)
 
     @classmethod
     def size(
