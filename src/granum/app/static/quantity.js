@@ -19,8 +19,9 @@ export function split(text) {
 /** Number and unit of the text of a form, where a number alone is SI; an empty one in the unit people usually write. */
 function held(text, p) {
   if (!text) return { number: '', unit: named(p.default_shown?.unit ?? p.example?.unit ?? p.units?.[0]?.unit) };
-  const parts = split(text);
-  return { number: parts.number, unit: parts.unit || named(p.unit) };
+  const { number, unit } = split(text);
+  const offered = p.units?.find((u) => u.unit.replaceAll('^', '') === unit.replaceAll('^', '') || u.label === unit); // m2: m^2
+  return { number, unit: unit ? named(offered?.unit ?? unit) : named(p.unit) };
 }
 
 /** What the server makes of a text, a moment after the last key; asked only while somebody types. */
