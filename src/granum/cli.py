@@ -141,9 +141,10 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
         found = test.fit(Huber() if robust else None)
     told = test.next_measurement(found) if next_point else None
     if chart is not None:
+        from granum.core.charts import as_html
         from granum.core.files import write_atomic
 
-        write_atomic(chart, test.chart().to_html(include_plotlyjs=True))
+        write_atomic(chart, as_html(test.chart(), page=True))
     if as_json:
         _emit(found.as_json() | ({"next": told} if told is not None else {}))
     else:
@@ -279,6 +280,7 @@ def chart(
 ) -> None:
     """Draw a chart and save it as HTML."""
     from granum.core import registry
+    from granum.core.charts import as_html
     from granum.core.files import write_atomic
 
     thing = registry.find(key)
@@ -286,7 +288,7 @@ def chart(
         raise InputError(
             _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(key=key, sort=_(thing.card.sort))
         )
-    write_atomic(out, thing(**_pairs(inputs)).to_html(include_plotlyjs=True))
+    write_atomic(out, as_html(thing(**_pairs(inputs)), page=True))
     print(_("saved to {path}").format(path=out))
 
 

@@ -6,16 +6,19 @@ import ast
 import doctest
 import json
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from granum.core import registry
 from granum.core.cards import Card
+from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
-from granum.core.kinds import Kind
+from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter, convert
-from granum.core.units import field_units, format_number, from_si, parse_unit, pretty_unit, show
+from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
 from granum.reports.mathml import mathml
 from granum.reports.quantities import law_label
 
@@ -63,6 +66,56 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
     unit = p.display_unit(array)
     shown = (f"{float(x):.6g}" for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
+
+
+def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
+    """What is typed in a field means: ``{"number", "unit"}`` beside what a form knows of its parameter.
+
+    Gives the quantity in words and, where all its values share one unit, its number and that unit: one of the offered ones that means the
+    same as the one typed (microns: um), else as it was typed.
+    """
+    p = _asked_parameter(asked)
+    assert p.kind is not None
+    typed = str(asked.get("unit_typed", ""))
+    array = np.atleast_1d(np.asarray(convert(f"{asked.get('number', '')} {typed}".strip(), p), dtype=float))
+    unit = typed or p.kind.unit
+    if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
+        shown = display_unit(array, p.kind)
+        return {"shown": _listed(array, shown, p.kind)}
+    offered = (str(u) for u in asked.get("units") or ())
+    unit = next((u for u in offered if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
+    numbers = " ".join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
+    return {"shown": _listed(array, unit, p.kind), "number": numbers, "unit": "" if unit == "dimensionless" else unit}
+
+
+def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
+    kind = next((k for k in KINDS.values() if k.name == asked.get("kind")), None)
+    if kind is None:
+        raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
+    edges = {end: asked.get(end) for end in ("lower", "upper")}
+    if any(not isinstance(x, (int, float)) for x in edges.values() if x is not None):
+        raise InputError(_("'{name}' cannot take this value: {value}.").format(name="lower", value=str(edges)[:60]), name="lower")
+    bounds = {end: x if x is not None else (-math.inf if end == "lower" else math.inf) for end, x in edges.items()}
+    bounds |= {end: bool(asked.get(end)) for end in ("open_lower", "open_upper")}
+    return Parameter(str(asked.get("name", "")), replace(kind, **bounds), series="points" if asked.get("series") else None)
+
+
+def _known(unit: str, kind: Kind) -> bool:
+    try:
+        to_si(1.0, unit, kind)
+    except UnitError:
+        return False
+    return True
+
+
+def _alike(one: str, other: str, kind: Kind) -> bool:
+    """Whether two units read the same number as the same quantity."""
+    return all(math.isclose(to_si(x, one, kind), to_si(x, other, kind), rel_tol=1e-12) for x in (0.0, 1.0))
+
+
+def _listed(values: np.ndarray, unit: str, kind: Kind) -> str:
+    """Values in one unit as people read them: ``85 µm``, ``2 · 4 · 8 µm``."""
+    return f"{' · '.join(format_number(float(x), 9) for x in from_si(values, unit, kind))} {pretty_unit(unit)}".strip()
 
 
 def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import logging
+import shlex
+import tomllib
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -17,10 +20,11 @@ from starlette.exceptions import HTTPException
 import granum
 from granum.app import exercises
 from granum.app.case_forms import edited, line_form
-from granum.app.forms import card_form
+from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
 from granum.app.tasks import calculate, packed
+from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
@@ -70,7 +74,7 @@ def _refusals(app: FastAPI) -> None:
     @app.exception_handler(GranumError)
     async def refused(_request: Request, fault: GranumError) -> JSONResponse:
         status = 429 if isinstance(fault, Busy) else (422 if fault.exit_code == 2 else 409)
-        return Answer({"error": fault.as_json()}, status_code=status)
+        return Answer({"error": told(fault.as_json())}, status_code=status)
 
     @app.exception_handler(RequestValidationError)
     async def misread(_request: Request, fault: RequestValidationError) -> JSONResponse:
@@ -109,6 +113,14 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """One card with everything a form needs."""
         place = (key, current_language(), unit_system())
         return _json(_forms[place] if place in _forms else await quick.run(lambda: _form_text(*place)))
+
+    @app.post("/api/read")
+    async def read(asked: Inputs) -> Response:
+        """What is typed in a field means; text that is not understood is an answer too, not an error."""
+        try:
+            return Answer(read_entry(asked))
+        except InputError as fault:
+            return Answer({"problem": told(fault.as_json())["message"]})
 
     @app.post("/api/calc/{key}")
     async def calc(request: Request, key: str, inputs: Inputs) -> Response:
@@ -258,11 +270,13 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
             raise InputError(_("There is no file '{path}' in the workspace.").format(path=path)) from None
 
     @app.put("/api/workspace/{path:path}")
-    async def saved(path: str, text: Annotated[str, Body(embed=True)]) -> Response:
-        """Save a case file atomically."""
+    async def saved(path: str, text: Annotated[str, Body(embed=True)], replace: Annotated[bool, Body(embed=True)] = False) -> Response:
+        """Save a case file atomically; one that exists is replaced only when that is said."""
         from granum.core.files import write_atomic
 
         place = _inside(workspace, path)
+        if place.exists() and not replace:
+            raise InputError(_("'{path}' exists already.").format(path=path), exists=True)
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
             write_atomic(place, text)
@@ -299,10 +313,14 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return FileResponse(str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"})
 
 
+def _examples_folder() -> Path:
+    root = Path(str(files("granum") / "examples"))
+    return root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"  # installed, or in a source tree
+
+
 @cache
 def _examples() -> dict[str, Path]:
-    root = Path(str(files("granum") / "examples"))
-    root = root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"  # installed, or in a source tree
+    root = _examples_folder()
     found = sorted(root.rglob("*.toml")) if root.is_dir() else []
     return {str(p.relative_to(root)): p for p in found if "[units." in p.read_text(encoding="utf-8")}
 
@@ -342,8 +360,23 @@ _forms: dict[tuple[str, str, str], bytes] = {}
 
 
 def _form_text(key: str, language: str, units: str) -> bytes:
-    text = _forms[key, language, units] = packed(card_form(key))
+    text = _forms[key, language, units] = packed(
+        card_form(key) | {"trial": _trial(key) if registry.find(key).card.sort == "lab test" else None}
+    )
     return text
+
+
+def _trial(key: str) -> dict[str, Any] | None:
+    """Data and conditions to try a lab test with: those of the first ``granum fit`` of it in a README of the examples."""
+    for place in sorted(_examples_folder().glob("*/README.md")):
+        for line in place.read_text(encoding="utf-8").splitlines():
+            if line.startswith(f"granum fit {key} "):
+                data, *conditions = shlex.split(line)[3:]
+                table = place.parent / Path(data).name
+                values = dict(word.split("=", 1) for word in conditions)
+                laws = {name: json.dumps(tomllib.loads(f"v = {text}")["v"]) for name, text in values.items() if text.startswith("{")}
+                return {"name": f"{place.parent.name}/{table.name}", "table": table.read_text(encoding="utf-8"), "values": values | laws}
+    return None
 
 
 _familiar = Familiar()

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from granum.app.case_forms import read_line
 from granum.app.texts import plain_data
-from granum.core.errors import GranumError, InputError
+from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.units import format_number, from_si, pretty_unit
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.core.units import format_number, from_si
 from granum.reports.quantities import value_text
 
 MOST_CASES = 20_000
@@ -38,8 +41,21 @@ def choices(payload: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "title": found.title,
         "inputs": [row for path in _inputs(found) if (row := _input_row(found, path))],
-        "figures": [{"name": v.path, "label": v.label} for v in _figures(found)],
+        "figures": [{"name": v.path, "label": v.label, "quantity": v.parameter.as_json()} for v in _figures(found)],
+        "declared": _declared(payload),
     }
+
+
+def _declared(payload: Mapping[str, Any]) -> list[dict[str, str]]:
+    """The studies that the file of a line declares."""
+    from granum.cases.reading import parsed
+
+    tables = parsed(str(payload.get("case") or ""), "case").get("study")
+    rows = {name: table for name, table in tables.items() if isinstance(table, dict)} if isinstance(tables, dict) else {}
+    return [
+        {"name": name, "title": str(table.get("title") or name.replace("_", " ")), "kind": str(table.get("kind", name))}
+        for name, table in rows.items()
+    ]
 
 
 def _inputs(found: Any) -> Iterator[str]:
@@ -60,6 +76,7 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
     except (GranumError, TypeError, ValueError):
         return None  # a list, a choice, or without a value: not for a form
     kind = v.parameter.kind
+    spread = Parameter(v.parameter.name, KINDS["TemperatureDifference"]) if kind.unit == "K" else v.parameter
     unit = (v.parameter.units or (kind.unit,))[0] if not np.isfinite(value) or value == 0.0 else v.parameter.display_unit(value)
     number = f"{float(from_si(value, unit, kind)):.5g}" if np.isfinite(value) else ""
     return {
@@ -67,7 +84,9 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
         "label": v.label,
         "value": number,
         "unit": "" if unit == "dimensionless" else unit,
-        "units": [{"unit": "" if u == "dimensionless" else u, "label": pretty_unit(u)} for u in dict.fromkeys((unit, *kind.units))],
+        "shown": value_text(value, v.parameter),
+        "quantity": v.parameter.as_json(),
+        "spread": spread.as_json(),
     }
 
 
@@ -86,9 +105,30 @@ def study(payload: Mapping[str, Any], tell: Callable[[float], None]) -> dict[str
     """Run a declared study; ``tell`` hears how far it is, and may raise to stop it."""
     from granum.studies import Study
 
+    if payload.get("declared"):
+        return _outcome(_declared_study(payload), tell)
     table = payload.get("table")
     if not isinstance(table, dict):
         raise InputError(_("'{name}' is missing.").format(name="table"), name="table")
+    _not_too_many(table)
+    return _outcome(Study.of(str(table.get("kind", "")), table, subject(payload)), tell)
+
+
+def _declared_study(payload: Mapping[str, Any]) -> Any:
+    """A study that the file of a line declares, as it stands there."""
+    from granum.cases.studying import studies_of_text
+
+    read_line(payload)  # refuses files outside the workspace
+    folder = payload.get("folder")
+    found = studies_of_text(str(payload["case"]), folder=Path(str(folder)) if folder else None)
+    name = str(payload["declared"])
+    if name not in found:
+        raise unknown_name(_("Study"), name, found)
+    _not_too_many(found[name].options)
+    return found[name]
+
+
+def _not_too_many(table: Mapping[str, Any]) -> None:
     for key in ("samples", "starts"):
         if isinstance(table.get(key), (int, float)) and table[key] > MOST_CASES:
             raise InputError(_("'{name}' may be at most {most} here.").format(name=key, most=MOST_CASES), name=key)
@@ -97,7 +137,9 @@ def study(payload: Mapping[str, Any], tell: Callable[[float], None]) -> dict[str
         cases = np.prod([float(row["steps"]) if isinstance(row.get("steps"), (int, float)) else 1.0 for row in over.values()])
         if cases > MOST_CASES:
             raise InputError(_("'{name}' may be at most {most} here.").format(name="steps", most=MOST_CASES), name="steps")
-    declared = Study.of(str(table.get("kind", "")), table, subject(payload))
+
+
+def _outcome(declared: Any, tell: Callable[[float], None]) -> dict[str, Any]:
     outcome = declared.run(progress=lambda p: tell(p.done / max(p.total, 1)))
     return plain_data(outcome.as_json(cases=SHOWN_CASES)) | {
         "charts": [{"name": name, "figure": json.loads(figure.to_json())} for name, figure in outcome.charts().items()],

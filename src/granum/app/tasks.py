@@ -13,6 +13,7 @@ from granum.app import studies
 from granum.app.case_forms import read_line
 from granum.app.spread import spread
 from granum.app.texts import described, plain_data
+from granum.app.wording import noticed
 from granum.core import registry
 from granum.core.cards import Card
 from granum.core.errors import InputError
@@ -107,7 +108,7 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
     source.name = payload["name"]
     test = test_type.read(source, **inputs_for(test_type.card, conditions))
     found = test.fit()
-    data = found.as_json() | {"residuals": found.residuals, "kept": found.kept}
+    data = found.as_json() | {"residuals": found.residuals, "kept": found.kept, "flags": noticed(found.flags)}
     return packed(
         data
         | {
@@ -152,7 +153,9 @@ def run(payload: dict[str, Any], _tell: Tell) -> bytes:
         ]
     for name, stream in outcome.streams.items():
         data["streams"][name]["shown"] = stream_figures(stream)
-    return packed(data | {"diagram": draw(outcome.sheet, outcome.streams), "stream_table": stream_table(outcome)})
+    return packed(
+        data | {"flags": noticed(data["flags"]), "diagram": draw(outcome.sheet, outcome.streams), "stream_table": stream_table(outcome)}
+    )
 
 
 def report(payload: dict[str, Any], _tell: Tell) -> bytes:

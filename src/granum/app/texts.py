@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from granum.app.wording import noticed
 from granum.core.cards import Card
 from granum.core.i18n import _
 from granum.core.parameters import default_as_json
@@ -79,6 +80,7 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
         row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"])} for p, row in zip(used, step["inputs"], strict=True)
     ]
     return result.as_json() | {
+        "flags": noticed(result.notices),
         "shown": [row for row in rows if table is None or row["name"] not in {c["name"] for c in table["columns"]}],
         "table": table,
         "inputs_shown": inputs,

@@ -75,6 +75,12 @@ def _mark_short_decades(chart: go.Figure) -> None:
         )
 
 
+def as_html(chart: go.Figure, *, plotly: bool = True, page: bool = False) -> str:
+    """A chart as HTML, a part of a page or a page of its own; ``plotly`` puts the library in. Nothing offers to send its data anywhere."""
+    config = {"displaylogo": False, "showSendToCloud": False, "plotlyServerURL": ""}
+    return chart.to_html(full_html=page, include_plotlyjs=plotly, config=config)
+
+
 def add_points(chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK, hollow: bool = False, **more: Any) -> None:
     """Data points; hollow ones are excluded from a fit."""
     marker = {"color": "white" if hollow else color, "size": 7, "line": {"color": color, "width": 1.5}}

@@ -131,10 +131,7 @@ def _charts(run: Any) -> list[tuple[str, str]]:
         inside = run.sheet.units[name].charts(run.sheet.inlets_of(name, run.streams))
         found |= {f"{name} · {heading}": figure.update_layout(title_text="", margin_t=30) for heading, figure in inside.items()}
     drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
-    return [
-        (heading, figure.to_html(full_html=False, include_plotlyjs=i == 0, config={"displaylogo": False}))
-        for i, (heading, figure) in enumerate(drawn)
-    ]
+    return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
 
 
 def line_report(run: Any) -> str:

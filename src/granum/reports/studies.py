@@ -262,11 +262,13 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
     """HTML of the report of one or several studies of one file."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
+    from granum.core.charts import as_html
+
     sections, first = [], True
     for outcome in outcomes:
         drawn = []
         for figure in outcome.charts().values():
-            drawn.append(figure.to_html(full_html=False, include_plotlyjs=first, config={"displaylogo": False}))
+            drawn.append(as_html(figure, plotly=first))
             first = False
         counts = outcome.counts()
         sections.append({

@@ -1,5 +1,5 @@
 // The shell: header, routing, language, theme.
-import { html, render, t, ask, useState, useEffect, readLink, link, settings, keep, apply } from './core.js';
+import { html, render, t, ask, useState, useEffect, readLink, link, lastPlace, keepPlace, settings, keep, apply } from './core.js';
 import { Calculate, isSelection } from './calculate.js';
 import { Lab } from './lab.js';
 import { Lines } from './lines.js';
@@ -19,11 +19,15 @@ const PAGES = [
 function App() {
   const [state, setState] = useState(readLink());
   const [guides, setGuides] = useState(false);
+  const [away, setAway] = useState(false);
   useEffect(() => {
-    const changed = () => setState(readLink());
+    const changed = () => { const next = readLink(); keepPlace(next.page); setState(next); };
+    keepPlace(readLink().page);
+    const gone = (e) => setAway(e.detail);
+    addEventListener('granum-gone', gone);
     addEventListener('hashchange', changed);
     ask('/api/cards?sort=procedure').then((found) => setGuides(found.cards.some(isSelection)));
-    return () => removeEventListener('hashchange', changed);
+    return () => { removeEventListener('hashchange', changed); removeEventListener('granum-gone', gone); };
   }, []);
   const set = (name, value) => { keep(name, value); setState(readLink()); };
   const page = PAGES.find(([name]) => name === state.page) || PAGES[0];
@@ -32,10 +36,11 @@ function App() {
   useEffect(() => { document.title = `${t(page[1])} · Granum`; }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => { e.preventDefault(); document.querySelector('#main input, #main select, #main textarea, #main a')?.focus(); }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
-      <nav aria-label=${t('Pages')}>${shown.map(([name, label]) => html`<a href=${link(name)} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`)}</nav>
+      <nav aria-label=${t('Pages')}>${shown.map(([name, label]) => html`<a href=${lastPlace(name)} onClick=${(e) => { e.currentTarget.href = lastPlace(name); }} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`)}</nav>
       <div class="tools"><button lang=${other} onClick=${() => set('language', other)}>${other === 'fr' ? 'Français' : 'English'}</button>
         <button aria-label=${t('Units: SI or customary of the United States')} title=${t('Units: SI or customary of the United States')} onClick=${() => set('units', settings.units === 'field' ? 'si' : 'field')}>${settings.units === 'field' ? 'ft·lb' : 'SI'}</button>
         <button aria-label=${t('Light or dark')} onClick=${() => set('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>
+    ${away && html`<p class="gone" role="alert">${t('Granum no longer answers. Restart it in the terminal; this page reconnects by itself. What you typed is kept.')}</p>`}
     ${page[2](state)}`;
 }
 

@@ -1,5 +1,5 @@
 // Calculate: find a card, enter values, believe the result. Up to three cases side by side.
-import { html, t, ask, link, useAnswer, useState, useEffect, replaceLink, settings, Plot } from './core.js';
+import { html, t, ask, link, useAnswer, useState, useEffect, useRef, useKept, replaceLink, download, settings, Plot, Working } from './core.js';
 import { Field, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Spread } from './spread.js';
@@ -24,14 +24,20 @@ function Work({ page, card, given }) {
   const start = Object.fromEntries(Object.entries(given).filter(([name]) => names.has(name)));
   const [values, setValues] = useState(Object.keys(start).length ? start : ordinary(card));
   const [past, setPast] = useState([]);
-  const [kept, setKept] = useState([]);
+  const [kept, setKept] = useKept('compared ' + card.card, []);
+  const edited = useRef('');
   const [copied, setCopied] = useState('');
   useEffect(() => replaceLink(page, card.card, values), [values]);
   const kind = card.sort === 'chart' ? 'chart' : 'calc';
   const missing = card.parameters.filter((p) => p.required && !values[p.name]);
   const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
-  const set = (next) => { setPast([...past.slice(-50), values]); setValues(next); };
-  const wrong = answer.error?.details?.name;
+  const others = useAnswer((signal) => Promise.all(kept.map((given) => ask(`/api/calc/${card.card}`, given, { signal }))), [JSON.stringify(kept)], 0);
+  const set = (next, name = '') => { // what is typed in one field in one go is one step back
+    if (!name || edited.current !== name) setPast([...past.slice(-50), values]);
+    edited.current = name;
+    setValues(next);
+  };
+  const wrong = card.parameters.find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
@@ -42,16 +48,17 @@ function Work({ page, card, given }) {
     setTimeout(() => setCopied(''), 4000);
   };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
-      <form onSubmit=${(e) => e.preventDefault()}>${card.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set({ ...values, [p.name]: text })} problem=${wrong === p.name ? answer.error.message : ''} />`)}</form>
-      <div class="row"><button class="button" disabled=${!past.length} onClick=${() => { setValues(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
+      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => { edited.current = ''; }}>${card.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set({ ...values, [p.name]: text }, p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
+      <div class="row"><button class="button" disabled=${!past.length} onClick=${() => { edited.current = ''; setValues(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
       <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, values)}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
-      <div aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
+      <div aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
+      <${Working} busy=${answer.pending} cancel=${answer.cancel} />
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
       ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
-        : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${kept} keep=${() => setKept([...kept, answer.data])} clear=${() => setKept([])} choose=${set} />`)}</div>
+        : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} />`)}</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }

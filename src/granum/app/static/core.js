@@ -20,6 +20,23 @@ export function link(page, key = '', values = {}) {
 
 export function replaceLink(page, key, values) {
   history.replaceState(null, '', link(page, key, values));
+  keepPlace(page);
+}
+
+// ---- what outlives a reload, a change of language and a look at another page --------------------------
+export function remember(name, value) {
+  try { value === null || value === undefined ? sessionStorage.removeItem('granum:' + name) : sessionStorage.setItem('granum:' + name, JSON.stringify(value)); } catch { /* private window or too large: kept only as long as the page */ }
+}
+export function recall(name, fallback = null) {
+  try { return JSON.parse(sessionStorage.getItem('granum:' + name)) ?? fallback; } catch { return fallback; }
+}
+/** Where one was on a page, so that its entry in the header leads back there. */
+export const keepPlace = (page) => remember('place ' + page, location.hash);
+export const lastPlace = (page) => recall('place ' + page, link(page));
+/** A state that outlives its component. */
+export function useKept(name, fallback) {
+  const [value, set] = useState(() => recall(name, fallback));
+  return [value, (next) => { remember(name, next); set(next); }];
 }
 
 // ---- language and theme ---------------------------------------------------------------------------
@@ -58,9 +75,36 @@ export function number(value, digits = 4) {
 }
 
 // ---- requests -------------------------------------------------------------------------------------
+const ATTEMPTS = 3;
+let waiting = null;
+/** Resolves when the server answers again; until then the page says that it is gone. */
+function returned() {
+  waiting ||= (async () => {
+    dispatchEvent(new CustomEvent('granum-gone', { detail: true }));
+    for (;;) {
+      try { await fetch('icon.svg', { method: 'HEAD', cache: 'no-store' }); break; } catch { await new Promise((done) => setTimeout(done, 1500)); }
+    }
+    waiting = null;
+    dispatchEvent(new CustomEvent('granum-gone', { detail: false }));
+  })();
+  return waiting;
+}
+
+/** A request that waits for a server that is gone, and is then made again. */
+async function reach(path, request) {
+  for (let attempt = 1; ; attempt += 1) {
+    try { return await fetch(path, request); } catch (problem) {
+      if (request.signal?.aborted || problem.name === 'AbortError') throw problem;
+      if (attempt >= ATTEMPTS) throw new Error(t('The connection broke off again and again.'));
+      await returned();
+      request.signal?.throwIfAborted();
+    }
+  }
+}
+
 export async function ask(path, body, options = {}) {
   const form = body instanceof FormData;
-  const response = await fetch(path, {
+  const response = await reach(path, {
     method: options.method || (body === undefined ? 'GET' : 'POST'),
     headers: { 'x-language': settings.language, 'x-units': settings.units, ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
     body: body === undefined ? undefined : form ? body : JSON.stringify(body),
@@ -72,23 +116,50 @@ export async function ask(path, body, options = {}) {
   return data;
 }
 
-/** The latest answer to a request that changes with every key stroke; older answers are dropped, the last one stays visible. */
+/**
+ * The latest answer to a request that changes with every key stroke; older answers are dropped, the last one stays visible.
+ * `pending` is true from the moment the question changes until it is answered, so that nothing old looks new.
+ */
 export function useAnswer(make, dependencies, wait = 60) {
-  const [state, setState] = useState({ data: null, error: null, pending: false });
+  const [state, setState] = useState({ data: null, error: null, to: null });
+  const running = useRef(null);
   useEffect(() => {
     const stop = new AbortController();
-    setState((s) => ({ ...s, pending: true }));
+    running.current = stop;
     const timer = setTimeout(async () => {
       try {
         const data = await make(stop.signal);
-        if (!stop.signal.aborted) setState({ data, error: null, pending: false });
+        if (!stop.signal.aborted) setState({ data, error: null, to: dependencies });
       } catch (error) {
-        if (!stop.signal.aborted) setState((s) => ({ data: s.data, error, pending: false }));
+        if (!stop.signal.aborted) setState((s) => ({ data: s.data, error, to: dependencies }));
       }
     }, wait);
     return () => { stop.abort(); clearTimeout(timer); };
   }, dependencies);
-  return state;
+  const pending = !state.to || dependencies.some((value, i) => value !== state.to[i]);
+  const cancel = () => { running.current?.abort(); setState((s) => ({ ...s, error: new Error(t('Cancelled. Change an input to calculate again.')), to: dependencies })); };
+  return { data: state.data, error: state.error, pending, cancel };
+}
+
+/** Shown once something takes longer than a second: how long already, and a way to stop it. */
+export function Working({ busy, cancel, share = 0, text = t('Working… what is asked for the first time takes a little longer.') }) {
+  const [seconds, setSeconds] = useState(0);
+  useEffect(() => {
+    if (!busy) return undefined;
+    const start = Date.now();
+    setSeconds(0);
+    const timer = setInterval(() => setSeconds(Math.floor((Date.now() - start) / 1000)), 500);
+    return () => clearInterval(timer);
+  }, [busy]);
+  if (!busy || seconds < 1) return null;
+  return html`<div class="row" data-working><progress max="1" value=${share || null} aria-label=${t('Progress')}></progress> <span class="small">${text} ${share ? `${Math.round(100 * share)} % · ` : ''}${t('{seconds} s', { seconds })}</span> <button class="button" onClick=${cancel}>${t('Cancel')}</button></div>`;
+}
+
+/** A file made here, handed to the person in front of the page. */
+export function download(name, text, type) {
+  const place = URL.createObjectURL(new Blob([text], { type }));
+  Object.assign(document.createElement('a'), { href: place, download: name }).click();
+  URL.revokeObjectURL(place);
 }
 
 // ---- charts ---------------------------------------------------------------------------------------
@@ -124,7 +195,7 @@ export function Plot({ figure, label, onPoint }) {
     loadPlotly().then((Plotly) => {
       if (alive && place.current && figure) {
         Plotly.react(place.current, figure.data, fitted(figure, place.current.clientWidth), {
-          responsive: true, displaylogo: false, displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
+          responsive: true, displaylogo: false, showSendToCloud: false, plotlyServerURL: '', displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
           toImageButtonOptions: { format: 'svg', filename: 'granum' },
         });
         place.current.removeAllListeners?.('plotly_click');

@@ -1,7 +1,8 @@
 // Lab data: drop a table, give the conditions, read parameters with intervals.
-import { html, t, ask, link, useAnswer, useState, settings, replaceLink, useEffect, Plot } from './core.js';
-import { Field, ordinary } from './form.js';
+import { html, t, ask, useAnswer, useState, useKept, settings, replaceLink, useEffect, download, Plot, Working } from './core.js';
+import { Field } from './form.js';
 import { Finder, useCards } from './cards.js';
+import { inLanguage } from './quantity.js';
 
 export function Lab({ state }) {
   const cards = useCards((c) => c.sort === 'lab test');
@@ -13,15 +14,17 @@ export function Lab({ state }) {
 
 function Test({ card, given }) {
   const columns = card.parameters.filter((p) => p.series);
-  const conditions = { ...card, parameters: card.parameters.filter((p) => !p.series) };
+  const conditions = card.parameters.filter((p) => !p.series).map((p) => ({ ...p, hint: p.example && !p.default_shown ? t('e.g. {value}', { value: inLanguage(p.example.number) }) : undefined }));
   const example = columns.map((p) => `${p.name} [${p.units?.[0]?.unit || '1'}]`).join(',');
-  const [values, setValues] = useState(Object.keys(given).length ? given : ordinary(conditions));
-  const [table, setTable] = useState('');
-  const [told, setTold] = useState('');
+  const [values, setValues] = useState(given);
+  const [table, setTable] = useKept('table ' + card.card, '');
+  const [told, setTold] = useKept('told ' + card.card, '');
+  const [trial, setTrial] = useKept('trial ' + card.card, null);
   const [over, setOver] = useState(false);
   useEffect(() => replaceLink('lab', card.card, values), [values]);
+  const missing = conditions.filter((p) => p.required && !values[p.name]);
   const answer = useAnswer(async (signal) => {
-    if (!table.trim()) return null;
+    if (!table.trim() || missing.length) return null;
     const form = new FormData();
     form.append('file', new File([table], 'data.csv', { type: 'text/csv' }));
     form.append('conditions', JSON.stringify(values));
@@ -31,18 +34,31 @@ function Test({ card, given }) {
     if (!list?.length) return;
     const form = new FormData();
     form.append('file', list[0]);
-    try { setTable((await ask('/api/table', form)).text); setTold(list[0].name); } catch (problem) { setTold(problem.message); }
+    try { const { text } = await ask('/api/table', form); setTold(list[0].name); own(text); } catch (problem) { setTold(problem.message); }
   };
+  const own = (text) => { // a table of one's own: what an example said of its test does not hold for it
+    if (trial) {
+      setValues(Object.fromEntries(Object.entries(values).filter(([name, value]) => trial.values[name] !== value)));
+      setTrial(null);
+      setTold(t('The conditions of the example were taken out: give those of your test.'));
+    }
+    setTable(text);
+  };
+  const tryIt = () => { setTable(card.trial.table); setValues(card.trial.values); setTrial(card.trial); setTold(''); };
+  const wrong = conditions.find((p) => p.name === answer.error?.details?.name);
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => { e.preventDefault(); setOver(true); }} onDragLeave=${() => setOver(false)} onDrop=${(e) => { e.preventDefault(); setOver(false); take(e.dataTransfer.files); }}>
         <label>${t('Drop a CSV or Excel file here, or choose one:')} <input type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
         <div role="status">${told}</div></div>
+      ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
       <h2><label for="table">${t('or paste the table')}</label></h2>
-      <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => setTable(e.target.value)}></textarea>
+      <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => own(e.target.value)}></textarea>
       <${Columns} columns=${columns} table=${table} change=${setTable} />
       <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
-      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${answer.error?.details?.name === p.name ? answer.error.message : ''} />`)}</form></section>
-    <section aria-label=${t('Believe')} aria-live="polite">${answer.error && html`<p class="message out">${answer.error.message}</p>`}
+      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${wrong === p ? answer.error.message : ''} />`)}</form></section>
+    <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
+      ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
+      <${Working} busy=${answer.pending} cancel=${answer.cancel} />
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
@@ -102,12 +118,10 @@ const residuals = (data) => ({
 function Fitted({ data, values }) {
   const save = () => {
     const { chart: _chart, ...rest } = data;
-    const place = URL.createObjectURL(new Blob([JSON.stringify(rest, null, 1)], { type: 'application/json' }));
-    Object.assign(document.createElement('a'), { href: place, download: `${data.card}.json` }).click();
-    URL.revokeObjectURL(place);
+    download(`${data.card}.json`, JSON.stringify(rest, null, 1), 'application/json');
   };
-  return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th><th scope="col">${t('unit')}</th></tr></thead>
-    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}</td><td class="n">${row.derived ? row.value : html`<strong>${row.value}</strong>`}</td><td class="n">${row.error}</td><td class="n">${row.interval}</td><td>${row.unit}</td></tr>`)}</tbody></table></div>
+  return html`<div class="wide"><table><thead><tr><th scope="col">${t('parameter')}</th><th class="n" scope="col">${t('value')}</th><th class="n" scope="col">${t('standard error')}</th><th class="n" scope="col">${t('95 % interval')}</th></tr></thead>
+    <tbody>${data.shown.map((row) => html`<tr data-parameter=${row.name} class=${row.derived ? 'dim' : ''}><td>${row.label}${row.unit && html` <span class="dim">/ ${row.unit}</span>`}</td><td class="n">${row.derived ? row.value : html`<strong>${row.value}</strong>`}</td><td class="n">${row.error}</td><td class="n wrap">${row.interval}</td></tr>`)}</tbody></table></div>
     ${data.flags.map((flag) => html`<p class="message caution">${flag.message || flag}</p>`)}
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
     ${data.residuals?.length > 0 && !Array.isArray(data.residuals[0]) && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} />`}

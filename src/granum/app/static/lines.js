@@ -1,13 +1,11 @@
 // Lines: open or write a case file, edit it through forms made from the declarations, solve it, click through units and streams, compare, report.
-import { html, t, ask, number, useState, useEffect, useRef, replaceLink, Plot } from './core.js';
+import { html, t, ask, link, number, useState, useEffect, useRef, remember, recall, replaceLink, download, Plot, Working } from './core.js';
+import { caseAt, keepDraft, packed } from './drafts.js';
 import { Field } from './form.js';
 
 const MOST_KEPT = 2;
-
-/** The changes that were not saved, when the same file is opened again. */
-function drafted(where) {
-  try { const found = JSON.parse(localStorage.getItem('granum-draft')); return found?.place === where ? found.text : null; } catch { return null; }
-}
+const NEW = 'computer:line.toml'; // the place of a text that is no file yet
+const address = (path) => `/api/workspace/${path.split('/').map(encodeURIComponent).join('/')}`;
 
 export function Lines({ state }) {
   const [list, setList] = useState(null);
@@ -16,107 +14,134 @@ export function Lines({ state }) {
   const [text, setText] = useState('');
   const [past, setPast] = useState([]);
   const [outcome, setOutcome] = useState(null);
+  const [solved, setSolved] = useState('');
+  const [typing, setTyping] = useState(false);
   const [form, setForm] = useState(null);
   const [error, setError] = useState(null);
   const [busy, setBusy] = useState(false);
   const [told, setTold] = useState('');
+  const [carried, setCarried] = useState('');
+  const [taken, setTaken] = useState(false);
   const [kept, setKept] = useState([]);
   const stop = useRef(null);
   const latest = useRef('');
+  const saved = useRef('');
+  const where = useRef('');
+  const waiting = useRef(0);
   const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files, titles: shipped.titles }));
   useEffect(() => { files(); return () => stop.current?.abort(); }, []);
-  useEffect(() => { if (state.key.includes(':')) open(state.key); }, [state.visit]);
-  const draft = (next, where) => { try { next === null ? localStorage.removeItem('granum-draft') : localStorage.setItem('granum-draft', JSON.stringify({ place: where, text: next })); } catch { /* private window */ } };
+  useEffect(() => { if (state.key.includes(':')) open(state.key, state.values.case); }, [state.visit]);
+  /** The link and the draft follow what is on the screen, so that a reload, another page or another person finds it. */
+  const follow = async (next) => {
+    const changed = next !== saved.current || where.current.startsWith('computer:');
+    keepDraft(where.current, changed ? next : null);
+    const short = changed ? await packed(next) : '';
+    if (latest.current !== next) return;
+    setCarried(short);
+    replaceLink('lines', where.current, { case: short });
+  };
+  const settle = (next) => { where.current = next; setPlace(next); };
   const shown = (next) => { latest.current = next; setText(next); ask('/api/case/form', { case: next }).then((found) => { if (latest.current === next) setForm(found); }, () => setForm(null)); };
-  const change = (next) => { setPast((before) => [...before.slice(-50), latest.current]); draft(next, place); shown(next); };
-  const open = async (where) => {
-    if (!where) return;
-    const [sort, ...rest] = where.split(':');
+  const change = (next) => { if (!where.current) settle(NEW); setPast((before) => [...before.slice(-50), latest.current]); shown(next); follow(next); };
+  const open = async (wanted, link = '') => {
+    if (!wanted) return;
     try {
-      const found = await ask(`/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`);
-      const kept = drafted(where);
-      const now = kept ?? found.text;
-      if (text || kept) setPast([...past, kept ? found.text : text]);
-      shown(now); setTold(kept ? t('With the changes of last time; Undo takes them back.') : ''); setPlace(where); setPath(sort === 'workspace' ? found.path : ''); setError(null); setOutcome(null); setKept([]);
-      replaceLink('lines', where, {});
-      solve(now, where);
+      const found = await caseAt(wanted, link);
+      if (wanted !== where.current) { setKept(recall('compared ' + wanted, [])); setOutcome(null); setPast(found.changed ? [found.saved] : []); }
+      settle(wanted);
+      saved.current = found.saved;
+      setPath(wanted.slice(wanted.indexOf(':') + 1)); setError(null); setTaken(false);
+      setTold(found.changed ? t('With the changes of last time; Undo takes them back.') : '');
+      shown(found.text);
+      follow(found.text);
+      solve(found.text);
     } catch (problem) { setError(problem); }
   };
-  const solve = async (given, where = place) => {
+  const read = async (list) => {
+    if (!list?.length) return;
+    const next = await list[0].text();
+    keepDraft('computer:' + list[0].name, next);
+    open('computer:' + list[0].name);
+  };
+  const working = async (work) => {
     stop.current?.abort();
     const mine = new AbortController();
     stop.current = mine;
     setBusy(true); setError(null);
-    try { const found = await ask('/api/run', { case: given, place: where }, { signal: mine.signal }); if (stop.current === mine) setOutcome(found); }
-    catch (problem) { if (problem.name !== 'AbortError') setError(problem); }
-    finally { if (stop.current === mine) setBusy(false); }
+    try { await work(mine.signal, () => stop.current === mine); } catch (problem) { if (problem.name !== 'AbortError') setError(problem); } finally { if (stop.current === mine) setBusy(false); }
   };
-  const waiting = useRef(0);
+  const solve = (given) => working(async (signal, current) => {
+    const found = await ask('/api/run', { case: given, place: where.current }, { signal });
+    if (current()) { setOutcome(found); setSolved(given); }
+  });
   const edit = async (table, name, key, value) => {
     try {
       const found = await ask('/api/case/edit', { case: latest.current, table, name, key, text: value });
       change(found.case);
+      setTyping(false);
       clearTimeout(waiting.current);
       waiting.current = setTimeout(() => solve(found.case), 400);
     } catch (problem) { setError(problem); }
   };
-  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); draft(past.length > 1 ? before : null, place); shown(before); if (outcome) solve(before); };
-  const save = async () => {
+  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); setTyping(false); shown(before); follow(before); if (outcome) solve(before); };
+  const save = async (replace) => {
     try {
-      await ask(`/api/workspace/${path.split('/').map(encodeURIComponent).join('/')}`, { text }, { method: 'PUT' });
-      draft(null); setTold(t('Saved.')); setPlace('workspace:' + path); replaceLink('lines', 'workspace:' + path, {}); files(); setTimeout(() => setTold(''), 3000);
-    } catch (problem) { setError(problem); }
+      await ask(address(path), { text, replace }, { method: 'PUT' });
+      keepDraft(where.current, null); saved.current = text; settle('workspace:' + path); follow(text);
+      setTaken(false); setTold(t('Saved.')); files(); setTimeout(() => setTold(''), 3000);
+    } catch (problem) { if (problem.details?.exists) setTaken(true); else setError(problem); }
   };
-  const report = async () => {
-    setBusy(true);
-    try {
-      const page = await ask('/api/report', { case: text, place }, { text: true });
-      const address = URL.createObjectURL(new Blob([page], { type: 'text/html' }));
-      Object.assign(document.createElement('a'), { href: address, download: 'report.html' }).click();
-      URL.revokeObjectURL(address);
-    } catch (problem) { setError(problem); } finally { setBusy(false); }
-  };
+  const compare = (cases) => { setKept(cases); remember('compared ' + where.current, cases); };
+  const report = () => working(async (signal) => download('report.html', await ask('/api/report', { case: text, place }, { text: true, signal }), 'text/html'));
+  const old = outcome && (busy || error || typing || text !== solved);
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
     <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
+      ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
       <button class="button main" disabled=${!text || busy} onClick=${() => solve(text)}>${t('Solve')}</button>
       <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button></div>
-    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => setPath(e.target.value)} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${save}>${t('Save')}</button></div>`}<span class="small dim" role="status">${told}</span>
-    ${form && html`<${Forms} form=${form} edit=${edit} problem=${error?.details} message=${error?.message} />`}
+    <div class="row"><label class="button">${t('Open from this computer')}<input class="hidden" type="file" accept=".toml" aria-label=${t('Open from this computer')} onChange=${(e) => read(e.target.files)} /></label>
+      <button class="button" disabled=${!text} onClick=${() => download((path.split('/').at(-1) || 'line').replace(/(\.toml)?$/, '.toml'), text, 'application/toml')}>${t('Download the file')}</button></div>
+    ${list && !list.own && html`<p class="small dim">${t('To save on the server, start it with --workspace FOLDER.')}</p>`}
+    ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => { setPath(e.target.value); setTaken(false); }} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${() => save(place === 'workspace:' + path)}>${t('Save')}</button></div>
+      ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`}<span class="small dim" role="status">${told}</span>
+    ${form && html`<${Forms} form=${form} edit=${edit} touch=${() => setTyping(true)} problem=${error?.details} message=${error?.message} />`}
     <details open=${!form}><summary>${t('Case file')}</summary>
     <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => change(e.target.value)} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
-    <section aria-label=${t('Believe')}>
-    ${busy && html`<div class="row" aria-busy="true"><span role="status">${t('Working… a new line takes a little while the first time.')}</span> <button class="button" onClick=${() => { stop.current?.abort(); setBusy(false); }}>${t('Cancel')}</button></div>`}
+    <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
+    <${Working} busy=${busy} cancel=${() => { stop.current?.abort(); setBusy(false); }} text=${t('Working… a new line takes a little while the first time.')} />
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
     ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
-    ${outcome && html`<div class=${busy || error ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} edit=${edit} clear=${() => setKept([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
-      <button class="button" disabled=${kept.length >= MOST_KEPT} onClick=${() => setKept([...kept, { ...outcome, form }])}>${t('Keep to compare')}</button>
-      <a class="button" href=${place ? `#/studies/${encodeURIComponent(place)}` : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
+    ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
+    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} edit=${edit} touch=${() => setTyping(true)} clear=${() => compare([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
+      <button class="button" disabled=${kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
+      <a class="button" href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
 }
 
 /** Feeds and units, each a closed form that opens when asked. */
-function Forms({ form, edit, problem, message }) {
+function Forms({ form, edit, touch, problem, message }) {
   const groups = [['feeds', t('Feeds'), form.feeds], ['units', t('Units'), form.units]];
   return groups.map(([table, label, items]) => Object.keys(items).length > 0 && html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => html`<details key=${table + name} open=${problem?.unit === name} data-form=${name}><summary><strong>${name}</strong> <span class="dim">${item.title || ''}</span></summary>
-    <${ItemForm} table=${table} name=${name} item=${item} edit=${edit} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`)}`);
+    <${ItemForm} table=${table} name=${name} item=${item} edit=${edit} touch=${touch} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`)}`);
 }
 
 /** The form of one unit or feed. What is typed waits a moment before it goes into the case. */
-function ItemForm({ table, name, item, edit, wrong, message, spot = 'form' }) {
+function ItemForm({ table, name, item, edit, touch, wrong, message, spot = 'form' }) {
   const [typed, setTyped] = useState({});
   const timer = useRef({});
   useEffect(() => setTyped({}), [JSON.stringify(item.values)]);
   const set = (key, value) => {
     setTyped((before) => ({ ...before, [key]: value }));
+    touch();
     clearTimeout(timer.current[key]);
     timer.current[key] = setTimeout(() => edit(table, name, key, value), 500);
   };
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
-  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${{ ...p, name: `${spot}-${name}-${p.name}` }} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
+  return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
 }
 
-function Outcome({ data, kept, form, edit, tools, clear }) {
+function Outcome({ data, kept, form, edit, touch, tools, clear }) {
   const [chosen, choose] = useState({ sort: '', name: '' });
   const panel = useRef(null);
   const pick = (event) => {
@@ -129,17 +154,18 @@ function Outcome({ data, kept, form, edit, tools, clear }) {
   const closes = Math.max(data.audit.mass_closure, data.audit.energy_closure) <= 1e-9;
   const cases = [...kept, { ...data, form }];
   return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
-    <p class=${closes ? 'ok' : 'out'}>${closes ? '● ' : '▲ '}${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>
+    ${closes ? html`<p class="ok">● ${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>`
+      : html`<p class="message out" role="alert">▲ ${t('The balances do not close: mass is {mass} % off, energy {energy} %. Do not use these figures.', { mass: number(100 * data.audit.mass_closure, 2), energy: number(100 * data.audit.energy_closure, 2) })}</p>`}<div class=${closes ? '' : 'stale'}>
     <div class="diagram" tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
     <p class="small dim">${t('Click a unit or a stream, or reach it with the tabulator key and press Enter.')}</p>
     <div ref=${panel} aria-live="polite">${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card" data-panel=${chosen.name}><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
     ${chosen.sort === 'unit' && data.units[chosen.name] && html`<div class="card columns" data-panel=${chosen.name}><div><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>
-      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} edit=${edit} spot="panel" /></div>`}</div>`}</div>
+      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} edit=${edit} touch=${touch} spot="panel" /></div>`}</div>`}</div>
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
     ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
       <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
-    <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div>`;
+    <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div></div>`;
 }
 
 /** What was changed between the kept cases, and what it did to the figures. */

@@ -1,0 +1,93 @@
+// A quantity as people type it. While the field has the focus its text is the user's and is never rewritten; what the server
+// understood of it stands under the field; number and unit part when the field is left.
+import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
+
+export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
+export const inLanguage = (text) => (settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text);
+
+const NUMBER = /[\s;,[\]]*(?!1\s?\/\s?[a-zµ(])[-+−–]?\s?(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
+const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
+
+/** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
+export function split(text) {
+  NUMBER.lastIndex = 0;
+  let end = 0;
+  while (NUMBER.test(text)) end = NUMBER.lastIndex;
+  return end ? { number: text.slice(0, end).trim(), unit: text.slice(end).replace(/^[\s\],;]+/, '').trim() } : { number: text, unit: '' };
+}
+
+/** Number and unit of the text of a form, where a number alone is SI; an empty one in the unit people usually write. */
+function held(text, p) {
+  if (!text) return { number: '', unit: named(p.default_shown?.unit ?? p.example?.unit ?? p.units?.[0]?.unit) };
+  const { number, unit } = split(text);
+  const offered = p.units?.find((u) => u.unit.replaceAll('^', '') === unit.replaceAll('^', '') || u.label === unit); // m2: m^2
+  return { number, unit: unit ? named(offered?.unit ?? unit) : named(p.unit) };
+}
+
+/** What the server makes of a text, a moment after the last key; asked only while somebody types. */
+function useReading(p, text) {
+  const [found, setFound] = useState({ text: null });
+  useEffect(() => {
+    if (!text) { setFound({ text }); return undefined; }
+    const stop = new AbortController();
+    const timer = setTimeout(() => read(p, text, stop.signal).then(setFound, () => {}), 60);
+    return () => { stop.abort(); clearTimeout(timer); };
+  }, [text]);
+  return found.text === text ? found : null;
+}
+
+async function read(p, text, signal) {
+  const parts = split(text);
+  const asked = { number: parts.number, unit_typed: parts.unit, name: p.name, kind: p.kind, unit: p.unit, lower: p.lower, upper: p.upper, open_lower: p.open_lower, open_upper: p.open_upper, series: p.series || '', units: (p.units || []).map((u) => u.unit) };
+  return { text, ...(await ask('/api/read', asked, { signal })) };
+}
+
+/** The text that a value keeps: what was typed, with the unit of the menu where none was typed. */
+function kept(typed, menu) {
+  const parts = split(typed.trim());
+  return typed.trim() === '' ? '' : joined(parts.unit || !/\d/.test(parts.number) ? parts : { number: parts.number, unit: menu });
+}
+
+export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {
+  const given = held(text, p);
+  const [typed, show] = useState(null);
+  const [unit, setUnit] = useState(given.unit);
+  const raw = useRef(null);
+  const sent = useRef(text);
+  const focused = useRef(false);
+  const menu = typed === null && text ? given.unit : unit;
+  const asked = typed === null ? '' : kept(typed, menu);
+  const reading = useReading(p, asked);
+  const setTyped = (next) => { raw.current = next; show(next); };
+  const send = (next) => { if (next !== sent.current) { sent.current = next; onChange(next); } };
+  useEffect(() => { // a value from elsewhere: an undo, an example, a link
+    if (text === sent.current || focused.current) return;
+    sent.current = text;
+    setTyped(null);
+    if (text) setUnit(given.unit);
+  }, [text]);
+  const type = (next) => { setUnit(menu); setTyped(next); send(kept(next, menu)); };
+  const settle = async () => {
+    const before = raw.current;
+    if (before === null) return;
+    const found = asked && (reading || (await read(p, asked)));
+    if (raw.current !== before || found.problem) return;
+    setTyped(null);
+    if (found) { setUnit(found.unit); send(joined(found)); }
+  };
+  const choose = (next) => {
+    const number = typed === null ? given.number : split(typed).number;
+    setUnit(next);
+    setTyped(null);
+    if (number) send(joined({ number, unit: next }));
+  };
+  const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: u.label || '1' }));
+  if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
+  const wrong = reading?.problem || problem;
+  const example = p.default_shown?.number ?? p.hint ?? (p.series ? p.example?.number ?? '1 2 3' : '');
+  return html`<div class="quantity"><div class="pairs"><input id=${id} type="text" inputmode="text" autocomplete="off" autocapitalize="off" spellcheck=${false} aria-label=${id ? null : label} aria-describedby=${note} aria-invalid=${wrong ? 'true' : 'false'}
+      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => { focused.current = true; }} onBlur=${() => { focused.current = false; settle(); }}
+      onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => { if (e.key === 'Enter') { e.preventDefault(); settle(); } }} />
+    ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
+    ${wrong ? html`<div class="out small told" role="status">${wrong}</div>` : reading?.shown ? html`<div class="dim small" role="status" data-echo>= ${reading.shown}</div>` : ''}</div>`;
+}

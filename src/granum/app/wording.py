@@ -1,0 +1,62 @@
+"""Messages for people in front of a page: labels instead of Python names, units as they are printed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from granum.core import registry
+from granum.core.errors import InputError
+from granum.core.glossary import quantity_in
+from granum.core.parameters import Parameter
+from granum.core.units import pretty_unit
+
+_QUOTED = r"(?:'|«\s)([a-z][a-z0-9_]*)(?:'|\s»)"
+_BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
+_WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
+_ALONE = re.compile(_QUOTED)
+_PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\]:? ?")
+_KEY = re.compile(rf"\b(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
+_EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
+
+
+def page_words(message: str, allowed: object = None) -> str:
+    """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by it.
+
+    >>> page_words("sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1.")
+    'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
+    """
+    text = _PLACE.sub(r"\1: ", message)
+    text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
+    text = _WITH_LABEL.sub(_labelled, text)
+    text = _ALONE.sub(lambda found: Parameter(found[1]).label if quantity_in(found[1]) else found[0], text)
+    text = _KEY.sub(lambda found: _title(found[0]), text)
+    text = _EXAMPLE.sub(lambda found: f"1.5 {pretty_unit(found[1])}", text)
+    if isinstance(allowed, list) and allowed:
+        units = [pretty_unit(str(unit)) or "1" for unit in allowed]
+        text = text.replace(", ".join(map(str, allowed)), ", ".join(units))
+    return text[:1].upper() + text[1:]
+
+
+def told(error: Mapping[str, Any]) -> dict[str, Any]:
+    """An error as JSON with the message of a page."""
+    return {**error, "message": page_words(str(error["message"]), error.get("allowed"))}
+
+
+def noticed(flags: list[Any]) -> list[Any]:
+    """Flags with the messages of a page."""
+    return [{**flag, "message": page_words(flag["message"])} if isinstance(flag, Mapping) and "message" in flag else flag for flag in flags]
+
+
+def _labelled(found: re.Match[str]) -> str:
+    if not quantity_in(found[1]) or Parameter(found[1]).label != found[2].strip():
+        return found[0]
+    return f"{found[2]} ({pretty_unit(found[3])})" if found[3] else found[2]
+
+
+def _title(key: str) -> str:
+    try:
+        return registry.find(key).card.title
+    except InputError:
+        return key
