@@ -124,10 +124,10 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
     tables: list[dict[str, Any]] = []
     if outcome.kind == "monte_carlo":
         rows = [
-            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95"))]
+            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95")), str(s["failed"])]
             for p, s in found["statistics"].items()
         ]  # fmt: skip
-        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %"]
+        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %", _("failed cases")]
         tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
         chances = [
             [figures[p].label if p else _("all limits"), f"{format_number(100 * c['probability'], 3)} %"]
