@@ -218,7 +218,9 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
     from granum.cases.reading import text_of
     from granum.cases.studying import studies_of_text
     from granum.core.errors import unknown_name
+    from granum.core.files import check_writable
     from granum.reports.progress import advancing, working
+    from granum.reports.studies import stoppable
 
     case = Path(model)
     of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limit": limit or [], "output": output or [], "steps": steps}
@@ -242,18 +244,20 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
         from granum.studies.outcome import check_file
 
         check_file(out)
+    if report is not None:
+        check_writable(report)
     outcomes, saved = [], []
     for one in picked:
         one = one.with_options(**{k: v for k, v in (("samples", samples), ("seed", seed)) if one.takes(k) or len(picked) == 1})
         target = out if out is None or len(picked) == 1 else out.with_stem(f"{out.stem}-{one.name}")
         parts = None if target is None or not one.kept_in_parts else target.with_name(target.name + ".parts")
-        with advancing(one.title, quiet=as_json) as progress:
+        with stoppable(parts), advancing(one.title, quiet=as_json) as progress:
             outcome = one.run(progress=progress, folder=parts, workers=workers if one.kept_in_parts or len(picked) == 1 else None)
         if target is not None:
             outcome.save(target)
             saved.append(target)
             if parts is not None:
-                from granum.studies.engine import forget
+                from granum.studies.store import forget
 
                 forget(parts)
         outcomes.append(outcome)

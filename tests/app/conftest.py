@@ -13,13 +13,14 @@ import pytest
 import uvicorn
 
 from granum.app.server import create_app
+from granum.app.serving import configured
 
 
 @contextmanager
-def running(app: Any) -> Iterator[str]:
+def running(app: Any, **changes: Any) -> Iterator[str]:
     """Serve an application from a thread; gives its address."""
     listener = socket.create_server(("127.0.0.1", 0))
-    server = uvicorn.Server(uvicorn.Config(app, log_level="critical", lifespan="off", ws="none", timeout_graceful_shutdown=1))
+    server = uvicorn.Server(configured(app, log_level="critical", lifespan="off", timeout_graceful_shutdown=1, **changes))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
     thread.start()
     while not server.started and thread.is_alive():

@@ -109,8 +109,9 @@ def test_malformed_uploads_are_explained(client: httpx.Client, upload: str) -> N
 
 
 @pytest.mark.parametrize(
-    "body", [b"", b"{", b"[" * 100_000, b'{"case": 1}', b'{"case": null}', b'{"case": "\\ud800"}', b"\xff\xfe", b'{"case": "a = 1e999999"}', b"null", b'"x"'],
-    ids=range(10),
+    "body", [b"", b"{", b"[" * 100_000, b'{"case": 1}', b'{"case": null}', b'{"case": "\\ud800"}', b"\xff\xfe", b'{"case": "a = 1e999999"}', b"null", b'"x"',
+     b'{"case":' * 500 + b"1" + b"}" * 500, b'{"case": ' + b"7" * 5000 + b"}", b"{" + b",".join(b'"k%d":1' % i for i in range(200_000)) + b"}"],
+    ids=range(13),
 )  # fmt: skip
 def test_malformed_bodies_are_refused(client: httpx.Client, body: bytes) -> None:
     for place in (

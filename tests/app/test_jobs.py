@@ -5,16 +5,22 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
 from granum.app import jobs, tasks, wear
-from granum.app.jobs import Crew, Jobs, Refused
+from granum.app import studies as app_studies
+from granum.app.jobs import Crew, GivenUp, Job, Jobs, Refused
 from granum.app.limits import Busy, Familiar
 from granum.app.server import create_app
+from granum.app.telling import Cancelled, Tell, progress_text
 from granum.core.errors import InputError
+from granum.core.i18n import language
+from granum.studies import Study
 
 SPHERE = {"particle_diameter": "85 um", "particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
 STOKES = {"card": "particles.terminal_velocity_stokes", "inputs": SPHERE, "varied": ["particle_diameter"]}
@@ -94,12 +100,109 @@ def test_a_study_can_be_cancelled(client: httpx.Client) -> None:
 def test_what_nobody_asks_about_is_cancelled(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(jobs, "GRACE", 0.2)
     held = Jobs(lambda: crew, patience=0.3)
-    name = held.start("rest", {"seconds": 60}, "", longest=100.0)
+    name = held.start({"seconds": 60}, "", longest=100.0, task="rest")
     job = held._jobs[name]
-    with pytest.raises(Busy, match="cancelled"):
+    with pytest.raises(GivenUp, match="cancelled"):
         job.future.result(timeout=60)
+    assert jobs.PATIENCE >= 600  # a hidden page asks once a minute
     with pytest.raises(InputError, match="no job"):
         held.find("other")
+
+
+SPREAD = STOKES | {"table": {"kind": "monte_carlo", "samples": 20_000, "uncertain": {
+    "particle_diameter": {"distribution": "normal", "mean": "85 um", "standard_deviation": "1 um"}}}}  # fmt: skip
+
+
+def test_a_stopped_study_gives_what_it_has_computed() -> None:
+    """Stopped after one of its two chunks: marked as partial, with figures from the cases that were run."""
+    said = [""]
+    found = tasks.TASKS["study"](SPREAD, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1]))
+    outcome = json.loads(found)
+    run = outcome["counts"]["run"]
+    assert not outcome["complete"]
+    assert run in (16_384, 3_616)  # whichever was first
+    assert f"The study was stopped: {run} of 20000 cases were run." in outcome["warnings"]
+    assert outcome["tables"][0]["rows"]
+    assert said[1:3] == ["preparing the model", "0 of 20\u202f000"]
+    with pytest.raises(Cancelled):  # nothing computed yet: nothing to show
+        tasks.TASKS["study"](SPREAD, Tell(lambda share, note: said.append(note), lambda: said[-1].startswith("0 of")))
+
+
+def test_what_a_killed_study_has_computed_is_collected(crew: Crew, tmp_path: Path) -> None:
+    """Its process is gone; its chunks are read by another one."""
+    held = Jobs(lambda: crew)
+    killed = Job("study", SPREAD | {"parts": str(tmp_path / "parts"), "collect": False}, longest=1.0)
+    killed.future.set_exception(GivenUp("killed"))
+    held._jobs["mine"] = killed
+    with pytest.raises(GivenUp, match="killed"):  # nothing was kept: there is nothing to collect
+        held.find("mine").future.result(timeout=1)
+    counted: list[int] = []
+    study = Study.of("monte_carlo", SPREAD["table"], app_studies.subject(SPREAD))
+    study.run(folder=tmp_path / "parts", progress=lambda p: counted.append(p.done), cancel=lambda: len(counted) > 1)
+    outcome = json.loads(held.find("mine").future.result(timeout=100))
+    assert (outcome["complete"], outcome["counts"]["run"]) == (False, counted[1])
+    assert not (tmp_path / "parts").exists()
+    assert json.loads(held.find("mine").future.result(timeout=1)) == outcome  # and can be asked for again
+
+
+def test_progress_in_words() -> None:
+    assert progress_text(412, 3000, 0, 41.3) == "412 of 3\u202f000, about 40 s left"
+    assert progress_text(412, 3000, 2, 340.0) == "412 of 3\u202f000, 2 failed, about 6 min left"
+    assert progress_text(0, 3000, 0, None) == "0 of 3\u202f000"
+    with language("fr"):
+        assert progress_text(412, 3000, 0, 3.4) == "412 sur 3\u202f000, encore 3 s environ"
+
+
+def test_a_request_can_be_asked_how_far_it_is(client: httpx.Client) -> None:
+    assert client.get("/api/progress/mine").json() == {"state": "none"}
+    case = client.get("/api/examples/humid-air/line.toml").json()["text"]
+    seen: list[dict[str, Any]] = []
+    with ThreadPoolExecutor(1) as pool:
+        answer = pool.submit(lambda: client.post("/api/run", json={"case": case}, headers={"x-job": "mine", "x-language": "fr"}))
+        while not answer.done():
+            seen.append(client.get("/api/progress/mine").json())
+            time.sleep(0.02)
+    assert answer.result().status_code == 200
+    notes = {row["note"] for row in seen if row["state"] == "running"}
+    assert notes & {"lecture du cas", "compilation et résolution", "résolution"}, seen[:5]
+    assert client.get("/api/progress/mine").json() == {"state": "none"}
+
+
+def test_a_process_is_ready_when_a_long_job_is_cancelled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The next job need not wait until a new process has started: one starts while the long job runs."""
+    started: list[Any] = []
+
+    class Stub:
+        """A process that works for ever and says nothing."""
+
+        def __init__(self, *_: Any):
+            started.append(self)
+            self.id, self.jobs, self.known, self.alive = len(started), 0, set(), True
+
+        def send(self, message: Any) -> None:
+            self.message = message
+
+        def receive(self, wait: float) -> Any:
+            time.sleep(0.01)
+            return ("done", b"{}") if self.message and self.message[0] == "short" else ()
+
+        def stop(self) -> None:
+            self.alive = False
+
+    monkeypatch.setattr(jobs, "_Process", Stub)
+    monkeypatch.setattr(jobs, "GRACE", 0.05)
+    monkeypatch.setattr(jobs, "LONG", 0.05)
+    made = Crew(count=1)
+    slow = made.submit("long", {})
+    until = time.monotonic() + 10
+    while len(started) < 2 and time.monotonic() < until:
+        time.sleep(0.01)
+    assert len(started) == 2
+    slow.cancelled.set()
+    assert made.submit("short", {}).future.result(timeout=10) == b"{}"
+    assert [p.alive for p in started] == [False, True]
+    assert started[1].jobs == 1
+    made.close()
 
 
 def test_time_and_queue_are_bounded(crew: Crew) -> None:

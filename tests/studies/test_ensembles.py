@@ -11,7 +11,7 @@ import pytest
 from granum import studies
 from granum.core.errors import GranumError
 from granum.core.formulas import Formula
-from granum.core.kinds import Number
+from granum.core.kinds import Fraction, Number
 from granum.core.registry import _declared, _families
 from granum.studies.engine import Progress
 
@@ -34,7 +34,12 @@ def root(x1: Number, x2: Number) -> Number:
     return jnp.sqrt(x1) + x2
 
 
-ISHIGAMI, ROOT = own_formula(ishigami), own_formula(root)
+def doubled(x1: Number) -> Fraction:
+    """A share that may come out above one."""
+    return 2.0 * x1
+
+
+ISHIGAMI, ROOT, DOUBLED = own_formula(ishigami), own_formula(root), own_formula(doubled)
 CIRCLE = {name: {"distribution": "uniform", "lower": -np.pi, "upper": np.pi} for name in ("x1", "x2", "x3")}
 STOKES = "particles.terminal_velocity_stokes"
 SLURRY = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
@@ -82,6 +87,14 @@ def test_failures_are_counted_and_kept() -> None:
     )
     assert outside.counts()["failed"] == pytest.approx(159, abs=2)  # one standard deviation below the mean: 15.9 %
     assert list(outside.counts()["reasons"]) == ["input 'particle_diameter' outside what is possible"]
+
+
+def test_a_figure_outside_its_own_bounds_is_no_value() -> None:
+    """Above 1/2 the declared share 2·x is more than all: those cases fail with the reason, and no percentile holds them."""
+    spread = {"x1": {"distribution": "uniform", "lower": 0.0, "upper": 1.0}}
+    found = studies.monte_carlo(DOUBLED, spread, samples=400)
+    assert found.counts()["reasons"] == {"result 'ratio' outside what is possible": 200}
+    assert found.findings()["statistics"]["ratio"]["most"] <= 1.0
 
 
 def test_cases_outside_a_range_are_counted() -> None:

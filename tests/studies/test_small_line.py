@@ -5,7 +5,9 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
@@ -13,7 +15,9 @@ import granum as gr
 from granum import studies
 from granum.cases import read_studies, studies_of_line
 from granum.core.errors import GranumError
-from granum.studies.lines import LineSubject
+from granum.flowsheet.specifications import design
+from granum.studies.lines import LineSubject, verdict
+from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, UNMET
 
 CASE = Path(__file__).with_name("small.toml")
 
@@ -33,6 +37,25 @@ def test_recycle_by_hand_and_a_case_without_solution(line) -> None:
     assert found.column("out.liquid.water")[:3] == pytest.approx([0.9] * 3)
     assert found.counts()["reasons"] == {"a loop did not converge": 1}
     assert np.isnan(found.column("hot.mass_flow")[3])
+
+
+def test_only_a_solution_counts(line) -> None:
+    """A line that lost mass, has a negative flow or did not come to rest is none, whatever its figures say."""
+    found = jax.jit(lambda sheet: design(sheet, line.targets))(line.sheet)
+    judge = jax.jit(verdict)
+    streams = found.solution.streams
+
+    def with_out(**changed: Any) -> Any:
+        solution = found.solution._replace(streams=streams | {"out": streams["out"].replace(**changed)})
+        return int(judge(found._replace(solution=solution)))
+
+    out = streams["out"]
+    assert with_out() == FINE
+    assert with_out(liquid=out.liquid * (1 + 1e-8)) == NOT_CLOSED
+    assert with_out(temperature=out.temperature + 1e-3) == NOT_CLOSED
+    assert with_out(temperature=np.nan * out.temperature) == NOT_CLOSED
+    assert with_out(liquid=out.liquid - np.array([0.0, 1.0])) == NEGATIVE
+    assert int(judge(found._replace(converged=np.array(False)))) == UNMET
 
 
 def test_feeds_as_inputs(line) -> None:

@@ -1,4 +1,7 @@
-"""Long work in processes of its own: cancelled when its client leaves, stopped when it takes too long or too much memory."""
+"""Long work in processes of its own: cancelled when its client leaves, stopped when it takes too long or too much memory.
+
+What a study has computed by then is kept: its chunks lie in a folder from which another process reads them.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from fastapi import Request
@@ -28,7 +32,10 @@ from granum.core.i18n import _, current_language, language
 from granum.core.units import unit_system
 
 LOOK = 8  # jobs after which the memory of a process is looked at
-GRACE = 5.0  # seconds in which a cancelled job may still finish: it usually does, and its process stays warm
+GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
+LONG = 3.0  # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
+PATIENCE = 900.0  # seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
+STUDY = 3600.0  # seconds after which a study is given up
 
 
 class Refused(GranumError):
@@ -47,6 +54,10 @@ class Broken(Exception):
     """A fault of the program in a worker process."""
 
 
+class GivenUp(Busy):
+    """Work that was stopped before its end: cancelled, or beyond its limits of time or memory."""
+
+
 class Job:
     """One piece of work: how far it is, and how to stop it.
 
@@ -59,8 +70,9 @@ class Job:
     def __init__(self, task: str, payload: Any, longest: float, patience: float | None = None):
         self.task, self.payload, self.longest, self.patience = task, payload, longest, patience
         self.language, self.units = current_language(), unit_system()
-        self.share = 0.0
+        self.share, self.note = 0.0, ""
         self.asked = time.monotonic()
+        self.started: float | None = None
         self.cancelled = threading.Event()
         self.future: Future[bytes] = Future()
 
@@ -69,6 +81,12 @@ class Job:
         """Whether anybody still waits for it."""
         left = self.patience is not None and time.monotonic() - self.asked > self.patience
         return not (left or self.cancelled.is_set())
+
+    def as_json(self) -> dict[str, Any]:
+        """How far it is."""
+        since = 0.0 if self.started is None else time.monotonic() - self.started
+        waiting = _("waiting for a free process") if self.started is None else ""
+        return {"state": "running", "share": self.share, "note": self.note or waiting, "seconds": round(since, 1)}
 
 
 class _Process:
@@ -137,12 +155,14 @@ class Crew:
     """
 
     def __init__(self, count: int = 2, waiting: int = 24, memory: int = 4000):
-        self._waiting, self._memory = waiting, memory
+        self._count, self._waiting, self._memory = count, waiting, memory
         self._threads = ThreadPoolExecutor(count, thread_name_prefix="granum-crew")
         self._idle: list[_Process] = []
         self._lock = threading.Lock()
         self._now = 0
+        self._coming = False
         self._closed = False
+        self._asked_about: dict[str, Job] = {}
         self._folder = tempfile.TemporaryDirectory(prefix="granum-", ignore_cleanup_errors=True)
 
     def submit(self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None) -> Job:
@@ -156,20 +176,51 @@ class Crew:
         return job
 
     async def run(self, task: str, payload: Any, key: str = "", request: Request | None = None, longest: float = 300.0) -> bytes:
-        """The answer of a job; the job is cancelled when the client of the request leaves."""
+        """The answer of a job; the job is cancelled when the client of the request leaves.
+
+        A client that names the job (header ``x-job``) can ask meanwhile how far it is.
+        """
         job = self.submit(task, payload, key, longest)
+        name = "" if request is None else request.headers.get("x-job", "")[:64]
+        if name:
+            self._asked_about[name] = job
         future = asyncio.wrap_future(job.future)
-        while True:
-            done, _pending = await asyncio.wait([future], timeout=1.0)
-            if done:
-                return future.result()
-            if request is not None and await request.is_disconnected():
-                job.cancelled.set()
-                raise Busy(_("The calculation was cancelled."))
+        future.add_done_callback(_heard)
+        try:
+            while True:
+                done, _pending = await asyncio.wait([future], timeout=0.5)
+                if done:
+                    return future.result()
+                if request is not None and await request.is_disconnected():
+                    job.cancelled.set()
+                    raise Busy(_("The calculation was cancelled."))
+        finally:
+            if name and self._asked_about.get(name) is job:
+                del self._asked_about[name]
+
+    def progress(self, name: str) -> dict[str, Any]:
+        """How far the job is that its client named so."""
+        job = self._asked_about.get(name)
+        return {"state": "none"} if job is None else job.as_json()
+
+    @property
+    def folder(self) -> Path:
+        """Where jobs may keep files as long as the crew lives."""
+        return Path(self._folder.name)
 
     def warm(self) -> None:
-        """Start one process ahead of its first job."""
-        threading.Thread(target=lambda: self._give(self._take("")), daemon=True).start()
+        """Have one process ready for the next job."""
+        with self._lock:
+            if self._closed or self._coming or any(p.alive for p in self._idle):
+                return
+            self._coming = True
+        threading.Thread(target=self._make_ready, daemon=True).start()
+
+    def _make_ready(self) -> None:
+        try:
+            self._give(_Process(self._memory, self._folder.name))
+        finally:
+            self._coming = False
 
     def close(self) -> None:
         """Stop every process: the idle ones now, a working one when it is given back."""
@@ -190,11 +241,16 @@ class Crew:
         return _Process(self._memory, self._folder.name)
 
     def _give(self, process: _Process) -> None:
+        """Take a process back; of more than can be needed the one that has compiled least ends."""
         with self._lock:
+            spare = [process] if self._closed else []
             if not self._closed:
                 self._idle.append(process)
-                return
-        process.stop()
+                if len(self._idle) > self._count:
+                    spare = [min(self._idle, key=lambda p: len(p.known))]
+                    self._idle.remove(spare[0])
+        for one in spare:
+            one.stop()
 
     def _work(self, job: Job, key: str) -> None:
         """In a thread: find a process, hand over the job, watch it."""
@@ -220,19 +276,22 @@ class Crew:
                 self._give(process)
             else:
                 process.stop()
-                self._give(_Process(self._memory, self._folder.name))  # warm before the next job comes
+                self.warm()
 
     def _watch(self, job: Job, process: _Process) -> bytes:
-        started, left = time.monotonic(), None
+        job.started = started = time.monotonic()
+        left = None
         process.send((job.task, job.payload, job.language, job.units))
         while True:
             message = process.receive(0.2)
             now = time.monotonic()
+            if now - started > LONG:
+                self.warm()
             if message is None or (message and message[0] == "memory"):
                 process.stop()
-                raise Busy(_("The calculation needed more memory than one calculation may have, and was given up."))
+                raise GivenUp(_("The calculation needed more memory than one calculation may have, and was given up."))
             if message and message[0] == "progress":
-                job.share = message[1]
+                job.share, job.note = message[1:]
             elif message:
                 return _outcome(*message)
             if left is None and not job.wanted:
@@ -240,10 +299,16 @@ class Crew:
                 process.send(None)
             if left is not None and now - left > GRACE:
                 process.stop()
-                raise Busy(_("The calculation was cancelled."))
+                raise GivenUp(_("The calculation was cancelled."))
             if now - started > job.longest:
                 process.stop()
-                raise Busy(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(job.longest)))
+                raise GivenUp(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(job.longest)))
+
+
+def _heard(future: asyncio.Future[bytes]) -> None:
+    """A job whose client has left may end as it likes."""
+    if not future.cancelled():
+        future.exception()
 
 
 def _outcome(sort: str, *rest: Any) -> bytes:
@@ -252,7 +317,7 @@ def _outcome(sort: str, *rest: Any) -> bytes:
     if sort == "refused":
         raise Refused(*rest)
     if sort == "cancelled":
-        raise Busy(_("The calculation was cancelled."))
+        raise GivenUp(_("The calculation was cancelled."))
     raise Broken(rest[0])
 
 
@@ -265,24 +330,34 @@ def crew() -> Crew:
 
 
 class Jobs:
-    """Jobs by name, about which a page asks again and again; one that nobody asks about any more is cancelled."""
+    """Studies by name, about which a page asks again and again; one that nobody asks about for long is cancelled.
 
-    def __init__(self, workers: Callable[[], Crew], patience: float = 20.0, kept: int = 50):
+    One that was stopped gives what it had computed: its finished chunks are collected by another process.
+    """
+
+    def __init__(self, workers: Callable[[], Crew], patience: float = PATIENCE, kept: int = 50):
         self._workers, self._patience, self._kept = workers, patience, kept
         self._jobs: dict[str, Job] = {}
 
-    def start(self, task: str, payload: Any, key: str, longest: float) -> str:
-        """Queue a job; gives the name under which to ask about it."""
+    def start(self, payload: dict[str, Any], key: str, longest: float = STUDY, task: str = "study") -> str:
+        """Queue a study; gives the name under which to ask about it."""
         finished = [name for name, job in self._jobs.items() if job.future.done()]
-        for name in finished[: max(len(self._jobs) - self._kept, 0)]:
-            del self._jobs[name]
+        for old in finished[: max(len(self._jobs) - self._kept, 0)]:
+            del self._jobs[old]
         name = secrets.token_urlsafe(12)
-        self._jobs[name] = self._workers().submit(task, payload, key, longest, self._patience)
+        parts = self._workers().folder / f"study-{name}"
+        own = {"parts": str(parts), "collect": False}
+        self._jobs[name] = self._workers().submit(task, payload | own, key, longest, self._patience)
         return name
 
     def find(self, name: str) -> Job:
-        """A job by name; asking keeps it alive."""
+        """A study by name; asking keeps it alive."""
         if name not in self._jobs:
             raise InputError(_("There is no job '{name}' any more.").format(name=name))
-        self._jobs[name].asked = time.monotonic()
-        return self._jobs[name]
+        job = self._jobs[name]
+        job.asked = time.monotonic()
+        stopped = job.future.done() and isinstance(job.future.exception(), GivenUp)
+        if stopped and not job.payload["collect"] and any(Path(job.payload["parts"]).glob("cases-*")):
+            job = self._jobs[name] = self._workers().submit("study", job.payload | {"collect": True}, longest=60.0)
+            job.note = _("collecting what was computed")
+        return job

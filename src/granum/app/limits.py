@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextvars
+import json
 import re
 import secrets
 import time
@@ -24,6 +25,8 @@ from granum.core.i18n import LANGUAGES, _, set_language
 from granum.core.units import set_unit_system
 
 LARGEST_BODY = 5_000_000  # bytes
+SLOWEST_BODY = 60.0  # seconds in which a body must be here
+DEEPEST, MOST_VALUES, MOST_KEYS, MOST_DIGITS = 32, 100_000, 1_000, 300  # of JSON: nesting, values, keys of an object, digits of a number
 POLICY = (
     "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -122,16 +125,46 @@ def _quietly(loop: asyncio.AbstractEventLoop, call: Callable[[], None]) -> None:
         loop.call_soon_threadsafe(call)
 
 
-def problem(status: int, message: str) -> JSONResponse:
+def problem(status: int, message: str, **headers: str) -> JSONResponse:
     """A refusal in the shape of every error."""
-    return JSONResponse({"error": {"type": "RequestError", "message": message}}, status_code=status, headers=HEADERS)
+    return JSONResponse({"error": {"type": "RequestError", "message": message}}, status_code=status, headers=HEADERS | headers)
+
+
+def excess(body: bytes) -> str:
+    """What is too much in a JSON body, in words; empty when nothing is. A body that is no JSON is told where it is read."""
+
+    def whole(digits: str) -> int:
+        if len(digits) > MOST_DIGITS:
+            raise OverflowError
+        return int(digits)
+
+    try:
+        level: list[Any] = [json.loads(body, parse_int=whole)]
+    except OverflowError:
+        return _("A number of the request has more than {most} digits.").format(most=MOST_DIGITS)
+    except RecursionError:
+        return _("The request is nested more than {most} levels deep.").format(most=DEEPEST)
+    except ValueError:
+        return ""
+    count = 0
+    for _depth in range(DEEPEST + 1):
+        count += len(level)
+        inner = [value for value in level if isinstance(value, (dict, list))]
+        if count > MOST_VALUES or any(isinstance(value, dict) and len(value) > MOST_KEYS for value in inner):
+            return _("The request has more than {values} values, or an object with more than {keys} keys.").format(
+                values=MOST_VALUES, keys=MOST_KEYS
+            )
+        level = [part for value in inner for part in (value.values() if isinstance(value, dict) else value)]
+        if not level:
+            return ""
+    return _("The request is nested more than {most} levels deep.").format(most=DEEPEST)
 
 
 class Guard:
     """Outermost layer: language of the request, token, size of the body (announced or not), headers of the answer."""
 
-    def __init__(self, app: ASGIApp, token: str = ""):
-        self._app, self._token = app, token
+    def __init__(self, app: ASGIApp, token: str = "", slowest: float = SLOWEST_BODY):
+        self._app, self._token, self._slowest = app, token, slowest
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -146,10 +179,19 @@ class Guard:
             await problem(401, _("This server needs the token that was printed when it started."))(scope, receive, send)
             return
         announced = headers.get("content-length", "0")
-        body = None if announced.isdigit() and int(announced) > LARGEST_BODY else await _read(receive)
+        try:
+            large = announced.isdecimal() and int(announced[:20]) > LARGEST_BODY
+            body = None if large else await asyncio.wait_for(_read(receive), self._slowest)
+        except TimeoutError:
+            message = _("The request did not arrive within {seconds} s.").format(seconds=int(self._slowest))
+            await problem(408, message, connection="close")(scope, receive, send)
+            return
         if body is None:
             message = _("The request is larger than {limit} MB.").format(limit=LARGEST_BODY // 1_000_000)
             await problem(413, message)(scope, receive, send)
+            return
+        if "json" in headers.get("content-type", "json") and (message := excess(body)):
+            await problem(422, message)(scope, receive, send)
             return
 
         async def answer(message: Message) -> None:

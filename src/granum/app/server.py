@@ -21,9 +21,10 @@ import granum
 from granum.app import exercises
 from granum.app.case_forms import edited, line_form
 from granum.app.forms import card_form, read_entry
-from granum.app.jobs import Broken, Jobs, crew
+from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
 from granum.app.tasks import calculate, packed
+from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
@@ -73,7 +74,7 @@ def _refusals(app: FastAPI) -> None:
 
     @app.exception_handler(GranumError)
     async def refused(_request: Request, fault: GranumError) -> JSONResponse:
-        status = 429 if isinstance(fault, Busy) else (422 if fault.exit_code == 2 else 409)
+        status = 429 if isinstance(fault, Busy) and not isinstance(fault, GivenUp) else (422 if fault.exit_code == 2 else 409)
         return Answer({"error": told(fault.as_json())}, status_code=status)
 
     @app.exception_handler(RequestValidationError)
@@ -127,10 +128,10 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """Evaluate a card."""
         payload = {"key": key, "inputs": inputs}
         if _familiar.knows(key, inputs):
-            return _json(calculate(payload, _no_progress))
+            return _json(calculate(payload, Tell()))
         if await quick.run(lambda: registry.find(key).card.sort) == "procedure":  # may be long
             return _json(await crew().run("calculate", payload, key, request))
-        return _json(await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, _no_progress)), request))
+        return _json(await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request))
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
@@ -174,9 +175,14 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
         """The report of a case file."""
         return HTMLResponse(await crew().run("report", {"case": case} | _folder(workspace, place), _structure(case), request))
 
+    @app.get("/api/progress/{name}")
+    async def progress(name: str) -> Response:
+        """How far a request is that was sent with the header ``x-job`` and this name."""
+        return Answer(crew().progress(name))
+
 
 def _studies(app: FastAPI, workspace: Path | None) -> None:
-    """Studies: started, asked about, cancelled. One that its page no longer asks about is cancelled too."""
+    """Studies: started, asked about, stopped."""
     jobs = Jobs(crew)
 
     @app.post("/api/studies/choices")
@@ -192,11 +198,7 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
     async def start(inputs: Inputs) -> Response:
         """Start a study: ``{"case" or "card" and "inputs", "table"}``; gives its name."""
         return Answer(
-            {
-                "id": jobs.start(
-                    "study", inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))), longest=900.0
-                )
-            },
+            {"id": jobs.start(inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))))},
             status_code=202,
         )
 
@@ -205,12 +207,12 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         """How far a study is; its outcome when it is done."""
         job = jobs.find(name)
         if not job.future.done():
-            return Answer({"state": "running", "share": job.share})
+            return Answer(job.as_json())
         return Response(b'{"state":"done","share":1,"outcome":' + job.future.result() + b"}", media_type="application/json")
 
     @app.delete("/api/studies/{name}")
     async def cancel(name: str) -> Response:
-        """Cancel a study."""
+        """Stop a study; what it has computed can still be asked for."""
         jobs.find(name).cancelled.set()
         return Answer({"state": "cancelled"})
 
@@ -238,10 +240,6 @@ def _folder(workspace: Path | None, place: Any) -> dict[str, str]:
         return {"folder": "", "root": ""}
     folder = _inside(workspace, name).parent if sort == "workspace" and name else workspace.resolve()
     return {"folder": str(folder), "root": str(workspace.resolve())}
-
-
-def _no_progress(_share: float) -> None:
-    """A calculation that is over in a moment tells nothing."""
 
 
 def _structure(case: str) -> str:

@@ -8,9 +8,11 @@ import socket
 import threading
 import webbrowser
 from pathlib import Path
+from typing import Any
 
 import uvicorn
 
+from granum.app.connections import Connection
 from granum.app.jobs import crew
 from granum.app.server import create_app
 from granum.core.errors import InputError
@@ -24,6 +26,12 @@ def _loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def configured(app: Any, http: type[Connection] = Connection, **changes: Any) -> uvicorn.Config:
+    """How the app is served: no connection is kept that asks for nothing."""
+    how: dict[str, Any] = {"log_level": "warning", "backlog": 2048, "timeout_keep_alive": 75, "ws": "none"}
+    return uvicorn.Config(app, http=http, **how | changes)
 
 
 def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
@@ -45,8 +53,7 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
     crew().warm()
     if browser:
         threading.Timer(0.5, webbrowser.open, [address]).start()
-    config = uvicorn.Config(create_app(workspace, token), log_level="warning", backlog=2048, timeout_keep_alive=75)
     try:
-        uvicorn.Server(config).run(sockets=[listener])
+        uvicorn.Server(configured(create_app(workspace, token))).run(sockets=[listener])
     finally:
         crew().close()

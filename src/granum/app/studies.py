@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from granum.app.case_forms import read_line
+from granum.app.telling import Cancelled, Tell, progress_text
 from granum.app.texts import plain_data
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
@@ -101,17 +103,33 @@ def _figures(found: Any) -> Iterator[Any]:
                 continue  # a stream without solid has no size
 
 
-def study(payload: Mapping[str, Any], tell: Callable[[float], None]) -> dict[str, Any]:
-    """Run a declared study; ``tell`` hears how far it is, and may raise to stop it."""
+def _telling(tell: Tell) -> Callable[[Any], None]:
+    """What a study calls with its progress: counts, and the time left as it went so far."""
+    began: list[tuple[float, int]] = []
+
+    def told(p: Any) -> None:
+        now = time.monotonic()
+        began.append((now, p.done)) if not began else None
+        (start, before), left = began[0], None
+        if before < p.done < p.total:
+            left = (now - start) * (p.total - p.done) / (p.done - before)
+        tell.say(p.done / max(p.total, 1), p.note or progress_text(p.done, p.total, p.failed, left))
+
+    return told
+
+
+def study(payload: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
+    """Run a declared study; ``tell`` hears how far it is. One that is stopped gives what it has computed."""
     from granum.studies import Study
 
     if payload.get("declared"):
-        return _outcome(_declared_study(payload), tell)
+        return _outcome(_declared_study(payload), payload, tell)
     table = payload.get("table")
     if not isinstance(table, dict):
         raise InputError(_("'{name}' is missing.").format(name="table"), name="table")
+    tell(0.0, _("preparing the model"))
     _not_too_many(table)
-    return _outcome(Study.of(str(table.get("kind", "")), table, subject(payload)), tell)
+    return _outcome(Study.of(str(table.get("kind", "")), table, subject(payload)), payload, tell)
 
 
 def _declared_study(payload: Mapping[str, Any]) -> Any:
@@ -139,11 +157,21 @@ def _not_too_many(table: Mapping[str, Any]) -> None:
             raise InputError(_("'{name}' may be at most {most} here.").format(name="steps", most=MOST_CASES), name="steps")
 
 
-def _outcome(declared: Any, tell: Callable[[float], None]) -> dict[str, Any]:
-    outcome = declared.run(progress=lambda p: tell(p.done / max(p.total, 1)))
+def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
+    """Run it; finished chunks lie in the folder ``parts``, from which ``collect`` reads them without computing more."""
+    from granum.reports.studies import warnings_of
+    from granum.studies.store import forget
+
+    parts = Path(str(payload["parts"])) if declared.kept_in_parts and payload.get("parts") else None
+    outcome = declared.run(progress=_telling(tell), cancel=lambda: bool(payload.get("collect")) or tell.stopped(), folder=parts)
+    if parts is not None:
+        forget(parts)
+    if not outcome.complete and not outcome.counts()["run"]:
+        raise Cancelled
     return plain_data(outcome.as_json(cases=SHOWN_CASES)) | {
         "charts": [{"name": name, "figure": json.loads(figure.to_json())} for name, figure in outcome.charts().items()],
         "tables": _tables(outcome),
+        "warnings": warnings_of(outcome),
     }
 
 
@@ -166,10 +194,10 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
     tables: list[dict[str, Any]] = []
     if outcome.kind == "monte_carlo":
         rows = [
-            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95"))]
+            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95")), str(s["failed"])]
             for p, s in found["statistics"].items()
         ]  # fmt: skip
-        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %"]
+        heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %", _("failed cases")]
         tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
         chances = [
             [figures[p].label if p else _("all limits"), f"{format_number(100 * c['probability'], 3)} %"]

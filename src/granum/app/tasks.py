@@ -12,6 +12,7 @@ from typing import Any
 from granum.app import studies
 from granum.app.case_forms import read_line
 from granum.app.spread import spread
+from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
 from granum.core import registry
@@ -19,8 +20,6 @@ from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
 from granum.reports.quantities import check_row, estimate_rows, statistics_text, stream_figures, stream_table, value_text
-
-Tell = Callable[[float], None]
 
 
 def packed(content: Any) -> bytes:
@@ -89,14 +88,16 @@ def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed({"rows": spread(thing, inputs_for(thing.card, payload["inputs"]))})
 
 
-def chart(payload: dict[str, Any], _tell: Tell) -> bytes:
+def chart(payload: dict[str, Any], tell: Tell) -> bytes:
     """Draw a chart: Plotly JSON."""
     thing = evaluable(payload["key"], ("chart",))
+    tell(0.2, _("drawing"))
     return thing(**inputs_for(thing.card, payload["inputs"])).to_json().encode()
 
 
-def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
+def fit(payload: dict[str, Any], tell: Tell) -> bytes:
     """Fit a lab test to a table."""
+    tell(0.0, _("reading the data"))
     test_type = evaluable(payload["key"], ("lab test",))
     try:
         conditions = json.loads(payload["conditions"])
@@ -107,7 +108,9 @@ def fit(payload: dict[str, Any], _tell: Tell) -> bytes:
     source = io.BytesIO(payload["content"])
     source.name = payload["name"]
     test = test_type.read(source, **inputs_for(test_type.card, conditions))
+    tell(0.2, _("fitting"))
     found = test.fit()
+    tell(0.8, _("drawing"))
     data = found.as_json() | {"residuals": found.residuals, "kept": found.kept, "flags": noticed(found.flags)}
     return packed(
         data
@@ -129,20 +132,35 @@ def table(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 
 @lru_cache(maxsize=4)
-def _solved(case: str, folder: str, root: str, _language: str) -> Any:
+def _line(case: str, folder: str, root: str, _language: str) -> Any:
+    return read_line({"case": case, "folder": folder, "root": root})
+
+
+@lru_cache(maxsize=4)
+def _solved(*place: str) -> Any:
     """The solved line of a case, kept for its report."""
-    return read_line({"case": case, "folder": folder, "root": root}).solve()
+    found = _line(*place).solve()
+    _compiled.add(_line(*place).title)
+    return found
 
 
-def _outcome(payload: dict[str, Any]) -> Any:
-    return _solved(payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
+_compiled: set[str] = set()
 
 
-def run(payload: dict[str, Any], _tell: Tell) -> bytes:
+def _outcome(payload: dict[str, Any], tell: Tell) -> Any:
+    place = (payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
+    tell(0.0, _("reading the case"))
+    known = _line(*place).title in _compiled
+    tell(0.2, _("solving") if known else _("compiling and solving"))
+    return _solved(*place)
+
+
+def run(payload: dict[str, Any], tell: Tell) -> bytes:
     """Solve the text of a case file."""
     from granum.flowsheet.drawing import draw
 
-    outcome = _outcome(payload)
+    outcome = _outcome(payload, tell)
+    tell(0.8, _("drawing"))
     data = outcome.as_json()
     for name, report in outcome.units.items():
         data["units"][name]["title"] = report.model.card.title
@@ -158,11 +176,13 @@ def run(payload: dict[str, Any], _tell: Tell) -> bytes:
     )
 
 
-def report(payload: dict[str, Any], _tell: Tell) -> bytes:
+def report(payload: dict[str, Any], tell: Tell) -> bytes:
     """The report of the text of a case file."""
     from granum.reports.html import line_report
 
-    return line_report(_outcome(payload)).encode()
+    outcome = _outcome(payload, tell)
+    tell(0.5, _("writing the report"))
+    return line_report(outcome).encode()
 
 
 def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:

@@ -16,10 +16,6 @@ import threading
 from typing import Any, BinaryIO
 
 
-class Cancelled(Exception):
-    """The task is no longer wanted."""
-
-
 def _limit(megabytes: int) -> None:
     """Cap the memory of this process where the system can do that."""
     with contextlib.suppress(ImportError, ValueError, OSError):
@@ -55,20 +51,17 @@ def main() -> None:
         pickle.dump(message, answers)
         answers.flush()
 
-    def tell(share: float) -> None:
-        if cancelled.is_set():
-            raise Cancelled
-        send("progress", float(share))
-
     from numpy.linalg import LinAlgError
 
     from granum.app.tasks import TASKS
+    from granum.app.telling import Cancelled, Tell
     from granum.core import registry
     from granum.core.errors import ApplicabilityError, GranumError
     from granum.core.i18n import _, set_language
     from granum.core.units import set_unit_system
 
     registry.everything()
+    tell = Tell(lambda share, note: send("progress", float(share), note), cancelled.is_set)
     while True:
         name, payload, code, units = tasks.get()
         cancelled.clear()

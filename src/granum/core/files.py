@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from pathlib import Path
@@ -28,3 +29,16 @@ def write_atomic(path: str | Path, content: str | bytes) -> None:
     except OSError as problem:
         Path(name).unlink(missing_ok=True)
         raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+
+
+def check_writable(path: str | Path) -> None:
+    """Complain about a file that cannot be written before the work whose result it is to hold."""
+    target = Path(path)
+    try:
+        if target.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    except OSError as problem:
+        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+    os.close(handle)
+    Path(name).unlink()

@@ -184,17 +184,17 @@ def _of_balance(line: Flowsheet, found: Findings, unit: str) -> Iterator[Fault]:
         )  # fmt: skip
 
 
-def _figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[tuple[Parameter, Any]]:
+def _figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[tuple[Parameter, Kind, Any]]:
     """The quantities on the data sheet of a unit, where sheets were asked for."""
     if unit in solution.sheets:
         values, _checks = solution.sheets[unit]
         for p, value in zip(type(line.units[unit]).card.outputs, values, strict=True):
             if value is not None and p.kind is not None:
-                yield p, value
+                yield p, p.kind, value
 
 
 def _possible_figures(line: Flowsheet, solution: Solution, unit: str) -> Any:
-    rows = [(jnp.ravel(jnp.asarray(value, dtype=float)), *_bounds(p.kind)) for p, value in _figures(line, solution, unit)]
+    rows = [(jnp.ravel(jnp.asarray(value, dtype=float)), *_bounds(kind)) for _p, kind, value in _figures(line, solution, unit)]
     if not rows:
         return jnp.asarray(True)
     low, high = (np.concatenate([np.full(row[0].shape, row[side]) for row in rows]) for side in (1, 2))
@@ -210,15 +210,15 @@ def _bounds(kind: Kind) -> tuple[float, float]:
 
 
 def _of_figures(line: Flowsheet, solution: Solution, unit: str) -> Iterator[Fault]:
-    for p, value in _figures(line, solution, unit):
-        array, (low, high) = np.ravel(np.asarray(value, dtype=float)), _bounds(p.kind)
+    for p, kind, value in _figures(line, solution, unit):
+        array, (low, high) = np.ravel(np.asarray(value, dtype=float)), _bounds(kind)
         bad = array[~((array >= low) & (array <= high))]
         if not bad.size:
             continue
         told = _("'{figure}' of unit '{unit}' would be {value}, which is not possible.")
         if not np.isfinite(bad[0]):
             told = _("'{figure}' of unit '{unit}' is not a finite number.")
-        yield Fault("figure", unit, "", told.format(figure=p.label, unit=unit, value=show(float(bad[0]), p.kind)))
+        yield Fault("figure", unit, "", told.format(figure=p.label, unit=unit, value=show(float(bad[0]), kind)))
 
 
 def _most_negative(s: Stream) -> tuple[str, str, float]:

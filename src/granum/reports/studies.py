@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Sequence
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -53,12 +55,13 @@ def _known(outcome: Outcome) -> dict[str, Variable]:
 
 
 def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
-    heads = [(_("figure"), "left"), ("P10", "right"), ("P50", "right"), ("P90", "right"), (_("mean"), "right"), (_("unit"), "left")]
+    heads = [(_("figure"), "left"), ("P10", "right"), ("P50", "right"), ("P90", "right"), (_("mean"), "right"), (_("unit"), "left"),
+             (_("failed cases"), "right")]  # fmt: skip
     cells = []
     for v in outcome.outputs:
         row = found["statistics"][v.path]
         unit = v.parameter.display_unit(row["p50"] if row["p50"] is not None else 0.0)
-        cells.append([v.path, *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")), pretty_unit(unit)])
+        cells.append([v.path, *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")), pretty_unit(unit), str(row["failed"])])
     return Rows(_("Figures"), heads, cells)
 
 
@@ -204,7 +207,7 @@ def tables_of(outcome: Outcome) -> list[Rows]:
 def warnings_of(outcome: Outcome) -> list[str]:
     """What a reader must know: failed cases with their reasons, a study that was stopped, an infeasible end."""
     counts = outcome.counts()
-    rows = []
+    rows = list(outcome.cases.notes)
     if counts["failed"]:
         rows.append(_("{failed} of {run} cases failed; they are kept with their reason and left out of the figures.").format(**counts))
     rows += [f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])]
@@ -222,6 +225,17 @@ def warnings_of(outcome: Outcome) -> list[str]:
     if outcome.kind == "pareto" and found["dropped"]:
         rows.append(_("{dropped} points that others beat in both objectives were dropped.").format(**found))
     return rows
+
+
+@contextmanager
+def stoppable(parts: Path | None) -> Iterator[None]:
+    """Ctrl+C during a study says where its cases are and how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        kept = _("Stopped. The cases computed so far are kept in '{folder}': the same command continues there.").format(folder=parts)
+        print(kept if parts is not None else _("Stopped. With --out FILE a study that is stopped can be continued."), file=sys.stderr)
+        raise
 
 
 def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:

@@ -90,8 +90,9 @@ def si(parameter: Any, value: Any, where: str) -> float:
 
 def whole(value: Any, name: str, least: int, most: int) -> int:
     """A count inside its limits."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or value != int(value) or not least <= value <= most:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most or value != int(value):
+        shown = f"2^{value.bit_length()}" if isinstance(value, int) and value.bit_length() > 200 else value
         raise InputError(
-            _("'{name}' = {value} must be a whole number from {least} to {most}.").format(name=name, value=value, least=least, most=most)
+            _("'{name}' = {value} must be a whole number from {least} to {most}.").format(name=name, value=shown, least=least, most=most)
         )
     return int(value)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
-import io
-import json
 import os
-import shutil
 from collections import OrderedDict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,10 +15,11 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core.errors import GranumError, InputError
-from granum.core.files import write_atomic
+from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.core.i18n import _
-from granum.studies.subjects import EXTRAPOLATED, FINE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
+from granum.core.kinds import Kind
+from granum.studies.store import Part, Store
+from granum.studies.subjects import EXTRAPOLATED, FINE, IMPOSSIBLE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
 
 MEMORY = 512 * 2**20
 """Bytes of working memory that one chunk may take."""
@@ -43,7 +41,7 @@ Cancel = Callable[[], bool]
 
 @dataclass(frozen=True)
 class Cases:
-    """Inputs and figures of many cases, SI, with a code each (0 = fine) and texts of refusals."""
+    """Inputs and figures of many cases, SI, with a code each (0 = fine) and texts of refusals; ``notes`` tell what else a reader must know."""
 
     subject: Subject
     inputs: tuple[str, ...]
@@ -52,6 +50,7 @@ class Cases:
     y: np.ndarray
     codes: np.ndarray
     texts: dict[int, str] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
 
     @property
     def fine(self) -> np.ndarray:
@@ -112,8 +111,18 @@ class Evaluator:
                 return Evaluator(subject, inputs, outputs, size, compiled, arrays)
             size = max(1, int(size * 0.9 * MEMORY / memory.temp_size_in_bytes))
 
-    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, dict[int, str]]:
-        """Figures, codes and texts of up to ``size`` cases."""
+    def __call__(self, x: np.ndarray) -> Part:
+        """Figures, codes and texts of any number of cases."""
+        made = [self._some(x[start : start + self.size]) for start in range(0, len(x), self.size)]
+        texts = {k + i * self.size: text for i, part in enumerate(made) for k, text in part.texts.items()}
+        y, codes = np.concatenate([part.y for part in made]), np.concatenate([part.codes for part in made])
+        for j, path in enumerate(self.outputs):
+            impossible = (codes <= FINE) & ~_possible(y[:, j], self.subject.output(path).parameter.kind)
+            codes[impossible], y[impossible] = IMPOSSIBLE + j, np.nan
+        return Part(y, codes, texts)
+
+    def _some(self, x: np.ndarray) -> Part:
+        """Those of up to ``size`` cases."""
         codes = np.zeros(len(x), np.int32)
         for i, path in enumerate(self.inputs):
             kind = self.subject.input(path).parameter.kind
@@ -122,7 +131,7 @@ class Evaluator:
         fine = np.flatnonzero(codes == FINE)
         y = np.full((len(x), len(self.outputs)), np.nan)
         if not len(fine):
-            return y, codes, {}
+            return Part(y, codes, {})
         if self.compiled is None:
             return self._one_by_one(x, y, codes, fine)
         # impossible and missing cases are computed at a possible place and thrown away: one shape, one compilation
@@ -131,11 +140,9 @@ class Evaluator:
         figures, found = (np.asarray(part)[: len(x)] for part in self.compiled(self.arrays, jnp.asarray(padded)))
         codes[fine] = found[fine]
         y[codes <= FINE] = figures[codes <= FINE]
-        return y, codes, {}
+        return Part(y, codes, {})
 
-    def _one_by_one(
-        self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, dict[int, str]]:
+    def _one_by_one(self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray) -> Part:
         texts: dict[int, str] = {}
         run = self.subject.traced(self.inputs, self.outputs)
         for case in fine:
@@ -145,7 +152,17 @@ class Evaluator:
                 y[case] = np.asarray(figures) if int(code) <= FINE else np.nan
             except GranumError as problem:
                 codes[case], texts[int(case)] = RAISED, problem.message
-        return y, codes, texts
+        return Part(y, codes, texts)
+
+
+def _possible(y: np.ndarray, kind: Kind | None) -> np.ndarray:
+    """Which figures lie inside the bounds of their kind, but for rounding."""
+    if kind is None:
+        return np.isfinite(y)
+    good = np.isfinite(y)
+    usual = float(np.median(np.abs(y[good]))) if good.any() else 0.0
+    slack = 1e-12 + 1e-9 * max(usual, *(abs(bound) for bound in (kind.lower, kind.upper) if np.isfinite(bound)), 0.0)
+    return good & (y >= kind.lower - slack) & (y <= kind.upper + slack)
 
 
 _evaluators: OrderedDict[tuple[Any, ...], Evaluator] = OrderedDict()
@@ -163,58 +180,9 @@ def evaluator(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...
     return _evaluators[key]
 
 
-class Store:
-    """Chunks on disk: each is written whole or not at all, so that a killed study continues where it was."""
-
-    def __init__(self, folder: Path, cases: Cases, size: int):
-        self.folder = folder
-        digest = hashlib.sha256(cases.subject.fingerprint().encode())
-        digest.update(repr((cases.inputs, cases.outputs, size)).encode() + np.ascontiguousarray(cases.x).tobytes())
-        manifest = {"study": digest.hexdigest(), "cases": len(cases.x), "chunk": size}
-        path = folder / "study.json"
-        if path.exists():
-            if json.loads(path.read_text(encoding="utf-8")) != manifest:
-                raise InputError(
-                    _("'{folder}' holds the cases of another study: choose another folder, or delete it.").format(folder=folder),
-                    path=str(folder),
-                )
-            return
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as problem:
-            raise InputError(_("'{path}' cannot be written: {reason}.").format(path=folder, reason=problem.strerror)) from None
-        if any(folder.iterdir()):
-            raise InputError(
-                _("'{folder}' is not empty and holds no study: choose another folder.").format(folder=folder), path=str(folder)
-            )
-        write_atomic(path, json.dumps(manifest))
-
-    def _path(self, start: int) -> Path:
-        return self.folder / f"cases-{start:09d}.npz"
-
-    def load(self, start: int) -> tuple[np.ndarray, np.ndarray, dict[int, str]] | None:
-        """A finished chunk, or None."""
-        path = self._path(start)
-        if not path.exists():
-            return None
-        with np.load(path, allow_pickle=False) as kept:
-            return kept["y"], kept["codes"], {int(k): v for k, v in json.loads(str(kept["texts"])).items()}
-
-    def save(self, start: int, y: np.ndarray, codes: np.ndarray, texts: dict[int, str]) -> None:
-        """Keep a finished chunk."""
-        buffer = io.BytesIO()
-        np.savez(buffer, y=y, codes=codes, texts=json.dumps(texts))
-        write_atomic(self._path(start), buffer.getvalue())
-
-
-def forget(folder: Path) -> None:
-    """Delete kept chunks once the result is written elsewhere."""
-    shutil.rmtree(folder, ignore_errors=True)
-
-
 def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], x: np.ndarray, *, progress: Report | None = None,
-             cancel: Cancel | None = None, folder: str | Path | None = None, workers: Any = None) -> Cases:  # fmt: skip
-    """Compute all cases ``x`` (cases × inputs, SI).
+             cancel: Cancel | None = None, folder: str | Path | None = None, workers: Any = None, even_none: bool = False) -> Cases:  # fmt: skip
+    """Compute all cases ``x`` (cases × inputs, SI). Raises ``ConvergenceError`` (with the cases as ``last``) when none gives a result.
 
     Parameters
     ----------
@@ -222,20 +190,19 @@ def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...]
     cancel: asked after every chunk; True stops, what is not done is marked so.
     folder: where finished chunks are kept; the same call continues there.
     workers: number of local Dask workers, or the address of a Dask scheduler; None computes here on all cores.
+    even_none: give the cases back even when none has a result.
     """
     x = np.atleast_2d(np.asarray(x, dtype=float))
     for path in inputs:
         subject.input(path)
     cases = Cases(subject, inputs, outputs, x, np.full((len(x), len(outputs)), np.nan), np.full(len(x), NOT_RUN, np.int32))
-    size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).size
-    store = Store(Path(folder), cases, size) if folder is not None else None
-    todo = []
-    for start in range(0, len(x), size):
-        known = store.load(start) if store is not None else None
-        if known is None:
-            todo.append(start)
-        else:
-            _fill(cases, start, *known)
+    store = Store(Path(folder)) if folder is not None else None
+    size = store.open(subject.fingerprint(), (inputs, outputs), x) if store is not None else None
+    if size is None:
+        size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).size
+        if store is not None:
+            store.begin(size)
+    todo = [start for start in range(0, len(x), size) if not _kept(store, cases, start)]
 
     def report() -> bool:
         if progress is not None:
@@ -244,21 +211,57 @@ def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...]
         return cancel is not None and bool(cancel())
 
     if report() or not todo:
-        return cases
+        return _some_fine(cases, even_none)
     chunks = [(start, x[start : start + size]) for start in todo]
     made = (
         _remote(subject, inputs, outputs, chunks, workers)
         if workers is not None
         else _local(evaluator(subject, inputs, outputs, len(x)), chunks)
     )
-    for start, found in made:
-        _fill(cases, start, *found)
-        if store is not None:
-            store.save(start, *found)
-        if report():
-            made.close()
-            break
-    return cases
+    with closing(made):
+        for start, found in made:
+            _fill(cases, start, found)
+            if store is not None:
+                _keep(store, cases, start, found)
+            if report():
+                break
+    return _some_fine(cases, even_none)
+
+
+def _some_fine(cases: Cases, even_none: bool) -> Cases:
+    if even_none or not cases.complete or cases.fine.any():
+        return cases
+    told = [f"{count} × {reason}" for reason, count in sorted(cases.reasons().items(), key=lambda row: -row[1])]
+    raise ConvergenceError(
+        _("None of the {count} cases has a result: {reasons}.").format(count=len(cases.codes), reasons="; ".join(told[:3])), last=cases
+    )
+
+
+def _kept(store: Store | None, cases: Cases, start: int) -> bool:
+    """Whether a chunk was computed before and is here now; one that is not what it should be is named."""
+    if store is None:
+        return False
+    try:
+        part = store.load(start)
+    except ValueError:
+        name = store.path(start).name
+        cases.notes.append(_("'{file}' was damaged or belongs to another study: its cases were computed again.").format(file=name))
+        return False
+    if part is not None:
+        _fill(cases, start, part)
+    return part is not None
+
+
+def _keep(store: Store, cases: Cases, start: int, part: Part) -> None:
+    """Write a chunk; when the disk is full or gone, what was written before stays, and the message says so."""
+    try:
+        store.save(start, part)
+    except InputError as problem:
+        done = int((cases.codes != NOT_RUN).sum()) - len(part.codes)
+        told = _("{done} of {total} cases are kept; the same command continues there once it can be written.").format(
+            done=done, total=len(cases.codes)
+        )
+        raise InputError(f"{problem.message} {told}", **problem.details) from None
 
 
 def _chunk(subject: Subject, count: int) -> int:
@@ -267,16 +270,16 @@ def _chunk(subject: Subject, count: int) -> int:
     return max(1, min(most, -(-count // 8)))
 
 
-def _fill(cases: Cases, start: int, y: np.ndarray, codes: np.ndarray, texts: dict[int, str]) -> None:
-    cases.y[start : start + len(y)] = y
-    cases.codes[start : start + len(y)] = codes
-    cases.texts.update({start + k: v for k, v in texts.items()})
+def _fill(cases: Cases, start: int, part: Part) -> None:
+    cases.y[start : start + len(part.y)] = part.y
+    cases.codes[start : start + len(part.y)] = part.codes
+    cases.texts.update({start + k: v for k, v in part.texts.items()})
 
 
-Made = Iterator[tuple[int, tuple[np.ndarray, np.ndarray, dict[int, str]]]]
+Made = Generator[tuple[int, Part], None, None]
 
 
-def _local(compute: Evaluator, chunks: list[tuple[int, np.ndarray]]) -> Any:
+def _local(compute: Evaluator, chunks: list[tuple[int, np.ndarray]]) -> Made:
     """Chunks computed by threads (compiled code leaves the interpreter free), a few ahead, as they finish."""
     threads = (
         1
@@ -299,7 +302,9 @@ def _local(compute: Evaluator, chunks: list[tuple[int, np.ndarray]]) -> Any:
                 one.cancel()
 
 
-def _remote(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any) -> Any:
+def _remote(
+    subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any
+) -> Made:
     if subject.recipe is None:
         raise InputError(
             _("Workers build the model themselves: they need a study read from a file or a table, not a model made in Python.")

@@ -14,9 +14,9 @@ from granum.core.i18n import _
 from granum.studies.declared import MOST_CASES, limits_of, prepare, sources_of, whole
 from granum.studies.distributions import Source
 from granum.studies.engine import evaluate
-from granum.studies.outcome import Limits, Outcome, meets, number, statistics, wilson
+from granum.studies.outcome import Limits, Outcome, meets, number, wilson
 from granum.studies.sampling import inputs_at, unit_points
-from granum.studies.subjects import subject_of
+from granum.studies.subjects import NOT_RUN, subject_of
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -32,7 +32,7 @@ class Ensemble(Outcome):
 
     def chances(self) -> dict[str, dict[str, Any]]:
         """Probability of keeping each limit and all of them; a case that failed keeps none."""
-        run = self.cases.codes != 4
+        run = self.cases.codes != NOT_RUN
         found = {}
         together = run.copy()
         for path, limit in self.limits.items():
@@ -62,7 +62,7 @@ class Ensemble(Outcome):
     def findings(self) -> dict[str, Any]:
         return {
             "uncertain": [s.as_json() for s in self.sources],
-            "statistics": {path: statistics(self.column(path)) for path in self.cases.outputs},
+            "statistics": self.statistics(),
             "limits": self.chances(),
             "rank_correlation": self.rank_correlations(),
         }
@@ -148,7 +148,7 @@ class Sensitivity(Outcome):
     def findings(self) -> dict[str, Any]:
         return {
             "uncertain": [s.as_json() for s in self.sources],
-            "statistics": {path: statistics(self.column(path)) for path in self.cases.outputs},
+            "statistics": self.statistics(),
             "indices": self.indices() if self.complete else {},
             "blocks": len(self.blocks),
             "blocks_used": int(self.blocks.sum()),
@@ -176,7 +176,8 @@ def sobol(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 512, outpu
     subject, paths = prepare(subject, outputs, names)
     groups = tuple(s.names[0] if len(s.names) == 1 else " + ".join(s.names) for s in sources)
     labels = [g for g, s in zip(groups, sources, strict=True) for _dimension in range(s.dimensions)]
-    base = 1 << (whole(samples, "samples", 4, MOST_CASES) - 1).bit_length()
+    most = 1 << (MOST_CASES // (len(groups) + 2)).bit_length() - 1
+    base = 1 << (whole(samples, "samples", 4, most) - 1).bit_length()
     problem = {
         "num_vars": len(labels),
         "names": [f"{n}#{i}" for i, n in enumerate(labels)],

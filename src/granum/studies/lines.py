@@ -21,12 +21,14 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
-from granum.flowsheet import Flowsheet
-from granum.flowsheet.specifications import Target, design, outlets_of
+from granum.flowsheet import Flowsheet, closures
+from granum.flowsheet.specifications import Designed, Target, design, outlets_of
 from granum.streams.stream import Stream
 from granum.studies.expressions import Lookup
-from granum.studies.subjects import FINE, NOT_CONVERGED, UNMET, Subject, Variable, split_index
+from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, NOT_CONVERGED, UNMET, Subject, Variable, split_index
 
+CLOSED = 1e-9
+"""Largest part of what enters that a balance may lose before the line is no solution."""
 PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
 FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
 STREAM = {
@@ -157,8 +159,7 @@ class LineSubject(Subject):
 
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         found = design(self._changed(arrays, values), self.targets)
-        met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
-        code = jnp.where(found.converged, FINE, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
+        code = verdict(found)
         line, streams = found.line, found.solution.streams
         for found_here in (r for records in found.solution.records.values() for r in records):
             flags.record(found_here.bit, found_here.mask, found_here.value, found_here.name, found_here.card)
@@ -206,6 +207,19 @@ class LineSubject(Subject):
         import equinox as eqx
 
         return eqx.tree_at(lambda s: s.feeds, sheet, changed)
+
+
+def verdict(found: Designed) -> Any:
+    """Whether a solved line counts as a solution: ``FINE``, or the code of the reason why its figures are none."""
+    met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
+    units, whole = closures(found.line, found.solution)
+    closed = jnp.all(jnp.stack([jnp.maximum(c.mass, c.energy) <= CLOSED for c in (*units.values(), whole)]))  # false when not finite
+    streams = found.solution.streams.values()
+    least = jnp.min(jnp.stack([jnp.min(jnp.concatenate([jnp.ravel(s.solid), s.liquid, s.gas])) for s in streams]))
+    most = jnp.max(jnp.stack([s.mass_flow for s in streams]))
+    code = jnp.where(closed, FINE, NOT_CLOSED)
+    code = jnp.where(least < -CLOSED * most, NEGATIVE, code)
+    return jnp.where(found.converged, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
 
 
 def _flows(stream: Stream, phase: str) -> Any:

@@ -177,7 +177,7 @@ def _checked(search: Search, best: Found, kept: Limits, seed: int, samples: int,
     points = unit_points("latin_hypercube", 4 * samples, sum(s.dimensions for s in sources), seed + 1)
     drawn = inputs_at(sources, points)
     decided = np.tile(list(search.values(best.z).values()), (len(drawn), 1))
-    cases = evaluate(search.subject, (*search.spans, *search.uncertain), search.outputs, np.hstack([decided, drawn]), **how)
+    cases = evaluate(search.subject, (*search.spans, *search.uncertain), search.outputs, np.hstack([decided, drawn]), even_none=True, **how)
     together = cases.fine.copy()
     rows = {}
     for path, limit in kept.items():

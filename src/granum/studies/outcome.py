@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from granum.core.errors import InputError
+from granum.core.files import check_writable
 from granum.core.i18n import _
 from granum.studies.engine import Cases
-from granum.studies.subjects import Variable
+from granum.studies.subjects import NOT_RUN, Variable
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -82,9 +83,14 @@ class Outcome(abc.ABC):
     def charts(self) -> dict[str, go.Figure]:
         """Charts by name."""
 
+    def statistics(self) -> dict[str, dict[str, float | int | None]]:
+        """Mean, spread and percentiles of each figure over the cases that gave a result; how many were run and failed stands beside them."""
+        run = self.cases.codes != NOT_RUN
+        return {path: statistics(self.column(path)[run]) for path in self.cases.outputs}
+
     def counts(self) -> dict[str, Any]:
         """How many cases ran, how many failed and why, and in how many some correlation was used outside its range."""
-        run = int(np.sum(self.cases.codes != 4))
+        run = int(np.sum(self.cases.codes != NOT_RUN))
         return {
             "cases": len(self.cases.codes),
             "run": run,
@@ -125,19 +131,20 @@ class Outcome(abc.ABC):
         path = Path(path)
         check_file(path)
         data = self.dataset
+        name = ""
         try:
             handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
-        except OSError as problem:
-            raise InputError(
-                _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)
-            ) from None
-        os.close(handle)
-        try:
+            os.close(handle)
             _write(data, name, path.suffix)
             os.chmod(name, 0o644)
             os.replace(name, path)
+        except OSError as problem:
+            raise InputError(
+                _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror or problem), path=str(path)
+            ) from None
         finally:
-            Path(name).unlink(missing_ok=True)
+            if name:
+                Path(name).unlink(missing_ok=True)
 
     def to_netcdf(self, path: str | Path) -> None:
         """Write all cases as NetCDF."""
@@ -156,6 +163,7 @@ class Outcome(abc.ABC):
             "inputs": [variable_json(v) for v in self.inputs],
             "outputs": [variable_json(v) for v in self.outputs],
             "counts": self.counts(),
+            "notes": self.cases.notes,
             "findings": self.findings(),
         }
         if cases:
@@ -173,6 +181,7 @@ def check_file(path: Path) -> None:
         raise InputError(
             _("'{path}' cannot be written: there is no folder '{folder}'.").format(path=path, folder=path.parent), path=str(path)
         )
+    check_writable(path)
 
 
 def _write(data: Any, name: str, suffix: str) -> None:
@@ -189,17 +198,18 @@ def _write(data: Any, name: str, suffix: str) -> None:
     frame.to_parquet(name, engine="pyarrow")
 
 
-def statistics(values: np.ndarray) -> dict[str, float | None]:
-    """Mean, standard deviation and percentiles of the cases that gave a result."""
+def statistics(values: np.ndarray) -> dict[str, float | int | None]:
+    """Mean, standard deviation and percentiles of the cases that gave a result; ``cases`` were run, ``failed`` gave none."""
     good = values[np.isfinite(values)]
+    counts: dict[str, float | int | None] = {"cases": len(values), "failed": len(values) - len(good)}
     if not len(good):
-        return dict.fromkeys(("mean", "standard_deviation", "p5", "p10", "p50", "p90", "p95", "least", "most"))
+        return counts | dict.fromkeys(("mean", "standard_deviation", "p5", "p10", "p50", "p90", "p95", "least", "most"))
     p5, p10, p50, p90, p95 = np.percentile(good, [5, 10, 50, 90, 95])
     found = {
         "mean": good.mean(), "standard_deviation": good.std(ddof=1) if len(good) > 1 else np.nan,
         "p5": p5, "p10": p10, "p50": p50, "p90": p90, "p95": p95, "least": good.min(), "most": good.max(),
     }  # fmt: skip
-    return {name: number(v) for name, v in found.items()}
+    return counts | {name: number(v) for name, v in found.items()}
 
 
 def wilson(met: int, of: int) -> tuple[float, float]:

@@ -22,10 +22,10 @@ from granum.core.parameters import Parameter, convert
 from granum.estimation.cards import inputs_of
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
-EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN = -1, 0, 1, 2, 3, 4
-NOT_FINITE, OUTSIDE = 1000, 2000
-"""Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result,
-from 2000 the input at fault."""
+EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE = -1, 0, 1, 2, 3, 4, 5, 6
+NOT_FINITE, OUTSIDE, IMPOSSIBLE = 1000, 2000, 3000
+"""Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result
+that is not finite, from 2000 the input at fault, from 3000 the result that is not possible."""
 
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
@@ -195,6 +195,8 @@ class Subject(abc.ABC):
 
     def reason(self, code: int, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> str:
         """Why a case failed, in words."""
+        if code >= IMPOSSIBLE:
+            return _("result '{name}' outside what is possible").format(name=outputs[code - IMPOSSIBLE])
         if code >= OUTSIDE:
             return _("input '{name}' outside what is possible").format(name=inputs[code - OUTSIDE])
         if code >= NOT_FINITE:
@@ -204,6 +206,8 @@ class Subject(abc.ABC):
             UNMET: _("the design specifications cannot be met"),
             RAISED: _("the calculation refused the inputs"),
             NOT_RUN: _("not run: the study was stopped"),
+            NOT_CLOSED: _("the balance of mass or energy does not close"),
+            NEGATIVE: _("a flow is negative"),
         }[code]
 
 

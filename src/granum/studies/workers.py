@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import ExitStack
 from functools import lru_cache
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 
 from granum.core.errors import InputError
 from granum.core.i18n import _
+from granum.studies.store import Part
 
 RETRIES = 5
 
@@ -21,19 +22,16 @@ def _built(recipe: Any) -> Any:
     return recipe.build()
 
 
-def chunk(recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], size: int, x: np.ndarray) -> Any:
+def chunk(recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], size: int, x: np.ndarray) -> Part:
     """One chunk, computed in the process of a worker; the model is built there once."""
     from granum.studies.engine import evaluator
 
-    compute = evaluator(_built(recipe), inputs, outputs, size)
-    made: list[Any] = [compute(x[start : start + compute.size]) for start in range(0, len(x), compute.size)]
-    texts = {k + i * compute.size: v for i, part in enumerate(made) for k, v in part[2].items()}
-    return np.concatenate([part[0] for part in made]), np.concatenate([part[1] for part in made]), texts
+    return evaluator(_built(recipe), inputs, outputs, size)(x)
 
 
 def computed(
     recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any
-) -> Iterator[Any]:
+) -> Generator[tuple[int, Part], None, None]:
     """Finished chunks with their first case, in the order in which they finish.
 
     ``workers``: a number of local processes, the address of a scheduler, or a ``distributed.Client``.
