@@ -34,6 +34,12 @@ def test_backwash_inverts_the_expansion() -> None:
     assert backwash.head_loss_backwash(0.7, 2650.0, 1000.0, 0.42) == pytest.approx(0.7 * 0.58 * 1.65)
 
 
+def test_backwash_of_sand_whose_fines_go_first() -> None:
+    sizes, parts = np.array([1e-4, 1e-3, 2e-3]), np.array([0.01, 0.39, 0.6])
+    with pytest.raises(ApplicabilityError, match="carries the finest class off"):
+        backwash.backwash_velocity(0.5, sizes, parts, *WATER, 0.42)
+
+
 def test_pleats_by_quadrature_of_the_channels() -> None:
     v, h, p, t, eta, k = 1.5, 0.05, 5e-3, 5e-4, 1.8e-5, 2000.0
     gap, u0 = p / 2 - t, 1.5 * p / (p / 2 - t)

@@ -11,7 +11,7 @@ import pytest
 from granum.cases import read
 from granum.core.errors import ApplicabilityError
 from granum.fluidization.equipment.liquid import LiquidFluidizedBed
-from granum.fluidization.formulas import expansion, two_phase
+from granum.fluidization.formulas import bubbles, expansion, freeboard, two_phase
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
 
@@ -74,6 +74,53 @@ def test_graded_bed() -> None:
     # between its two ends the law passes through both
     at = {"superficial_velocity": 0.004696, "height": 1.0, **sand}
     assert expansion.graded_bed_expansion(np.array([6e-4]), np.array([1.0]), **at).bed_void_fraction[0] == pytest.approx(0.42, abs=1e-3)
+
+
+SAND = {"height": 0.5, "particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1.307e-3, "void_fraction_settled": 0.45}
+SAND_SIZES = np.array([2, 1.42, 1, 0.714, 0.505, 0.357, 0.252, 0.178, 0.126]) * 1e-3
+SAND_PARTS = np.array([0.053, 0.171, 0.146, 0.204, 0.176, 0.119, 0.059, 0.031, 0.007])
+
+
+def test_carried_class_leaves_the_sum_and_is_named() -> None:
+    # Davis (2010), example 11-3: 10 mm/s expands 0.5 m of this sand to 0.696 m
+    found = expansion.graded_bed_expansion.evaluate(SAND_SIZES, SAND_PARTS, superficial_velocity=0.010, **SAND)
+    assert found.value.height_expanded == pytest.approx(0.696, rel=0.01)
+    (notice,) = found.notices
+    assert notice["message"].startswith("These sizes are carried off")
+    assert notice["message"].endswith("(class sizes = 126 µm: 1 of 9 values)")
+    # without the 0.7 % it is the same bed: their share of the settled height is all they take away
+    kept = expansion.graded_bed_expansion(SAND_SIZES[:-1], SAND_PARTS[:-1], superficial_velocity=0.010, **SAND).height_expanded
+    assert found.value.height_expanded == pytest.approx(kept * SAND_PARTS[:-1].sum() / SAND_PARTS.sum(), rel=1e-12)
+    heights = [expansion.graded_bed_expansion(SAND_SIZES, SAND_PARTS, superficial_velocity=u, **SAND).height_expanded
+               for u in (9.2e-3, 9.3e-3, 9.4e-3, 9.5e-3, 9.6e-3)]  # fmt: skip
+    assert np.all(np.diff(heights) > 0)
+    assert heights[-1] - heights[0] < 0.02
+    with pytest.raises(ApplicabilityError, match="carries every class off"):
+        expansion.graded_bed_expansion(SAND_SIZES, SAND_PARTS, superficial_velocity=1.0, **SAND)
+
+
+def test_no_bubbles_below_minimum_fluidization() -> None:
+    found = two_phase.two_phase_bed.evaluate(np.array([0.02, 0.05, 0.3]), 0.05, 0.3, 2.5e-5)
+    bed = found.value
+    np.testing.assert_array_equal(np.asarray(bed.bubble_diameter[:2]), 0.0)
+    np.testing.assert_array_equal(np.asarray(bed.transfer_units[:2]), 0.0)
+    np.testing.assert_array_equal(np.asarray(bed.height_expanded[:2]), 0.3)
+    assert bed.bubble_diameter[2] > 0.01
+    assert [n["message"] for n in found.notices] == [
+        "At or below minimum fluidization no gas is left over for bubbles: there are none. (superficial velocity = 20 … 50 mm/s: 2 of 3 values)"
+    ]
+
+
+def test_every_active_limit_says_why() -> None:
+    at = {"particle_diameter": "60 um", "particle_density": 1500, "fluid_density": 1.2, "dynamic_viscosity": 1.8e-5}
+    for found, words in (
+        (freeboard.elutriation_flux_wen_hashinger.evaluate(superficial_velocity=0.2, terminal_velocity=0.3, **at), "the rate is zero"),
+        (bubbles.bubble_diameter_darton.evaluate(0.04, 0.05, 0.5), "no gas is left over for bubbles"),
+        (expansion.bed_void_fraction_richardson_zaki.evaluate(0.2, 0.1, 2.4), "no bed remains"),
+    ):
+        (notice,) = found.notices
+        assert notice["flag"] == "limit active"
+        assert words in notice["message"]
 
 
 def test_liquid_bed_of_coulson_and_richardson() -> None:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from granum.core.errors import ApplicabilityError, InputError
-from granum.humid_gas.formulas.properties import humidity_ratio_saturated, pressure_at_altitude, wet_bulb_temperature
+from granum.core.flags import EXTRAPOLATED
+from granum.humid_gas.formulas.properties import enthalpy, humidity_ratio_saturated, pressure_at_altitude, wet_bulb_temperature
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.pairs import AIR_WATER
 
@@ -40,6 +41,38 @@ def test_saturation_against_ashrae_table() -> None:
     printed = np.array([0.0000067, 0.0000793, 0.0006373, 0.0037895, 0.0076606, 0.014758, 0.027329, 0.086858, 0.55295, 1.42031])
     np.testing.assert_allclose(humidity_ratio_saturated(temperature=t + C), printed, rtol=0.016)
     np.testing.assert_allclose(humidity_ratio_saturated(temperature=t[3:8] + C), printed[3:8], rtol=0.0062)
+
+
+def test_enthalpy_of_dry_air_at_one_atmosphere() -> None:
+    # ASHRAE's own equation 30, h = 1.006 t for dry air, and the real gas of RP-1485, which gives 1.0061 kJ/(kg K) at 20 °C
+    t = np.array([-20.0, 10.0, 20.0, 30.0, 50.0])
+    air = enthalpy(temperature=t + C, humidity_ratio=0.0)
+    np.testing.assert_allclose(air, 1006.0 * t, atol=35.0)
+    np.testing.assert_allclose(air, enthalpy(temperature=t + C, humidity_ratio=0.0, pair="air_water_real"), atol=5.0)
+    assert state(temperature="20 degC", humidity_ratio=0.0).humid_heat == pytest.approx(1006.1, abs=0.1)
+
+
+def test_ideal_air_under_pressure_says_so() -> None:
+    for pressure, told in (("1 atm", False), ("2 bar", False), ("3 bar", True), ("30 bar", True)):
+        found = enthalpy.evaluate(temperature="50 degC", humidity_ratio=0.001, pressure=pressure)
+        assert bool(found.flags & EXTRAPOLATED) is told, pressure
+    assert found.notices[0]["message"].endswith("give the pair air_water_real, which is the real mixture.")
+    assert "pressure = 30 bar" in found.notices[0]["message"]
+    assert not enthalpy.evaluate(temperature="50 degC", humidity_ratio=0.001, pressure="30 bar", pair="air_water_real").flags
+
+
+def test_percentage_humidity_humid_heat_and_saturation_pressure() -> None:
+    # By hand at 30 °C and 1 atm: p_s = 4.2470 kPa (steam tables), w_s = 0.62194·4.2470/(101.325 − 4.2470) = 0.027209
+    air = state(temperature="30 degC", humidity_ratio=0.0136)
+    assert air.saturation_pressure == pytest.approx(4247.0, rel=1e-4)
+    assert air.percentage_humidity == pytest.approx(0.0136 / 0.027209, rel=2e-4)
+    assert air.humid_heat == pytest.approx(1006.0 + 0.0136 * 1865.0, rel=1e-3)
+    back = state(temperature="30 degC", percentage_humidity=air.percentage_humidity)
+    assert back.humidity_ratio == pytest.approx(0.0136, rel=1e-12)
+    with pytest.raises(InputError, match="beside the temperature alone"):
+        state(enthalpy=5e4, percentage_humidity=0.5)
+    with pytest.raises(ApplicabilityError, match="Above the boiling point"):
+        state(temperature="120 degC", percentage_humidity=0.5)
 
 
 def _states(count: int) -> tuple[dict, np.ndarray]:
@@ -88,7 +121,7 @@ def test_impossible_states_name_the_limits() -> None:
     # limits from steam tables: 2.339 kPa at 20 °C; dry air, cp 1.006, and saturated air, 47.8 kJ/kg, of a wet bulb of 17 °C
     for given, limits in (
         ({"temperature": "20 degC", "vapor_pressure": "3 kPa"}, "0 … 2.339 kPa"),
-        ({"wet_bulb_temperature": "17 degC", "enthalpy": "80 kJ/kg"}, "46.92 … 47.78 kJ/kg"),
+        ({"wet_bulb_temperature": "17 degC", "enthalpy": "80 kJ/kg"}, "46.95 … 47.82 kJ/kg"),
     ):
         with pytest.raises(ApplicabilityError) as found:
             state(**given)

@@ -76,6 +76,49 @@ def test_limestone_of_foust():
     np.testing.assert_allclose(v[2:-1] * 3.6e5, printed[:-1], rtol=0.2)
 
 
+def exact_packed_curve() -> tuple[np.ndarray, np.ndarray]:
+    """Kynch's own solution for v = 1 mm/s (1 − C/1000)^4.65 from 300 kg/m³ and 1 m: a straight fall, then the fan, no compression."""
+    p = np.linspace(0.41, 0.72, 18)
+    v, slope = 1e-3 * (1 - p) ** 4.65, -4.65e-3 * (1 - p) ** 3.65
+    t = 0.3 / (-(p**2) * slope)
+    h = -(v + p * slope) * t
+    early, late = np.linspace(0, 2560, 5), t > 2570
+    return np.concatenate([early, t[late]]), np.concatenate([1 - 1e-3 * 0.7**4.65 * early, h[late]])
+
+
+def test_no_compression_in_an_exact_curve_of_kynch():
+    t, h = exact_packed_curve()
+    test = BatchTest(t, h, 300.0, underflow_concentration=750.0, velocity_function="richardson_zaki")
+    assert test.curve().compression is not None  # the shape alone, two exponentials, would have one
+    found = test.fit()
+    assert "compression_concentration" not in found.derived
+    assert found.kept.all()
+    C = np.linspace(300, 749, 400_000)
+    area = np.max((1 / C - 1 / 750) / (1e-3 * (1 - C / 1000) ** 4.65))  # Coe and Clevenger: 27.598
+    assert found["unit_area_coe_clevenger"].value == pytest.approx(area, rel=1e-8)
+    assert found["unit_area_talmage_fitch"].value == pytest.approx(area, rel=0.01)
+    low, high = found["unit_area_talmage_fitch"].interval_95
+    assert low < area < high
+    assert "unit areas disagree" not in {flag["flag"] for flag in found.flags}
+
+
+def test_two_unit_areas_that_disagree_are_told():
+    t, h = exact_packed_curve()
+    found = BatchTest(t, h, 300.0, underflow_concentration=750.0).fit()  # no exponential law follows this curve
+    words = {flag["flag"] for flag in found.flags}
+    assert {"law misses the curve", "unit areas disagree"} <= words
+
+
+def test_compression_that_is_there_stays():
+    t = np.linspace(60, 6 * 3600, 60)
+    suspension = Suspension(Vesilind(1.4e-3, 0.4), LogarithmicStress(8.0, 0.5, 4.0), 1050.0, 998.0)
+    course = settle(suspension, 0.5, START, jnp.concatenate([jnp.zeros(1), t]), cells=100)
+    h = np.asarray(course.interface_height(1.5))[1:]
+    zones = BatchTest(t, h, START, initial_height=0.5).zones()
+    assert zones.compression is not None
+    assert START * 0.5 / zones.compression.height > 7.5  # mean concentration under the interface there; the bed starts to carry at 8
+
+
 def test_reads_a_file_and_says_what_it_did():
     text = "time [min],interface_height [mm]\n" + "\n".join(f"{t / 60:.4f},{h * 1000:.3f}" for t, h in zip(TIMES, EXACT, strict=True))
     lines = text.splitlines()

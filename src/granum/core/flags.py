@@ -135,6 +135,13 @@ def unsolved(converged: Any, card: Any, name: str = "iteration", reason: str = "
     record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, card.key, source=card.source, reason=reason)
 
 
+def extrapolated(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
+    """Inside a formula body: record the elements beyond limits that depend on the other inputs; ``reason`` as for ``impossible``."""
+    formula = _current.get()
+    if formula is not None:
+        record(EXTRAPOLATED, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
+
+
 def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
     """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
 
@@ -147,10 +154,11 @@ def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any =
         record(OUTSIDE_DOMAIN, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
 
 
-def limit_active(mask: Any, value: Any, name: str, reason: str = "") -> None:
+def limit_active(mask: Any, value: Any, name: str, reason: str) -> None:
     """Inside a formula body: record where a physical limit cut the result.
 
-    ``reason`` is an English sentence with a French translation that then says what happened.
+    ``reason`` is an English sentence with a French translation: which limit, why, and what is given in place. The elements
+    concerned are told after it.
     """
     formula = _current.get()
     if formula is not None:
@@ -197,10 +205,29 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         )
         row["count"] += int(mask.sum())
         row["worst"] = worst if np.isfinite(worst) else None
-        limited = found.bit == OUTSIDE_DOMAIN and (row["low"] is not None or row["high"] is not None)
+        limited = found.bit in (OUTSIDE_DOMAIN, EXTRAPOLATED) and (row["low"] is not None or row["high"] is not None)
         told = ([sentence(row)] if limited or not found.reason else []) + ([_(found.reason)] if found.reason else [])
-        row["message"] = " ".join(told)
+        if found.bit == LIMIT_ACTIVE:
+            told.append(_elements(row, values, mask.size))
+        row["message"] = " ".join(filter(None, told))
     return list(rows.values())
+
+
+def _elements(row: dict[str, Any], values: np.ndarray, total: int) -> str:
+    """Which elements a limit concerns: how many of how many where there are several, and their values."""
+    from granum.core.glossary import quantity_in, term
+
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return ""
+    low, high = float(values.min()), float(values.max())
+    shown, unit = _units_of({**row, "worst": high})
+    span = f"{shown(low)}{unit}" if low == high else f"{shown(low)} … {shown(high)}{unit}"
+    word = quantity_in(row["name"])
+    name = term(word).label if word else row["name"]
+    if total == 1:
+        return f"({name} = {span})"
+    return _("({name} = {span}: {count} of {total} values)").format(name=name, span=span, count=values.size, total=total)
 
 
 def sentence(row: dict[str, Any]) -> str:
@@ -221,7 +248,6 @@ def sentence(row: dict[str, Any]) -> str:
         "outside domain": _("{name}{value} is outside what is possible{span} in {card}: no value."),
         "not finite": _("{name} is not a finite number in {card}."),
         "not converged": _("{name} did not converge in {card}."),
-        "limit active": _("{name}{value}: a limit of {card} is active."),
     }
     return templates[row["flag"]].format(name=name, value=value, span=span, card=row["card"])
 

@@ -14,7 +14,7 @@ from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series
 from granum.core.units import format_number
 from granum.settling.column import Suspension
 from granum.settling.flux import settling_flux, state_point_clarifier
-from granum.settling.lab_tests.batch_test import BatchTest
+from granum.settling.lab_tests.batch_test import BatchTest, VelocityFunction
 from granum.settling.simulations import batch_course
 
 Settling = Annotated[Any, Law("settling_velocity")]
@@ -23,10 +23,13 @@ MINUTE, HOUR, CM = 60.0, 3600.0, 100.0
 
 @chart(source="kynch1952; talmage1955", title="Settling curve with tangents and zones")
 def settling_curve_chart(
-    time: Annotated[Time, Series("points")], interface_height: Annotated[Distance, Series("points")], initial_concentration: Concentration
+    time: Annotated[Time, Series("points")],
+    interface_height: Annotated[Distance, Series("points")],
+    initial_concentration: Concentration,
+    velocity_function: VelocityFunction = "vesilind",
 ) -> go.Figure:
     """Settling curve with its zones and Kynch's tangents, each marked with the concentration it stands for."""
-    c = BatchTest(time, interface_height, initial_concentration).curve()
+    c = BatchTest(time, interface_height, initial_concentration, velocity_function=velocity_function).zones()
     drawing = figure(axis_title("time", "min"), axis_title("interface_height", "cm"), title=_("Settling curve with tangents and zones"))
     lag = c.induction_time
     end = (c.time[-1] + lag) / MINUTE

@@ -7,13 +7,16 @@ from typing import Annotated
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import Density, Distance, DynamicViscosity, Fraction, Length, OpenFraction, Series, Speed, Sphericity, VoidFraction
-from granum.fluidization.formulas.expansion import graded_bed_expansion
+from granum.core.kinds import Amount, Density, Distance, DynamicViscosity, Length, OpenFraction, Series, Speed, Sphericity, VoidFraction
+from granum.fluidization.formulas.expansion import DILUTE, expansion_exponent, graded_bed_expansion
+from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
 from granum.numerics import find_root
 from granum.particles.formulas.terminal import terminal_velocity
 
 _SAND = {"particle_density": (2500.0, 2700.0), "fluid_density": (990.0, 1000.0), "dynamic_viscosity": (8e-4, 1.5e-3),
          "void_fraction_settled": (0.38, 0.45), "class_sizes": (5e-4, 1.5e-3), "bed_depth": (0.5, 1.2)}  # fmt: skip
+
+FINES_CARRIED = "The wash water carries the finest class off before: leave it out if it may go."
 
 
 @formula(source="richardson1954; fair1933", equation=r"\frac{1-\varepsilon_0}{1}\sum_i\frac{x_i}{1-\varepsilon_i(U)} = 1 + E",
@@ -21,7 +24,7 @@ _SAND = {"particle_density": (2500.0, 2700.0), "fluid_density": (990.0, 1000.0),
 def backwash_velocity(
     bed_expansion: OpenFraction,
     class_sizes: Annotated[Length, Series("classes")],
-    class_fractions: Annotated[Fraction, Series("classes")],
+    class_fractions: Annotated[Amount, Series("classes")],
     particle_density: Density,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
@@ -31,7 +34,7 @@ def backwash_velocity(
     """Velocity of the wash water that expands a deep bed of graded grains by a share of its depth, layer by layer.
 
     Some 30 to 60 m/h for filter sand, less in cold water. The sphericity that fits the head loss of the settled bed is commonly left out
-    here, which gives the higher rate. Nothing reaches an expansion at which the finest class is carried off.
+    here, which gives the higher rate. No value where the finest class would be carried off before the bed expands so far.
 
     >>> U = backwash_velocity("20 %", [0.5e-3, 0.7e-3, 1e-3], [0.3, 0.4, 0.3], 2650, 999, "1.1 cP", 0.42)
     >>> 30 < 3600 * U < 60
@@ -44,7 +47,12 @@ def backwash_velocity(
         return found.bed_expansion - bed_expansion
 
     finest = jnp.min(jnp.where(jnp.asarray(class_fractions) > 0, jnp.asarray(class_sizes), jnp.inf))
-    most = terminal_velocity(finest, particle_density, fluid_density, dynamic_viscosity, sphericity=sphericity)
+    fall = terminal_velocity(finest, particle_density, fluid_density, dynamic_viscosity, sphericity=sphericity)
+    first = minimum_fluidization_velocity_ergun(
+        finest, particle_density, fluid_density, dynamic_viscosity, void_fraction_settled, sphericity
+    )
+    most = fall * (DILUTE * (1.0 - 1e-9)) ** expansion_exponent(fall, first, void_fraction_settled)
+    impossible(off(most) < 0.0, bed_expansion, "bed_expansion", 0.0, bed_expansion + off(most), FINES_CARRIED)
     return find_root(off, 1e-6 * most, most).value
 
 

@@ -25,10 +25,13 @@ from granum.numerics import safe_sqrt
 SPEEDS = {"superficial_velocity": (0.2, 1.0), "minimum_fluidization_velocity": (0.01, 0.1), "height": (0.2, 1.5)}
 
 
+NO_BUBBLES = "At or below minimum fluidization no gas is left over for bubbles: there are none."
+
+
 def surplus(U: Any, U_mf: Any) -> Any:
     """Gas beyond minimum fluidization; none, with a flag, below it."""
     extra = jnp.asarray(U - U_mf, dtype=float)
-    limit_active(extra <= 0.0, U, "superficial_velocity")
+    limit_active(extra <= 0.0, U, "superficial_velocity", NO_BUBBLES)
     return jnp.maximum(extra, 1e-12)
 
 

@@ -10,6 +10,7 @@ from granum.core import formula, impossible, limit_active, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
+    Amount,
     Area,
     Density,
     DynamicViscosity,
@@ -31,12 +32,18 @@ from granum.particles.formulas.terminal import terminal_velocity
 
 MORE_THAN_SOLID = "The layer would weigh more than one without voids."
 LIQUID = {"particle_diameter": (1e-3, 3e-3), "superficial_velocity": (0.03, 0.08)}
+DILUTE = 0.95  # void fraction above which grains no longer lie in a layer with a surface
+CARRIED = "The velocity is above the terminal velocity: the grains are carried away and no bed remains; its void fraction is given as 1."
+CLASS_CARRIED = (
+    "These sizes are carried off: their layer would have a void fraction above 0.95. They are left out of the height of the bed."
+)
+ALL_CARRIED = "The liquid carries every class off: no bed remains. Lower the velocity."
 BED = {"mass": (40.0, 60.0), "area": (0.05, 0.1), "length": (0.8, 1.2), "height": (0.8, 1.2)}
 
 
 def _carried(e: Any) -> Any:
     """A void fraction that reaches 1 means transport: cut there, with a flag."""
-    limit_active(e >= 1.0, e, "void_fraction")
+    limit_active(e >= 1.0, e, "void_fraction", CARRIED)
     return jnp.minimum(e, 1.0)
 
 
@@ -178,7 +185,7 @@ class GradedBed(NamedTuple):
                   "dynamic_viscosity": (8e-4, 1.5e-3), "void_fraction_settled": (0.38, 0.45), "class_sizes": (5e-4, 1.5e-3)})  # fmt: skip
 def graded_bed_expansion(
     class_sizes: Annotated[Length, Series("classes")],
-    class_fractions: Annotated[Fraction, Series("classes")],
+    class_fractions: Annotated[Amount, Series("classes")],
     height: Length,
     superficial_velocity: Speed,
     particle_density: Density,
@@ -191,7 +198,8 @@ def graded_bed_expansion(
     """Expansion of a liquid-fluidized bed of graded grains that lie in layers, as a sand filter under backwash.
 
     Each class expands by Richardson and Zaki's law through its minimum fluidization (Ergun) and its terminal velocity; a class not yet
-    fluidized keeps the settled void fraction. Fractions by mass. Height is that of the settled bed.
+    fluidized keeps the settled void fraction, one diluted beyond 0.95 is carried off: it is named and leaves the sum. Fractions are
+    relative masses. Height is that of the settled bed with all classes.
 
     >>> x = graded_bed_expansion(class_sizes=[0.5e-3, 1e-3], class_fractions=[0.5, 0.5], height=0.7, superficial_velocity="36 m/hour",
     ...                          particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
@@ -203,6 +211,11 @@ def graded_bed_expansion(
     fall = terminal_velocity(d, *fluid, gravity=gravity, sphericity=sphericity)
     first = minimum_fluidization_velocity_ergun(d, *fluid, void_fraction_settled, sphericity, gravity)
     n = expansion_exponent(fall, first, void_fraction_settled)
-    e = jnp.maximum(_carried((superficial_velocity / fall) ** (1.0 / n)), void_fraction_settled)
-    expanded = height * (1.0 - void_fraction_settled) * jnp.sum(share / (1.0 - jnp.minimum(e, 0.999))) / jnp.sum(share)
+    e = jnp.clip((superficial_velocity / fall) ** (1.0 / n), void_fraction_settled, 1.0)
+    stays = e <= jnp.maximum(DILUTE, void_fraction_settled)
+    limit_active(~stays & (share > 0), d, "class_sizes", CLASS_CARRIED)
+    remains = jnp.any(stays & (share > 0))
+    impossible(~remains, superficial_velocity, "superficial_velocity", reason=ALL_CARRIED)
+    layers = jnp.sum(jnp.where(stays, share / jnp.where(stays, 1.0 - e, 1.0), 0.0))
+    expanded = jnp.where(remains, height * (1.0 - void_fraction_settled) * layers / jnp.sum(share), jnp.nan)
     return GradedBed(e, expanded, expanded / height - 1.0)

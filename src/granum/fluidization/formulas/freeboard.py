@@ -11,6 +11,7 @@ from granum.core.kinds import Acceleration, Density, Distance, DynamicViscosity,
 SURFACE = {"bubble_diameter": (0.03, 0.3), "superficial_velocity": (0.2, 1.0), "minimum_fluidization_velocity": (0.01, 0.1)}
 ESCAPE = {"particle_diameter": (2e-5, 1e-4), "superficial_velocity": (0.6, 2.0), "terminal_velocity": (0.02, 0.4),
           "fluid_density": (0.4, 5.0), "dynamic_viscosity": (1.5e-5, 4e-5)}  # fmt: skip
+BELOW_TERMINAL = "Below the terminal velocity of a class the gas carries none of it away: the rate is zero."
 
 
 @formula(source="fung1993", equation=r"\mathrm{TDH} = 13.8\,d_b", typical=SURFACE)
@@ -142,7 +143,7 @@ def elutriation_flux_wen_hashinger(
     0.0
     """
     d, rho = particle_diameter, fluid_density
-    limit_active(superficial_velocity <= terminal_velocity, superficial_velocity, "superficial_velocity")
+    limit_active(superficial_velocity <= terminal_velocity, superficial_velocity, "superficial_velocity", BELOW_TERMINAL)
     slip = jnp.maximum(superficial_velocity - terminal_velocity, 0.0)
     Re = rho * terminal_velocity * d / dynamic_viscosity
     heavy = jnp.maximum(particle_density - rho, 1e-12) / rho

@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import formula
+from granum.core import formula, limit_active
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Area, Diffusivity, Fraction, Frequency, Length, Ratio, Speed, VoidFraction
+from granum.core.kinds import Acceleration, Area, Diffusivity, Distance, Fraction, Frequency, Length, Ratio, Speed, VoidFraction
 from granum.fluidization.formulas.bubbles import (
+    NO_BUBBLES,
     SPEEDS,
     bubble_diameter_darton,
     bubble_exchange_rate,
@@ -26,7 +27,7 @@ BED = {**SPEEDS, "diffusivity": (1e-5, 1e-4), "diameter": (1.0, 2.0), "catchment
 class TwoPhaseBed(NamedTuple):
     """A bubbling bed by the two-phase theory."""
 
-    bubble_diameter: Length
+    bubble_diameter: Distance
     bubble_rise_velocity: Speed
     bubble_fraction: Fraction
     height_expanded: Length
@@ -55,12 +56,16 @@ def two_phase_bed(
     saturated, the gas leaves with one minus the bypass of the possible load. With the thermal diffusivity in place of the diffusivity the
     same holds for heat.
 
-    At minimum fluidization all gas meets the solid:
+    At minimum fluidization there are no bubbles: the bed is not expanded and all gas meets the solid.
 
-    >>> two_phase_bed(superficial_velocity=0.05, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5).bypass_fraction < 1e-9
-    True
+    >>> bed = two_phase_bed(superficial_velocity=0.05, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5)
+    >>> bed.bypass_fraction, bed.bubble_diameter, bed.height_expanded
+    (0.0, 0.0, 0.3)
     """
-    U, first, start = superficial_velocity, minimum_fluidization_velocity, 4.0 * jnp.sqrt(catchment_area)
+    first, start = minimum_fluidization_velocity, 4.0 * jnp.sqrt(catchment_area)
+    bubbling = superficial_velocity > first
+    limit_active(~jnp.asarray(bubbling), superficial_velocity, "superficial_velocity", NO_BUBBLES)
+    U = jnp.where(bubbling, superficial_velocity, 2.0 * first)
 
     def at(z: Any) -> tuple[Any, Any, Any, Any]:
         bubble = bubble_diameter_darton(U, first, z, catchment_area, gravity)
@@ -78,7 +83,9 @@ def two_phase_bed(
         expanded, units = expanded + step, units + step * exchange / rise
     bubble, rise, share, exchange = at(height / 2.0)
     bypass = jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-units)
-    return TwoPhaseBed(bubble, rise, share, expanded, exchange, units, bypass)
+    found = TwoPhaseBed(bubble, rise, share, expanded, exchange, units, bypass)
+    none = TwoPhaseBed(0.0, 0.0, 0.0, height, 0.0, 0.0, 0.0)
+    return TwoPhaseBed(*(jnp.where(bubbling, some, rest) for some, rest in zip(found, none, strict=True)))
 
 
 @formula(source="davidson1963",

@@ -20,7 +20,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     Temperature,
 )  # fmt: skip
-from granum.humid_gas.formulas.state import GasVaporPair
+from granum.humid_gas.formulas.state import GasVaporPair, within_pair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; keey1978"
@@ -55,6 +55,7 @@ class Duty(NamedTuple):
 def gas_at(pair: Any, T: Any, w: Any, P: Any) -> tuple[rel.Gas, Any]:
     """State and enthalpy at temperature and humidity ratio, fog included."""
     T, w, P = (jnp.asarray(x, dtype=float) for x in (T, w, P))
+    within_pair(pair, P)
     gas = rel.settled(pair, T, P, pair.fraction(w))
     return gas, rel.enthalpy(pair, gas, P)
 
@@ -62,6 +63,7 @@ def gas_at(pair: Any, T: Any, w: Any, P: Any) -> tuple[rel.Gas, Any]:
 def after(pair: Any, w: Any, h: Any, P: Any) -> Process:
     """The state of humidity ratio w and enthalpy h."""
     w, h, P = (jnp.asarray(x, dtype=float) for x in (w, h, P))
+    within_pair(pair, P)
     y = pair.fraction(w)
     T = rel.temperature_at_enthalpy(pair, P, y, h)
     gas = rel.settled(pair, T, P, y)

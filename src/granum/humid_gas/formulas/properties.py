@@ -19,7 +19,7 @@ from granum.core.kinds import (
     SpecificVolume,
     Temperature,
 )  # fmt: skip
-from granum.humid_gas.formulas.state import RANGE, GasVaporPair
+from granum.humid_gas.formulas.state import RANGE, GasVaporPair, within_pair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; wagner2002; lemmon2000; iapwsif97, eq. 30"
@@ -28,6 +28,7 @@ _WARM = {"temperature": (303.15, 363.15), "humidity_ratio": (0.002, 0.02), "pres
 
 
 def _gas(pair: GasVaporPair, T: Temperature, w: HumidityRatio, P: Pressure) -> rel.Gas:
+    within_pair(pair, P)
     return rel.settled(pair, jnp.asarray(T, dtype=float), jnp.asarray(P, dtype=float), pair.fraction(jnp.asarray(w, dtype=float)))
 
 
@@ -77,6 +78,7 @@ def humidity_ratio_saturated(
     >>> [round(humidity_ratio_saturated(temperature=t), 4) for t in ("0 degC", "10 degC", "20 degC", "30 degC")]
     [0.0038, 0.0076, 0.0147, 0.0272]
     """
+    within_pair(pair, pressure)
     y = rel.saturated_fraction(pair, jnp.asarray(temperature), pressure)
     if flags.listening():
         flags.impossible(y >= 1, temperature, "temperature", -jnp.inf, pair.boiling_temperature(jnp.asarray(pressure)), BOILS)
@@ -105,6 +107,7 @@ def dew_point_temperature(
     >>> round(dew_point_temperature(humidity_ratio=0.01) - 273.15, 1)
     14.0
     """
+    within_pair(pair, pressure)
     return rel.dew_point(pair, jnp.asarray(pressure, dtype=float), pair.fraction(jnp.asarray(humidity_ratio, dtype=float)))
 
 
@@ -115,7 +118,7 @@ def enthalpy(
     """Enthalpy per mass of dry gas, zero for dry gas and for liquid at 0 °C; fog counts as liquid or ice.
 
     >>> round(enthalpy(temperature="55 degC", humidity_ratio=0.01) / 1e3, 1)
-    81.3
+    81.4
     """
     return rel.enthalpy(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
 
@@ -187,6 +190,7 @@ def adiabatic_saturation_temperature(
     >>> round(adiabatic_saturation_temperature(temperature="150 degC", humidity_ratio=1.0) - 273.15, 1)
     87.7
     """
+    within_pair(pair, pressure)
     return rel.wet_bulb_of_total(pair, temperature, pressure, humidity_ratio, None)
 
 
@@ -212,5 +216,6 @@ def wet_bulb_temperature(
     >>> round(wet_bulb_temperature(temperature="22.2 degC", humidity_ratio=0.01) - 273.15, 1)
     17.0
     """
+    within_pair(pair, pressure)
     lewis = pair.lewis_factor() if lewis_factor is None else lewis_factor
     return rel.wet_bulb_of_total(pair, temperature, pressure, humidity_ratio, lewis)

@@ -7,20 +7,25 @@ from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import equinox as eqx
+import jax.numpy as jnp
 import numpy as np
 
 from granum.core import lab_test
-from granum.core.errors import InputError
+from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import Concentration, Distance, Length, MassFlux, PositiveNumber, Series, Speed, Time
+from granum.core.units import format_number
 from granum.estimation import Estimate, Fit, LabTest
 from granum.estimation.results import t_reach
+from granum.settling.flux import limiting_flux_underflow
 from granum.settling.kynch import kynch_height
-from granum.settling.lab_tests.curve import Curve, convex_curve, read_curve
-from granum.settling.quantities import SpecificVolume
+from granum.settling.lab_tests.curve import Curve, Tangents, convex_curve, read_curve
+from granum.settling.quantities import SpecificVolume, UnitArea
 from granum.settling.velocities import Cole, RichardsonZakiConcentration, Takacs, Vesilind
 
 RESAMPLES = 200
+FAR = 20.0  # scatter, in reading errors, of points left out beyond which a new fit with them need not be tried
+EXPLAINED = 2.0  # scatter, in reading errors, up to which a velocity law alone accounts for points taken for compression
 
 
 class FluxCurve(NamedTuple):
@@ -92,14 +97,22 @@ FUNCTIONS = {
 }  # fmt: skip
 
 
+VelocityFunction = Literal["vesilind", "richardson_zaki", "takacs", "cole"]
+
+
+def _scatter(found: Fit, points: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(found.residuals[points] ** 2)))
+
+
 @lab_test("batch_test", source="kynch1952; talmage1955; roberts1949", title="Batch settling test")
 class BatchTest(LabTest):
     """Settling curve: height of the interface against time, in a cylinder of uniform initial concentration.
 
     Zones are found without a hand: induction (left out), constant rate (AB), falling rate (BC) and compression (CD, Roberts'
-    two exponentials). The chosen velocity law is fitted to the curve itself, by Kynch's closed solution, up to the compression
-    point. ``flux_curve`` gives the tangent construction with a band. One curve knows its law only from the initial concentration
-    to that at the compression point.
+    two exponentials, where the velocity law alone does not account for the later points too). The chosen velocity law is fitted to
+    the curve itself, by Kynch's closed solution, up to the compression point. With an underflow the unit area comes both ways: from
+    the law (Coe and Clevenger's greatest) and from the curve (Talmage and Fitch). ``flux_curve`` gives the tangent construction
+    with a band. One curve knows its law only from the initial concentration to that at the compression point.
     """
 
     time: Annotated[Time, Series("points")]
@@ -107,12 +120,12 @@ class BatchTest(LabTest):
     initial_concentration: Concentration
     initial_height: Length | None = None
     underflow_concentration: Concentration | None = None
-    velocity_function: Literal["vesilind", "richardson_zaki", "takacs", "cole"] = "vesilind"
+    velocity_function: VelocityFunction = "vesilind"
 
     estimates: ClassVar = {
         "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume, "takacs_velocity": Speed,
         "takacs_hindered_coefficient": SpecificVolume, "reference_velocity": Speed, "settling_exponent": PositiveNumber,
-        "unhindered_velocity": Speed, "packed_concentration": Concentration,
+        "unhindered_velocity": Speed, "packed_concentration": Concentration, "unit_area_coe_clevenger": UnitArea,
     }  # fmt: skip
     axes: ClassVar = {"time": Time, "interface_height": Distance}
     least_points: ClassVar = 5
@@ -122,8 +135,13 @@ class BatchTest(LabTest):
             raise InputError(_("The initial concentration must be greater than zero: it turns heights into concentrations."))
 
     def curve(self) -> Curve:
-        """The cleaned curve with its zones."""
+        """The cleaned curve with its zones by shape alone; ``zones`` asks the velocity law whether there is compression."""
         return read_curve(self.time, self.interface_height, self.initial_height)
+
+    def zones(self) -> Curve:
+        """The cleaned curve with its zones; compression only where the velocity law does not account for the later points."""
+        c = self.curve()
+        return c if c.compression is None else self._zones_and_law()[0]
 
     def tangents(self, curve: Curve | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Concentrations and settling velocities by Kynch's tangents, from the constant rate on."""
@@ -139,41 +157,95 @@ class BatchTest(LabTest):
         """Kynch's flux curve with a 95 % band, from curves with their residuals drawn anew."""
         c = self.curve()
         C, v = self.tangents(c)
-        rng = np.random.default_rng(seed)
-        residual = rng.choice([-1.0, 1.0], (RESAMPLES, c.time.size)) * np.maximum(np.abs(c.height - c.convex.height), 0.3 * c.noise)
         drawn = []
-        for shift in residual:
-            found = convex_curve(c.time, c.convex.height + shift).tangents
+        for found in self._redrawn(c, seed):
             at = self.initial_concentration * c.initial_height / found.intercept_height
             drawn.append(np.exp(np.interp(C, at, np.log(found.settling_velocity))))
         low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
         return FluxCurve(C, v, np.minimum(low, v), np.maximum(high, v), C * v)
 
+    @staticmethod
+    def _redrawn(c: Curve, seed: int = 0) -> list[Tangents]:
+        """Tangents of curves with their residuals drawn anew."""
+        rng = np.random.default_rng(seed)
+        residual = rng.choice([-1.0, 1.0], (RESAMPLES, c.time.size)) * np.maximum(np.abs(c.height - c.convex.height), 0.3 * c.noise)
+        return [convex_curve(c.time, c.convex.height + shift).tangents for shift in residual]
+
     def fit(self) -> Fit:
-        """Parameters of the velocity law; zones, compression point and unit area as derived quantities."""
-        c = self.curve()
-        function = FUNCTIONS[self.velocity_function]
-        C, v = self.tangents(c)
-        last = c.time.size if c.compression is None else c.compression.index + 1
-        kept = np.arange(c.time.size) < last
+        """Parameters of the velocity law; zones, compression point and unit areas as derived quantities."""
+        c, found = self._zones_and_law()
         flags = [self.note(word, sentence) for word, sentence in c.said]
         if c.compression is None:
             flags.append(self.note("no compression point", _("The curve shows no separate compression zone: all points were fitted.")))
         else:
             flags.append(self.note("compression left out", _("Points after the compression point are outside Kynch's theory: not fitted.")))
+        if (miss := found.statistics["rmse"]) > EXPLAINED * c.noise:
+            flags.append(
+                self.note(
+                    "law misses the curve",
+                    _(
+                        "The velocity law misses the fitted points by {miss} mm (root mean square), more than the reading error: its "
+                        "zones and unit area are doubtful. Try another velocity_function."
+                    ).format(miss=format_number(1e3 * miss)),
+                )
+            )
+        derived = {**found.derived, **self._derived(c)}
+        return replace(found, derived=derived, flags=flags + found.flags + self._disagreement(derived))
+
+    def _zones_and_law(self) -> tuple[Curve, Fit]:
+        """Two exponentials follow any falling-rate curve better than one: the law fitted to all points decides on compression."""
+        c = self.curve()
+        found = self._law(c)
+        if c.compression is None or _scatter(found, ~found.kept) > FAR * c.noise:
+            return c, found
+        alone = replace(c, compression=None)
+        try:
+            whole = self._law(alone, found.values)
+        except ConvergenceError:
+            return c, found
+        return (alone, whole) if _scatter(whole, ~found.kept) <= EXPLAINED * c.noise else (c, found)
+
+    def _law(self, c: Curve, start: Mapping[str, float] | None = None) -> Fit:
+        """The velocity law fitted to the curve up to its compression point."""
+        function = FUNCTIONS[self.velocity_function]
+        C, v = self.tangents(c)
+        last = c.time.size if c.compression is None else c.compression.index + 1
         usable = C[0] * 1.0001 >= C if last == c.constant_rate.points else self._densest(c) >= C
+        C0 = float(self.initial_concentration)
 
         def model(p: Mapping[str, Any], t: Any) -> Any:
-            law = function.build(p)
-            C0 = float(self.initial_concentration)
-            return kynch_height(t, law, C0, c.initial_height, function.inflection(p), function.densest(p, C0))
+            return kynch_height(t, function.build(p), C0, c.initial_height, function.inflection(p), function.densest(p, C0))
 
-        start = function.start(C[usable], v[usable])
+        def area(p: Mapping[str, Any]) -> dict[str, Any]:
+            limit = limiting_flux_underflow(jnp.asarray(float(self.underflow_concentration)), jnp.asarray(C0), function.build(p))  # type: ignore[arg-type]
+            return {"unit_area_coe_clevenger": 1.0 / limit.limiting_flux}
+
         bounds = dict(function.bounds)
         if "packed_concentration" in bounds:
-            bounds["packed_concentration"] = (1.02 * float(self.initial_concentration), np.inf)
-        found = self.fitted(model, start, c.time, c.height, keep=kept, bounds=bounds, flags=flags)
-        return replace(found, derived={**found.derived, **self._derived(c)})
+            bounds["packed_concentration"] = (1.02 * C0, np.inf)
+        return self.fitted(
+            model, start or function.start(C[usable], v[usable]), c.time, c.height, keep=np.arange(c.time.size) < last, bounds=bounds,
+            derived=area if self.underflow_concentration is not None else None,
+        )  # fmt: skip
+
+    def _disagreement(self, derived: Mapping[str, Estimate]) -> list[dict[str, Any]]:
+        """A word where the two unit areas lie farther apart than their intervals reach."""
+        if self.underflow_concentration is None:
+            return []
+        law, curve = derived["unit_area_coe_clevenger"], derived["unit_area_talmage_fitch"]
+        apart = max(law.interval_95[0] - curve.interval_95[1], curve.interval_95[0] - law.interval_95[1])
+        if apart <= 0:
+            return []
+        return [
+            self.note(
+                "unit areas disagree",
+                _(
+                    "The velocity law asks for {law} m²·s/kg, the tangent to the curve (Talmage and Fitch) for {curve}: they differ by more "
+                    "than their intervals. Size by the greater one, or test at a concentration nearer to the underflow."
+                ).format(law=format_number(law.value), curve=format_number(curve.value)),
+                "unit_area_talmage_fitch",
+            )
+        ]
 
     def _densest(self, c: Curve) -> float:
         """Greatest concentration at the interface before compression."""
@@ -215,15 +287,22 @@ class BatchTest(LabTest):
                     underflow=float(self.underflow_concentration), initial=float(self.initial_concentration)  # type: ignore[arg-type]
                 )
             )  # fmt: skip
-        middle, cut, velocity = c.convex.tangents
-        if c.compression is not None and height < c.compression.height:
-            i = int(np.argmin(np.abs(middle - c.compression.time)))
-        else:  # the tangent that reaches the underflow height last, of all layers that are thinner than the underflow
-            i = int(np.argmax((cut - height) / velocity * (cut > height)))
-        time = (cut[i] - height) / velocity[i]
+
+        def meets(tangents: Tangents) -> float:
+            middle, cut, velocity = tangents
+            if c.compression is not None and height < c.compression.height:
+                i = int(np.argmin(np.abs(middle - c.compression.time)))
+            else:  # the tangent that reaches the underflow height last, of all layers that are thinner than the underflow
+                i = int(np.argmax((cut - height) / velocity * (cut > height)))
+            return float((cut[i] - height) / velocity[i])
+
+        time, drawn = meets(c.convex.tangents), [meets(tangents) for tangents in self._redrawn(c)]
+        low, high = np.quantile(drawn, [0.025, 0.975])
+        estimate = Estimate(time, "s", float(np.std(drawn)), (min(float(low), time), max(float(high), time)))
+        per_mass = [x / mass for x in (time, estimate.standard_error, *estimate.interval_95)]
         return {
-            "underflow_time": Estimate(float(time), "s"),
-            "unit_area_talmage_fitch": Estimate(float(time) / mass, "m^2*s/kg"),
+            "underflow_time": estimate,
+            "unit_area_talmage_fitch": Estimate(per_mass[0], "m^2*s/kg", per_mass[1], (per_mass[2], per_mass[3])),
         }
 
 

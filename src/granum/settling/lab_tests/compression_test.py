@@ -60,7 +60,8 @@ class CompressionTest(LabTest):
         c = before.curve()
         first = before.fit()
         final = float(self.initial_concentration) * c.initial_height / float(c.height[-1])
-        critical = first.derived["compression_concentration"].value if c.compression else 0.7 * final
+        found = first.derived.get("compression_concentration")
+        critical = found.value if found else 0.7 * final
         buoyant = 9.80665 * (1.0 - float(self.liquid_density) / float(self.solid_density))
         weight = buoyant * float(self.initial_concentration) * c.initial_height
         start = {**first.values, "critical_concentration": min(critical, 0.9 * final), "stress_scale": max(weight, 1e-6)}
