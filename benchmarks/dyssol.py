@@ -68,6 +68,7 @@ def sieve_mill(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tup
 
     def mill(unit: str) -> BallMill:
         number = {k: data["UNIT_PARAMETER", unit, k][0] for k in ("S1", "S2", "B1", "B2", "B3")}
+        # The program reads its laws at class means and counts fragments down from there: laws of single sizes, the default here.
         # The script's laws are powers of volume: a third of the exponents of size.
         selection = AustinSelection(1.0, 3 * number["S2"], reference_size=(6 * number["S1"] / np.pi) ** (1 / 3))
         return BallMill(selection, AustinBreakage(number["B1"], 3 * number["B3"], 3 * number["B2"]) if number["B2"] > number["B3"] else

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 from scipy.linalg import inv
 
-from granum.cases.reading import read
+from granum.cases.reading import read, read_text
 from granum.comminution.breakage import AustinBreakage, AustinSelection
 from granum.comminution.equipment.mills import BallMill, BondMill, ConeCrusher
 from granum.comminution.equipment.screens import DoubleDeckScreen, Screen, TripleDeckScreen, size_passing
 from granum.comminution.formulas.screening import circulating_load, screening_effectiveness
 from granum.comminution.population import PlugFlow, batch_operator, rate_matrix
 from granum.core.errors import InputError
-from granum.particles.partition import IdealPartition, LogisticPartition
+from granum.particles.partition import IdealPartition, LogisticPartition, RosinRammlerPartition
 from granum.streams.audit import closure
 
 CIRCUIT = Path(__file__).parents[2] / "examples" / "grinding-circuit" / "circuit.toml"
@@ -138,6 +138,31 @@ def test_closed_circuit_equals_an_independent_calculation(run) -> None:
         load = stays * (small @ small @ inv(np.eye(n) - a * 0.7 * tau) @ into)
     np.testing.assert_allclose(run.streams["returned"].solid_by_size, load, rtol=1e-5, atol=1e-9)
     assert float(run.streams["product"].solid_flow) == pytest.approx(fresh.sum(), rel=1e-9)
+
+
+def test_circulating_load_does_not_depend_on_the_classes() -> None:
+    """Laws of single sizes: the load of the example with 3 t converges with the square of the class width, whatever the classes."""
+
+    def load(classes: int) -> float:
+        edges = np.geomspace(8e-6, 4.096e-3, classes + 1)
+        a = np.asarray(rate_matrix(edges, AustinSelection(0.01, 0.9), AustinBreakage(0.5, 0.8, 4.0)))
+        fresh = np.diff(1.0 - np.exp(-((edges / 1.2e-3) ** 2.0)), prepend=0.0)[1:] * 20.0 / 3.6
+        back = np.asarray(RosinRammlerPartition(3e-4, 4.0).over(edges[:-1], edges[1:]))
+        returned = np.zeros(classes)
+        for _ in range(200):
+            tau = 3000.0 / (fresh + returned).sum()
+            small = inv(np.eye(classes) - a * 0.15 * tau)
+            returned = back * (small @ small @ inv(np.eye(classes) - a * 0.7 * tau) @ (fresh + returned))
+        return returned.sum() / fresh.sum()
+
+    loads = [load(n) for n in (18, 36, 72)]
+    assert loads[0] == pytest.approx(loads[2], rel=0.01)
+    assert 3.0 < (loads[0] - loads[1]) / (loads[1] - loads[2]) < 10.0
+
+
+def test_constants_of_root_two_classes_are_refused_on_others() -> None:
+    with pytest.raises(InputError, match=r"ratio 1\.414; here two limits have 1\.189"):
+        read_text(CIRCUIT.read_text().replace("= 18 ", "= 36 ")).solve()
 
 
 def test_circulating_load_of_the_circuit_by_sieve_and_by_balance(run) -> None:

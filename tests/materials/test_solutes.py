@@ -56,6 +56,55 @@ def test_every_branch_follows_the_table_it_was_fitted_to() -> None:
                 np.testing.assert_allclose(branch.value(t + 273.15), percent / (100 - percent), rtol=scatter, err_msg=name)
 
 
+def test_potash_alum_and_soda_follow_the_print_and_no_curve_runs_away() -> None:
+    """Perry's table 2-120: 71.0 and 109.0 g/100 g at 80 and 90 °C; CRC: 17.9 and 23.5 % of soda at 20 and 25 °C."""
+    alum, soda = m.solute("potash alum"), m.solute("sodium carbonate")
+    np.testing.assert_allclose(alum.solubility(np.array([353.15, 363.15])), [0.710, 1.090], rtol=1e-3)
+    np.testing.assert_allclose(soda.solubility(np.array([293.15, 298.15])), [0.179 / 0.821, 0.235 / 0.765], rtol=1e-9)
+    for name in m.names("solute"):
+        system = m.solute(name)
+        for branch in system.branches:
+            low, high = branch.law.low, branch.law.high
+            for end, away in ((low, -40.0), (high, 40.0)):  # beyond the data ln C* is a straight line of 1/T, tangent to the curve
+                u = 1.0 / np.array([end, end + 0.5 * away, end + away])
+                steps = np.diff(np.log(np.asarray(branch.value(1.0 / u)))) / np.diff(u)
+                assert steps[0] == pytest.approx(steps[1], rel=1e-6), name
+                inner = end - 1e-3 * np.sign(away)
+                tangent = np.log(float(branch.value(end)) / float(branch.value(inner))) / (1.0 / end - 1.0 / inner)
+                assert steps[0] == pytest.approx(tangent, rel=2e-3, abs=1.0), name
+
+
+def test_misfit_of_a_curve_is_told_with_the_solubility_and_nothing_else_is_flagged() -> None:
+    found = m.solubility.evaluate("30 degC", "adipic acid")
+    t, percent = np.array([[5, 0.9891], [10, 1.1483], [15, 1.5523], [20, 1.9064], [25, 2.4372], [30, 3.0092], [35, 3.7349], [40, 4.8096], [45.5, 6.4517],
+                           [50, 8.1361], [55, 11.1142], [60, 15.0361], [65, 16.8489]]).T  # fmt: skip
+    y = np.exp(-408.6309791 + 14343.44351 / (t + 273.15) + 62.62307255 * np.log(t + 273.15))
+    rms = np.sqrt(np.mean((y / (percent / (100.0 - percent)) - 1.0) ** 2))
+    assert float(found.value.solubility_misfit) == pytest.approx(rms, rel=1e-6)
+    assert float(m.solubility("30 degC", "potassium aluminum sulfate").solubility_misfit) < 1e-9
+    assert not m.solubility.evaluate("80 degC", "potassium nitrate").notices
+    assert not m.solubility.evaluate("30 degC", "potash alum").notices
+    notices = m.solubility.evaluate("99 degC", "potash alum").notices
+    assert len(notices) == 1
+    assert "= 99 °C" in notices[0]["message"]
+    assert "[0 … 90 °C]" in notices[0]["message"]
+    nitrate = m.solubility("20 degC", "potassium nitrate")  # 24.2 % by mass in the CRC handbook
+    assert nitrate.solute_molality == pytest.approx(0.242 / 0.758 / 0.1011032, rel=3e-3)
+    assert nitrate.solute_mole_fraction == pytest.approx(1.0 / (1.0 + 0.758 / 0.242 * 0.1011032 / 0.0180153), rel=3e-3)
+
+
+def test_a_table_of_ones_own_is_interpolated_and_a_falling_one_is_refused(tmp_path) -> None:
+    branch = '[[solute.own.branches]]\ncrystal = "potassium nitrate"\nstable = [273.15, 373.15]\nbasis = "kg anhydrous per kg solvent"\n'
+    text = f'[solute.own]\nmolar_mass = 0.1\n{branch}form = "table"\nrange = [273.15, 333.15]\nsource = "haynes2014"\ntable = [[0, 10], [30, 20], [60, 40]]\n'
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    m.load(path)
+    np.testing.assert_allclose(m.solute("own").solubility(np.array([273.15, 303.15, 333.15])), [1 / 9, 0.25, 2 / 3], rtol=1e-9)
+    path.write_text(text.replace("own", "other").replace("[30, 20]", "[70, 20]"))
+    with pytest.raises(InputError, match="rising temperatures"):
+        m.load(path)
+
+
 def test_at_least_sixty_systems_with_branches_that_meet() -> None:
     assert len(m.names("solute")) >= 60
     for name in m.names("solute"):

@@ -27,7 +27,8 @@ class SelectionFunction(eqx.Module):
 class AustinSelection(SelectionFunction):
     """Power of the size, with a fall-off for particles too large for the grinding media.
 
-    ``x_0`` is 1 mm by custom. Without a largest size well ground there is no fall-off. The size of a class is its upper limit.
+    ``x_0`` is 1 mm by custom. Without a largest size well ground there is no fall-off. The rate is that of a single size; where the convention of the
+    mill is ``root_two``, as that of published constants, it is that of a root-two class by its upper limit.
 
     >>> round(float(AustinSelection(selection_rate="0.6 1/min", selection_exponent=0.8)(1e-3)) * 60, 6)
     0.6
@@ -51,7 +52,7 @@ class BreakageFunction(eqx.Module):
 
     @abstractmethod
     def __call__(self, size_ratio: Fraction) -> Fraction:
-        """Mass fraction of the fragments below a size, by that size over the lower limit of the parent's class."""
+        """Mass fraction of the fragments below a size, by that size over the parent's (lower limit of its class in the convention ``root_two``)."""
 
 
 @law("breakage_function", name="austin_breakage", source="austin1984, ch. 4", title="Austin's breakage function",
@@ -59,7 +60,8 @@ class BreakageFunction(eqx.Module):
 class AustinBreakage(BreakageFunction):
     """Two power laws: fines with the exponent gamma, the coarse rest with beta; normalized, the same for every parent size.
 
-    Fragments leave the class of their parent, so the ratio is taken to the lower limit of that class (root-two classes in the source).
+    The ratio is taken to the size of the parent; where the convention of the mill is ``root_two``, as in the source, to the lower limit of its
+    root-two class, which all fragments leave.
 
     >>> round(float(AustinBreakage(fines_share=0.6, fines_exponent=0.9, coarse_exponent=4.0)(0.5)), 4)
     0.3465

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import jax.scipy.linalg as linalg
 import numpy as np
 
-from granum.comminution.population import rate_matrix
+from granum.comminution.population import Convention, rate_matrix
 from granum.core import procedure
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -47,11 +47,13 @@ def mill_response(
     selection: Annotated[Any, Law("selection_function")], breakage: Annotated[Any, Law("breakage_function")],
     time: Annotated[Time, Series("times")], holdup_mass: Mass = 0.0, holdup_fractions: Annotated[Fractions, Series("classes")] | None = None,
     separation: Annotated[Any, Law("partition_curve")] | None = None,
+    breakage_convention: Convention = "continuous",
 ) -> MillResponse:  # fmt: skip
     """A well-mixed mill after its feed has changed: holdup, product, the size that 80 % of it passes, and the circulating load over time.
 
     The mill holds at the start a mass of a size table (by default that of the feed) and is then fed steadily. It discharges each class in proportion to
     what it holds; a partition curve returns the coarse part to the mill, without delay. The holdup is free: it grows until breakage keeps pace.
+    The laws are those of single sizes unless the convention is that of root-two classes (see ``ball_mill``).
 
     >>> from granum.comminution.breakage import AustinBreakage, AustinSelection
     >>> found = mill_response("0, 1, 2, 4 mm", "0, 0, 100 %", "1 kg/s", "0.01 1/s", AustinSelection(0.1, 1.0), AustinBreakage(1.0, 1.0, 4.0),
@@ -65,7 +67,7 @@ def mill_response(
     if np.any(np.diff(np.asarray(times)) < 0.0):
         raise InputError(_("Times must increase."), name="time")
     returned = jnp.zeros(edges.size - 1) if separation is None else separation.over(edges[:-1], edges[1:])
-    matrix = perfect_mill(rate_matrix(edges, selection, breakage), discharge_rate, returned)
+    matrix = perfect_mill(rate_matrix(feed.edges, selection, breakage, breakage_convention), discharge_rate, returned)
     start, inflow = holdup_mass * jnp.asarray(inside), mass_flow * jnp.asarray(feed.fractions)
     held = jnp.maximum(jax.vmap(lambda t: linear_response(matrix, inflow, start, t))(times), 0.0)
     product, back = discharge_rate * held * (1.0 - returned), discharge_rate * held * returned

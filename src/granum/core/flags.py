@@ -254,15 +254,16 @@ def sentence(row: dict[str, Any]) -> str:
 
 def _units_of(row: dict[str, Any]) -> tuple[Any, str]:
     """How to print the numbers of a flag, and their unit: those of the card's parameter where the flag is about one."""
+    from granum.core.kinds import KINDS
     from granum.core.registry import find
     from granum.core.units import best_unit, format_number, from_si, pretty_unit
 
     try:
-        parameter = find(row["card"]).card.parameter(row["name"])
-    except (InputError, StopIteration):  # a number computed inside the body, or a card that is not registered
-        return format_number, ""
-    if parameter.kind is None:
+        kind = find(row["card"]).card.parameter(row["name"]).kind
+    except (InputError, StopIteration):  # a number computed inside the body, or a material: the kind that bears the name, if one does
+        kind = KINDS.get("".join(word.capitalize() for word in row["name"].split("_")))
+    if kind is None:
         return format_number, ""
     numbers = [row[end] for end in ("worst", "low", "high") if row[end] is not None and np.isfinite(row[end])]
-    unit = best_unit(max(map(abs, numbers), default=0.0), parameter.kind)
-    return lambda value: format_number(float(from_si(value, unit, parameter.kind))), f" {pretty_unit(unit)}" if pretty_unit(unit) else ""
+    unit = best_unit(max(map(abs, numbers), default=0.0), kind)
+    return lambda value: format_number(float(from_si(value, unit, kind))), f" {pretty_unit(unit)}" if pretty_unit(unit) else ""

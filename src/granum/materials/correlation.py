@@ -19,6 +19,7 @@ from granum.core.kinds import MassRatio as _MassRatio
 from granum.core.kinds import Pressure as _Pressure
 from granum.core.kinds import Temperature as _Temperature
 from granum.core.parameters import Parameter, convert
+from granum.numerics.interpolation import MonotoneCubic, slopes_steffen
 
 
 def _reader(name: str, annotation: Any) -> Callable[[Any], Any]:
@@ -67,8 +68,7 @@ class Correlation(eqx.Module):
 
     def check_range(self, temperature: Any) -> None:
         """Flag the temperatures outside the fitted range, if anybody collects flags."""
-        mask = (temperature < self.low) | (temperature > self.high)
-        flags.record(flags.EXTRAPOLATED, mask, temperature, "temperature", self.owner, self.low, self.high, self.source)
+        flag_outside(self, temperature)
 
     def polynomial(self, low: Any, high: Any, degree: int = 2) -> tuple[float, ...]:
         """Least-squares polynomial in degrees Celsius between two temperatures, lowest power first: what stream species take."""
@@ -77,6 +77,42 @@ class Correlation(eqx.Module):
         T = ends.mean() + 0.5 * (ends[1] - ends[0]) * nodes
         fitted = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree)
         return tuple(float(c) for c in fitted.convert().coef)
+
+
+class Tabulated(eqx.Module):
+    """A positive property by a monotone cubic through a table, ln y over 1/T; a straight line there (van 't Hoff) beyond its ends.
+
+    ``low``, ``high``, ``owner`` and ``source`` as of ``Correlation``.
+    """
+
+    points: tuple[tuple[float, float, float], ...] = eqx.field(static=True)
+    """-1/T, ln y and its slope, by rising temperature."""
+    low: float = eqx.field(static=True)
+    high: float = eqx.field(static=True)
+    owner: str = eqx.field(static=True)
+    source: str = eqx.field(static=True)
+
+    @classmethod
+    def through(cls, temperatures: Any, values: Any, *about: Any) -> Tabulated:
+        """The curve through values at rising temperatures, K; then low, high, owner and source."""
+        curve = MonotoneCubic.through(-1.0 / np.asarray(temperatures), np.log(values), slopes_steffen)
+        columns = (np.asarray(column).tolist() for column in (curve.points, curve.values, curve.slopes))
+        return cls(tuple(zip(*columns, strict=True)), *about)
+
+    def value(self, temperature: Any) -> Any:
+        """The value without looking at the range."""
+        curve = MonotoneCubic(*jnp.asarray(self.points).T)
+        return jnp.exp(curve(-1.0 / jnp.asarray(temperature, dtype=float))[0])
+
+    def check_range(self, temperature: Any) -> None:
+        """As of ``Correlation``."""
+        flag_outside(self, temperature)
+
+
+def flag_outside(law: Correlation | Tabulated, temperature: Any) -> None:
+    """Flag the temperatures outside the range of a law, if anybody collects flags."""
+    mask = (temperature < law.low) | (temperature > law.high)
+    flags.record(flags.EXTRAPOLATED, mask, temperature, "temperature", law.owner, law.low, law.high, law.source)
 
 
 class Missing(eqx.Module):

@@ -19,6 +19,8 @@ from pathlib import Path
 from typing import Any
 
 import jax
+import jax.numpy as jnp
+import numpy as np
 
 from granum.core import flags, registry, units
 from granum.core.constants import ZERO_CELSIUS
@@ -26,7 +28,7 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.formulas import Formula
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
-from granum.materials.correlation import Correlation, Missing
+from granum.materials.correlation import Correlation, Missing, Tabulated
 from granum.materials.fluids import Combustion, Fluid
 from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
 from granum.materials.salts import Salt
@@ -293,11 +295,32 @@ def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid) -
     whole = f"{owner}: {_('solubility')} ({entry.crystal})"
     if entry.basis not in BASES:
         raise unknown_name(_("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole))
-    law = Correlation(_form(entry.form, whole), tuple(entry.coefficients), entry.factor, *entry.range, whole, entry.source)
+    if entry.form == "table":
+        celsius, ratios = _printed(entry.table)
+        with jax.ensure_compile_time_eval():
+            law = Tabulated.through(celsius + ZERO_CELSIUS, ratios, *entry.range, whole, entry.source)
+    else:
+        law = Correlation(_form(entry.form, whole), tuple(entry.coefficients or ()), entry.factor, *entry.range, whole, entry.source)
     heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass  # released when it crystallizes
-    return Branch(crystal=solid(entry.crystal), solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
-                  stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat, heat_given=entry.heat_of_solution is not None,
-                  law=law, basis=entry.basis, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass))  # fmt: skip
+    branch = Branch(crystal=solid(entry.crystal), solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
+                    stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat, heat_given=entry.heat_of_solution is not None,
+                    law=law, basis=entry.basis, misfit=nan, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass), _ends=(0.0, 0.0))  # fmt: skip
+    ends = tuple(_constant(jax.grad(lambda u: jnp.log(branch.inside(1.0 / u))), 1.0 / end) for end in entry.range)
+    return replace(branch, _ends=ends, misfit=_constant(_misfit, branch, entry.table))
+
+
+def _printed(table: list[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
+    """Temperatures in °C and kg of anhydrous solute per kg of solvent."""
+    celsius, percent = np.array(table).T
+    return celsius, percent / (100.0 - percent)
+
+
+def _misfit(branch: Branch, table: list[tuple[float, float]]) -> Any:
+    """Root mean square of the relative deviations of a curve from the points it was drawn through; zero for the formula of a source."""
+    if not table:
+        return 0.0
+    celsius, ratios = _printed(table)
+    return jnp.sqrt(jnp.mean((branch.inside(celsius + ZERO_CELSIUS) / ratios - 1.0) ** 2))
 
 
 @cache

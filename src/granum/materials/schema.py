@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -91,14 +92,25 @@ class BranchEntry(_Strict):
     basis: str
     factor: float = 1.0
     form: str
-    coefficients: list[float]
+    coefficients: list[float] | None = None
     range: tuple[float, float]
     source: str
     heat_of_solution: float | None = None
     """J per mol of anhydrous solute dissolved at 25 °C, negative when heat is released on dissolving."""
     heat_source: str = ""
     table: list[tuple[float, float]] = []
-    """Printed values the coefficients were fitted to: temperature in °C and value in the basis and factor given."""
+    """Printed values: temperature in °C, rising, and percent by mass of anhydrous solute. The form ``table`` goes through them."""
+
+    @model_validator(mode="after")
+    def _curve(self) -> BranchEntry:
+        rising = all(a[0] < b[0] for a, b in pairwise(self.table))
+        if not rising or any(not 0.0 < percent < 100.0 for _t, percent in self.table):
+            raise ValueError("'table' has rising temperatures in °C and percents by mass between 0 and 100")
+        if self.form == "table" and (len(self.table) < 3 or self.coefficients is not None or self.basis != "kg anhydrous per kg solvent"):
+            raise ValueError(
+                "the form 'table' needs a 'table' of three points or more, the basis 'kg anhydrous per kg solvent' and no 'coefficients'"
+            )
+        return self
 
 
 class SoluteEntry(_Named):

@@ -17,7 +17,7 @@ from granum.core import flags
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError, unknown_name
 from granum.core.i18n import _, current_language
-from granum.materials.correlation import Correlation, Missing, as_solute_ratio, as_temperature
+from granum.materials.correlation import Correlation, Missing, Tabulated, as_solute_ratio, as_temperature
 from granum.materials.fluids import Fluid
 from granum.materials.solids import Solid
 from granum.numerics import find_root
@@ -64,6 +64,7 @@ class Branch(eqx.Module):
     solvent_ratio: kg of solvent bound in the crystal per kg of anhydrous solute; zero without solvate.
     stable_from, stable_to: temperatures between which it is the stable one, K.
     heat_of_crystallization: J per kg of anhydrous solute at 25 °C, positive when heat is released; NaN when not given.
+    misfit: root mean square of the relative deviations of the curve from its own data; zero where the source gives a formula alone.
     enthalpy_of_formation: of the crystal at 0 °C by its own heat capacity, J per kg of crystal, on the scale of the solution.
     """
 
@@ -73,10 +74,13 @@ class Branch(eqx.Module):
     stable_to: float = eqx.field(static=True)
     heat_of_crystallization: float
     heat_given: bool = eqx.field(static=True)
-    law: Correlation
+    law: Correlation | Tabulated
     basis: str = eqx.field(static=True)
+    misfit: float
     enthalpy_of_formation: float
     _masses: tuple[float, float] = eqx.field(static=True)
+    _ends: tuple[float, float]
+    """Slopes d ln C*/d(1/T) at both ends of the range, K."""
 
     @property
     def hydrate_ratio(self) -> float:
@@ -90,7 +94,14 @@ class Branch(eqx.Module):
         return self.value(T)
 
     def value(self, temperature: Any) -> Any:
-        """The solubility without looking at the range."""
+        """The solubility without flags; beyond the range a straight line of ln C* over 1/T (van 't Hoff), so that no fit runs away."""
+        T = jnp.asarray(temperature, dtype=float)
+        low, high = self.law.low, self.law.high
+        colder, warmer = jnp.where(low > T, 1.0 / T - 1.0 / low, 0.0), jnp.where(high < T, 1.0 / T - 1.0 / high, 0.0)
+        return self.inside(jnp.clip(T, low, high)) * jnp.exp(self._ends[0] * colder + self._ends[1] * warmer)
+
+    def inside(self, temperature: Any) -> Any:
+        """The solubility by its law, within the range."""
         return BASES[self.basis](self.law.value(temperature), self.solvent_ratio, *self._masses)
 
 
@@ -150,6 +161,15 @@ class SoluteSystem(eqx.Module):
         """Saturation, kg of anhydrous solute per kg of solvent; over the stable crystal, or over a named one."""
         T = as_temperature(temperature)
         return self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
+
+    @property
+    def data_range(self) -> tuple[float, float]:
+        """Lowest and highest temperature of the solubility data, K."""
+        return self.branches[0].law.low, self.branches[-1].law.high
+
+    def solubility_misfit(self, temperature: Any) -> Any:
+        """Root mean square of the relative deviations of the curve of the stable crystal from its own data."""
+        return self._select(as_temperature(temperature), lambda b, t: b.misfit + 0.0 * t)
 
     def hydrate_ratio(self, temperature: Any) -> Any:
         """kg of the stable crystal per kg of anhydrous solute in it."""

@@ -11,7 +11,7 @@ import jax.scipy.linalg as linalg
 from granum.comminution.equipment.screens import size_passing
 from granum.comminution.formulas.energy import product_size_bond
 from granum.comminution.kinds import WorkIndex
-from granum.comminution.population import TanksInSeries, batch_operator, fragments, rate_matrix
+from granum.comminution.population import Convention, TanksInSeries, batch_operator, fragments, rate_matrix
 from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -47,6 +47,9 @@ class BallMill(Unit, Dynamic):
 
     The mean residence time is the mass of solid in the mill over the feed of solid. The shaft power heats the product; it does not
     set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Batch grinding is plug flow.
+
+    The laws are those of single sizes (``continuous``) unless the convention is ``root_two``, which most published constants of Austin's laws
+    have: rates of root-two classes by their upper limit, fragments measured from their lower limit.
     """
 
     selection: Annotated[Any, Law("selection_function")]
@@ -54,12 +57,16 @@ class BallMill(Unit, Dynamic):
     holdup_mass: Mass
     mixing: Annotated[Any, Law("residence_time_law")] = TanksInSeries(1)
     shaft_power: Annotated[Power, Within(0.0)] = 0.0
+    breakage_convention: Convention = "continuous"
 
     def _residence_time(self, feed: Stream) -> Any:
         return self.holdup_mass / jnp.maximum(feed.solid_flow, _TINY)
 
+    def _matrix(self, mixture: Any) -> Any:
+        return rate_matrix(mixture.edges, self.selection, self.breakage, self.breakage_convention)
+
     def __call__(self, feed: Stream) -> Ground:
-        matrix = rate_matrix(feed.mixture.edges, self.selection, self.breakage)
+        matrix = self._matrix(feed.mixture)
         ground = feed.regraded(self.mixing.operator(matrix, self._residence_time(feed)))
         return Ground(ground.heated(self.shaft_power), jnp.asarray(self.shaft_power))
 
@@ -82,7 +89,7 @@ class BallMill(Unit, Dynamic):
         return jnp.sum(state)
 
     def prepare(self, mixture: Any, step: Any) -> Any:
-        matrix = rate_matrix(mixture.edges, self.selection, self.breakage)
+        matrix = self._matrix(mixture)
         return matrix, batch_operator(matrix, step)
 
     def advance(
@@ -169,7 +176,8 @@ class BondMill(Unit):
 class ConeCrusher(Unit):
     """Whiten's crusher: particles are classified, those nipped are broken and classified again, until they pass.
 
-    The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is kept.
+    The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is kept. What a breakage function means
+    is said by the convention, as for ``ball_mill``.
     """
 
     always_passing_size: Length
@@ -177,6 +185,7 @@ class ConeCrusher(Unit):
     breakage: Annotated[Any, Law("breakage_function")]
     classification_exponent: PositiveNumber = 2.3
     shaft_power: Annotated[Power, Within(0.0)] = 0.0
+    breakage_convention: Convention = "continuous"
 
     def __check_init__(self) -> None:
         low, high = self.always_passing_size, self.always_broken_size
@@ -191,7 +200,7 @@ class ConeCrusher(Unit):
         edges = jnp.asarray(feed.mixture.edges)
         chance = WhitenClassification(self.always_passing_size, self.always_broken_size, self.classification_exponent)
         c = chance.over(edges[:-1], edges[1:]).at[0].set(0.0)
-        b = fragments(edges, self.breakage)
+        b = fragments(feed.mixture.edges, self.breakage, self.breakage_convention)
         operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
         return Ground(feed.regraded(operator).heated(self.shaft_power), jnp.asarray(self.shaft_power))
 

@@ -17,6 +17,9 @@ from granum.estimation import Fit, LabTest
 class BatchGrinding(LabTest):
     """First-order breakage rate of a top size class from what is left of it after grinding times.
 
+    This is the rate at which mass leaves the class: Austin's selection function of that class where it is a root-two class (the convention
+    ``root_two`` of ``ball_mill``). Fragments that stay in the class are not counted as broken.
+
     >>> import numpy as np
     >>> test = BatchGrinding([0, 60, 120, 240], np.exp(-0.01 * np.array([0, 60, 120, 240])))
     >>> round(test.fit()["selection_function"].value, 6)

@@ -37,6 +37,7 @@ HYDRATE_DISSOLVED = (
     "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water becomes one of anhydrous solute with "
     "'crystallization.solute_per_solvent_from_hydrate'."
 )
+BEYOND_THE_DATA = "The solubility is extrapolated: the data of this solute end at a lower temperature, or begin at a higher one."
 
 
 class Balance(NamedTuple):
@@ -253,6 +254,9 @@ def crystallizer_balance_library(
     A, w, T, hot = mass_flow, solute_mass_fraction, temperature, temperature_inlet
     R = s.hydrate_ratio(T)
     ratio = s.solubility(T)
+    low, high = s.data_range
+    without_liquor = ((low > T) | (high < T)) & (ratio * R >= 1.0 + ratio)
+    impossible(without_liquor, T, "temperature", low, high, reason=BEYOND_THE_DATA)
     found = crystallizer_balance.function(A, w, ratio, 1.0 / R, evaporation)
     if all(b.heat_given for b in s.branches):
         water, salt = s.solvent.liquid_enthalpy, s.solute_enthalpy

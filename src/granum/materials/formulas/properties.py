@@ -12,9 +12,11 @@ from granum.core.kinds import (
     Density,
     Diffusivity,
     DynamicViscosity,
+    Fraction,
     HeatCapacity,
     MassFraction,
     MassRatio,
+    Molality,
     PositiveNumber,
     Pressure,
     Ratio,
@@ -106,6 +108,42 @@ def vapor_in_gas(
     return VaporInGas(*found, pair.molar_mass_ratio + 0.0 * temperature)
 
 
+class Solubility(NamedTuple):
+    """What a solvent dissolves, in the usual bases, and how good the curve is."""
+
+    solubility_per_solvent: MassRatio
+    solute_mass_fraction: MassFraction
+    solute_mole_fraction: Fraction
+    solute_molality: Molality
+    crystal_per_solute: Ratio
+    solubility_misfit: Fraction
+    temperature_lowest: Temperature
+    temperature_highest: Temperature
+
+
+@formula(source="haynes2014, sec. 5; green2008, table 2-120", typical={"temperature": (285.0, 340.0)}, title="Solubility")
+def solubility(temperature: Temperature, system: str = "potassium nitrate") -> Solubility:
+    """Solubility of a solute over its stable crystal in the usual bases, all of anhydrous solute.
+
+    The misfit is the root mean square of what the curve deviates from the data it was drawn through; zero where it goes through them or is the source's
+    own formula. Outside the lowest and highest temperature of the data the curve goes on as a van 't Hoff line and is flagged. The sources of each
+    system stand in its file; ``granum.materials.names("solute")`` lists the systems. ``saturated_solution`` has the properties of the solution.
+
+    >>> found = solubility("80 degC", "potassium aluminum sulfate")
+    >>> round(100 * found.solubility_per_solvent, 1), round(found.crystal_per_solute, 3)
+    (71.0, 1.837)
+    """
+    from granum.materials.library import solute
+
+    s = solute(system)
+    T = temperature
+    ratio = s.solubility(T)
+    moles, solvent = ratio / s.molar_mass, 1.0 / s.solvent.molar_mass
+    lowest, highest = s.data_range
+    return Solubility(ratio, s.mass_fraction(ratio), moles / (moles + solvent), moles, s.hydrate_ratio(T), s.solubility_misfit(T),
+                      lowest + 0.0 * T, highest + 0.0 * T)  # fmt: skip
+
+
 class Saturation(NamedTuple):
     """A saturated solution and the crystal it is in equilibrium with."""
 
@@ -118,15 +156,15 @@ class Saturation(NamedTuple):
     specific_heat_capacity: HeatCapacity
 
 
-@formula(source="haynes2014, sec. 5; laliberte2009", typical={"temperature": (285.0, 340.0)}, title="Solubility and saturated solution")
-def solubility(temperature: Temperature, system: str = "potassium nitrate") -> Saturation:
+@formula(source="haynes2014, sec. 5; laliberte2009", typical={"temperature": (285.0, 340.0)}, title="Saturated solution")
+def saturated_solution(temperature: Temperature, system: str = "potassium nitrate") -> Saturation:
     """Solubility of a solute over its stable crystal, with the heat released on crystallization and the properties of the solution.
 
     Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per mass of anhydrous solute.
     The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
 
-    >>> round(solubility("20 degC").solubility_per_solvent, 2)
-    0.32
+    >>> round(saturated_solution("20 degC").liquid_density)
+    1163
     """
     from granum.materials.library import solute
 
