@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import equinox as eqx
+import jax
 import numpy as np
 
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.estimation.least_squares import fit, note
+from granum.core.parameters import default_as_json
+from granum.estimation.least_squares import fit
 from granum.estimation.results import Fit
 from granum.estimation.tables import Source, read_table
+from granum.estimation.verdicts import Rows, note
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -59,9 +63,34 @@ class LabTest(eqx.Module):
         """Estimate the parameters."""
 
     def fitted(self, model: Callable[[dict[str, Any], Any], Any], start: Mapping[str, float], x: Any, y: Any, *,
-               kinds: Mapping[str, Any] | None = None, **options: Any) -> Fit:  # fmt: skip
-        """``granum.estimation.fit`` with the card and the kinds of this class filled in."""
-        return fit(model, start, x, y, card=type(self).card.key, kinds={**self.estimates, **(kinds or {})}, **options)
+               kinds: Mapping[str, Any] | None = None, index: Any = None, **options: Any) -> Fit:  # fmt: skip
+        """``granum.estimation.fit`` with the card, the kinds, the rows and the defaults of this class filled in.
+
+        ``index`` is the row of the data from which each point was computed, needed where some rows gave none or points are in another order.
+        """
+        kinds = {**self.estimates, **(kinds or {})}
+        found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
+        return replace(found, defaults=self.defaults())
+
+    def rows(self, x: Any, y: Any, index: Any = None) -> Rows:
+        """The rows of the data behind the points of a fit: as given, or one for one where nothing speaks against it."""
+        columns = [(p, np.asarray(value)) for p in type(self).card.parameters if p.series and (value := getattr(self, p.name)) is not None]
+        count, points = len(columns[0][1]), sum(np.size(part) for part in jax.tree.leaves(y))
+        if index is not None:
+            return Rows(columns, np.resize(np.asarray(index), points))
+        if points % count or (np.size(x) == count and not any(_same_order(np.ravel(x), values) for _p, values in columns)):
+            return Rows()
+        return Rows(columns, np.arange(points) % count)
+
+    def defaults(self) -> dict[str, Any]:
+        """Conditions and choices that stand at their defaults, as plain data."""
+        found = {}
+        for p in type(self).card.parameters:
+            if not (p.series or p.required or p.default is None):
+                value = default_as_json(getattr(self, p.name))
+                if value == default_as_json(p.default):
+                    found[p.name] = value
+        return found
 
     def note(self, word: str, message: str, name: str = "") -> dict[str, Any]:
         """A flag of this test: a short word and a sentence in the current language."""
@@ -106,3 +135,7 @@ class LabTest(eqx.Module):
         if not kept.all():
             add_points(drawing, across(x[~kept]), upward(y[~kept]), _("excluded"), hollow=True)
         return drawing
+
+
+def _same_order(one: np.ndarray, other: np.ndarray) -> bool:
+    return bool(np.array_equal(np.argsort(one, kind="stable"), np.argsort(other, kind="stable")))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -16,12 +16,13 @@ from scipy.optimize import least_squares
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import kind_of
+from granum.core.parameters import Parameter
+from granum.estimation.diagnostics import diagnose
 from granum.estimation.losses import LeastSquares, Loss
 from granum.estimation.results import Estimate, Fit, derive, t_reach
+from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, stray_note
 
 SCALE_ROUNDS = 50
-COLLINEAR = 100.0
-"""Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class Problem:
     scale: np.ndarray
     bounds: dict[str, tuple[float, float]]
     loss: Loss
+    group: np.ndarray
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
 
     @cached_property
@@ -64,10 +66,23 @@ class Problem:
         """Their derivatives with respect to the scaled parameters."""
         return np.asarray(self._functions[1](q, self.y if y is None else y))
 
-    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None,
-              width: float | None = None) -> tuple[np.ndarray, Any]:  # fmt: skip
-        """Scaled solution and SciPy's outcome, some parameters held; ``width`` is the scale of a robust loss (None: plain squares)."""
+    def spread(self, values: np.ndarray) -> float:
+        """Weighted sum of squares of values at the kept points about the mean of each data set."""
+        weight, group, kept = 1.0 / self.sigma[self.keep] ** 2, self.group[self.keep], values[self.keep]
+        sums = np.bincount(group, weight)
+        means = np.bincount(group, weight * kept) / np.where(sums > 0, sums, 1.0)
+        return float(np.sum(weight * (kept - means[group]) ** 2))
+
+    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None, width: float | None = None,
+              loss: Loss | None = None, without: Sequence[int] = ()) -> tuple[np.ndarray, Any]:  # fmt: skip
+        """Scaled solution and SciPy's outcome, some parameters held, some of the kept points left out.
+
+        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain squares).
+        """
         held = fixed or {}
+        loss = loss or self.loss
+        weight = np.ones(int(self.keep.sum()))
+        weight[list(without)] = 0.0
         free = np.array([n not in held for n in self.names])
         template = np.array([held.get(n, 0.0) for n in self.names]) / self.scale
         low, high = (np.array([self.bounds[n][side] for n in self.names]) / self.scale for side in (0, 1))
@@ -79,10 +94,10 @@ class Problem:
 
         if not free.any():
             return template, None
-        robust = {} if width is None else {"loss": self.loss.rho, "f_scale": self.loss.threshold * width}
+        robust = {} if width is None else {"loss": loss.rho, "f_scale": loss.threshold * width}
         outcome = least_squares(
-            lambda part: self.residual(whole(part), y), np.clip(q, low, high)[free],
-            jac=lambda part: self.jacobian(whole(part), y)[:, free],  # type: ignore[arg-type]
+            lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free],
+            jac=lambda part: weight[:, None] * self.jacobian(whole(part), y)[:, free],  # type: ignore[arg-type]
             bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
         )  # fmt: skip
         return whole(outcome.x), outcome
@@ -103,6 +118,9 @@ def fit(
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None,
     card: str = "",
     flags: list[dict[str, Any]] | None = None,
+    rows: Rows | None = None,
+    trials: int = 1,
+    judged: bool = True,
 ) -> Fit:
     """Fit ``model(parameters, x)`` to ``y``.
 
@@ -117,6 +135,9 @@ def fit(
     loss: ``LeastSquares()``, ``Huber()`` or ``SoftL1()``.
     kinds: kinds of parameters and derived quantities by name, for their units.
     derived: function of the parameters whose results get intervals too.
+    rows: the rows of the data behind the points, to name a stray one.
+    trials: number of models among which this one is chosen: a relation must then be the clearer.
+    judged: whether to look for stray points and for a relation; the fits of a chart need neither.
     """
     names = tuple(start)
     measured = np.asarray(ravel_pytree(jax.tree.map(lambda v: jnp.asarray(v, dtype=float), y))[0])
@@ -124,12 +145,25 @@ def fit(
         model=model, x=x, y=measured, sigma=_spread(sigma, y), names=names, loss=loss or LeastSquares(),
         keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
         scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
-        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived,
+        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived, group=_groups(y),
     )  # fmt: skip
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
     q, width, held = _settle(problem, first)
-    return _conclude(problem, q, width, held, kinds or {}, card, list(flags or []))
+    found = _conclude(problem, q, width, held, kinds or {}, card, list(flags or []))
+    if not judged:
+        return found
+    diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, held)
+    shown = {n: Parameter(n, kind_of((kinds or {}).get(n))) for n in names}
+    found.flags.extend(stray_note(diagnostics, found.values, shown, rows or Rows(), card))
+    found.flags.extend(no_relation_note(diagnostics.probability, found.statistics["r_squared"], card, trials))
+    return replace(found, diagnostics=diagnostics)
+
+
+def _groups(y: Any) -> np.ndarray:
+    """Number of the data set of each point."""
+    parts = [np.size(part) for part in jax.tree.leaves(y)]
+    return np.repeat(np.arange(len(parts)), parts) if max(parts) > 1 else np.zeros(len(parts), int)
 
 
 def _spread(sigma: Any, y: Any) -> np.ndarray:
@@ -220,9 +254,7 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
         parameters[n] = Estimate(values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error))
     whole = problem.prediction(q)
-    weight = 1.0 / problem.sigma[problem.keep] ** 2
-    kept_y = problem.y[problem.keep]
-    spread = float(np.sum(weight * (kept_y - np.average(kept_y, weights=weight)) ** 2))
+    spread = problem.spread(problem.y)
     count = int(free.sum()) + 1
     correction = 2.0 * count * (count + 1) / (used - count - 1) if used > count + 1 else np.inf
     statistics = {
@@ -235,7 +267,8 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         "residual_standard_deviation": float(np.sqrt(variance)),
         "condition": condition,
     }
-    flags += _warnings(parameters, covariance, held, condition, card)
+    shown = {n: Parameter(n, kind_of(kinds.get(n))) for n in names}
+    flags += parameter_notes(parameters, covariance, held, condition, shown, problem.bounds, card)
     found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
     return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem)
 
@@ -246,36 +279,3 @@ def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int)
     mean = float(np.mean(slope))
     correction = 1.0 + count / residual.size * float(np.var(slope)) / mean**2
     return correction**2 * width**2 * float(psi @ psi) / (residual.size - count) / mean**2
-
-
-def _warnings(parameters: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,
-              card: str) -> list[dict[str, Any]]:  # fmt: skip
-    found = []
-    for name in held:
-        found.append(note("at bound", _("'{name}' ended on its bound: the data do not determine it.").format(name=name), card, name))
-    if condition >= COLLINEAR:
-        deviation = np.sqrt(np.diag(covariance))
-        with np.errstate(invalid="ignore", divide="ignore"):
-            correlation = np.abs(np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation)))
-        i, j = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
-        names = list(parameters)
-        found.append(
-            note(
-                "poorly identified",
-                _("'{one}' and '{other}' can hardly be told apart by these data (condition {condition}).").format(
-                    one=names[i], other=names[j], condition=f"{condition:.0f}" if np.isfinite(condition) else "∞"
-                ),
-                card,
-                names[i],
-            )
-        )
-    for name, estimate in parameters.items():
-        low, high = estimate.interval_95
-        if name not in held and low < 0.0 < high:
-            found.append(note("not significant", _("'{name}' does not differ from zero at 95 %.").format(name=name), card, name))
-    return found
-
-
-def note(word: str, message: str, card: str, name: str = "") -> dict[str, Any]:
-    """One flag of a fit: a short word and a sentence."""
-    return {"flag": word, "name": name, "card": card, "message": message}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
@@ -155,9 +156,11 @@ def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
         if best is None or misfit < best[0]:
             best = (misfit, start)
     assert best is not None
-    return fit(
-        model, best[1], np.zeros(1), y, sigma=sigma, card=BatchKinetics.card.key, kinds=BatchKinetics.estimates,
+    alone = tests[0].rows(np.zeros(1), y) if len(tests) == 1 else None
+    found = fit(
+        model, best[1], np.zeros(1), y, sigma=sigma, rows=alone, card=BatchKinetics.card.key, kinds=BatchKinetics.estimates,
         scale={"log_growth_coefficient": 1.0, "growth_order": 0.5, "log_nucleation_coefficient": 2.0, "nucleation_order": 1.0},
         bounds={"growth_order": (0.3, 6.0), "nucleation_order": (0.3, 12.0), "log_nucleation_coefficient": (0.0, 80.0)},
         derived=lambda p: {"growth_coefficient": jnp.exp(p["log_growth_coefficient"]), "nucleation_coefficient": jnp.exp(p["log_nucleation_coefficient"])},
     )  # fmt: skip
+    return replace(found, defaults=tests[0].defaults())

@@ -133,8 +133,8 @@ class Compressibility(LabTest):
             found = self.fitted(both, start, pressures, (np.log(resistances), np.log(solid)), sigma=sizes, **options)
         return self._judged(found)
 
-    def _tests(self) -> list[tuple[float, np.ndarray, np.ndarray]]:
-        """Pressure, volumes and t/V of each test, without the origin and bad first points."""
+    def _tests(self) -> list[tuple[float, np.ndarray, np.ndarray, np.ndarray]]:
+        """Pressure, volumes, t/V and rows of each test, without the origin and bad first points."""
         pressure, t, V = (np.asarray(x) for x in (self.pressure_drop, self.time, self.filtrate_volume))
         assert self.area is not None
         tests, first = [], 0
@@ -151,7 +151,7 @@ class Compressibility(LabTest):
                     )
                 )
             skip = bad_start(u, v / u)
-            tests.append((float(np.mean(pressure[rows])), u[skip:], (v / u)[skip:]))
+            tests.append((float(np.mean(pressure[rows])), u[skip:], (v / u)[skip:], first + np.flatnonzero(good)[skip:]))
             first = i
         return tests
 
@@ -161,7 +161,7 @@ class Compressibility(LabTest):
         assert self.dynamic_viscosity is not None
         assert self.dry_cake_per_filtrate is not None
         rows = []
-        for pressure, V, ratio in self._tests():
+        for pressure, V, ratio, _rows in self._tests():
             slope, intercept = np.polyfit(V, ratio, 1)
             cake = slope * 2.0 * pressure * self.area**2 / (self.dynamic_viscosity * self.dry_cake_per_filtrate)
             rows.append((pressure, cake, intercept * pressure * self.area / self.dynamic_viscosity))
@@ -182,22 +182,23 @@ class Compressibility(LabTest):
         def model(p: dict[str, Any], volumes: Any) -> Any:
             return tuple(
                 eta / (pressure * A) * (jnp.exp(self._law(p, pressure)) * W * V / (2.0 * A) + p[name])
-                for (pressure, _V, _ratio), V, name in zip(tests, volumes, names, strict=True)
+                for (pressure, *_rest), V, name in zip(tests, volumes, names, strict=True)
             )
 
         # readings of slow and fast tests count alike: their scatter is taken proportional to the mean of t/V
-        sigma = tuple(float(np.mean(ratio)) for _p, _V, ratio in tests)
+        sigma = tuple(float(np.mean(ratio)) for _p, _V, ratio, _rows in tests)
         bounds = {**options.pop("bounds"), **dict.fromkeys(names, (0.0, np.inf))}
         kinds = {**options.pop("kinds"), **dict.fromkeys(names, MediumResistance)}
         given = sum((np.asarray(self.time) > 0) & (np.asarray(self.filtrate_volume) > 0))
-        left_out = int(given) - sum(len(V) for _p, V, _r in tests)
+        left_out = int(given) - sum(len(V) for _p, V, *_rest in tests)
         flags = (
             [self.note("points excluded", _("First points left out: {count}.").format(count=left_out), "filtrate_volume")]
             if left_out
             else []
         )
-        found = self.fitted(model, start, tuple(V for _p, V, _r in tests), tuple(r for _p, _V, r in tests), sigma=sigma, bounds=bounds,
-                            kinds=kinds, flags=flags, **options)  # fmt: skip
+        volumes, ratios, rows = (tuple(test[i] for test in tests) for i in (1, 2, 3))
+        found = self.fitted(model, start, volumes, ratios, index=np.concatenate(rows), sigma=sigma, bounds=bounds, kinds=kinds, flags=flags,
+                            **options)  # fmt: skip
         return self._judged(found)
 
     def _judged(self, found: Fit) -> Fit:

@@ -92,7 +92,7 @@ class LeafTest(LabTest):
         scale = {"cake_resistance": abs(slope) / per_slope, "medium_resistance": np.mean(t / V) / per_intercept}
         start = {"cake_resistance": scale["cake_resistance"], "medium_resistance": max(intercept, 0.01 * np.mean(t / V)) / per_intercept}
         return self.fitted(
-            model, start, V, t / V, keep=kept, scale=scale, derived=constants, flags=flags,
+            model, start, V, t / V, index=np.flatnonzero(counted), keep=kept, scale=scale, derived=constants, flags=flags,
             bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
             kinds={"ruth_constant": RuthConstant, "ruth_volume": Volume, "ruth_time": Time,
                    "line_slope": TimePerVolumeSquared, "line_intercept": TimePerVolume},

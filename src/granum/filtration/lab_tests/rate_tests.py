@@ -133,5 +133,6 @@ class VariablePressureTest(LabTest):
         return self.fitted(
             lambda p, V: p["cake_resistance"] * per_cake * V + p["medium_resistance"] * per_medium,
             {"cake_resistance": abs(slope) / per_cake, "medium_resistance": max(intercept, 0.01 * ratio.mean()) / per_medium},
-            V, ratio, keep=kept, flags=flags, bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
+            V, ratio, index=np.flatnonzero(good), keep=kept, flags=flags,
+            bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
         )  # fmt: skip

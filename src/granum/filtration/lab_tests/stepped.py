@@ -87,4 +87,4 @@ class SteppedPressureTest(LabTest):
         start = {"cake_resistance_reference": abs(slope) / per_cake, "compressibility": 0.3,
                  "medium_resistance": max(intercept, 0.01 * float(np.mean(slow * p))) / per_medium}  # fmt: skip
         bounds = {"cake_resistance_reference": (0.0, np.inf), "compressibility": (0.0, 2.0), "medium_resistance": (0.0, np.inf)}
-        return self.fitted(model, start, middle, slow, keep=keep, flags=flags, bounds=bounds)
+        return self.fitted(model, start, middle, slow, index=1 + np.flatnonzero(grown), keep=keep, flags=flags, bounds=bounds)
