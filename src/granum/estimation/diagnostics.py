@@ -7,7 +7,7 @@ so that one wild point neither hides another nor itself by pulling a curve along
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -31,6 +31,8 @@ ONE_BY_ONE = 60
 ROUNDS = 12
 ROUND_OFF = 1e-8
 """Residuals below this part of the data are round-off, not scatter."""
+UNEVEN, LEAST_SET = 3.0, 5
+"""Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this takes."""
 LITTLE, SCATTERED = 0.25, 0.3
 
 
@@ -80,8 +82,10 @@ class Diagnostics:
                 "probability_of_no_relation": _finite(self.probability)}  # fmt: skip
 
 
-def diagnose(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> Diagnostics:
+def diagnose(problem: Problem, q: np.ndarray, held: Collection[str]) -> Diagnostics:
     """Diagnostics of a solution at scaled parameters ``q``, with some held at their bounds."""
+    chance = _no_relation(problem, q, problem.residual(q), len(problem.names) - len(held))
+    problem, q = _evened(problem, q)
     residual, jacobian = problem.residual(q), problem.jacobian(q)
     free = np.array([n not in held for n in problem.names])
     floor = ROUND_OFF * np.sqrt(np.mean((problem.y / problem.sigma)[problem.keep] ** 2))
@@ -100,9 +104,24 @@ def diagnose(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> Diag
     found = dict(zip(problem.names, (at * problem.scale).tolist(), strict=True)) if stray else {}
     beside = dict(zip(problem.names, (robust * problem.scale).tolist(), strict=True)) if stray else {}
     return Diagnostics(
-        Influence(*map(spread_out, local)), threshold, tuple(int(place[k]) for k in stray), deviations, found, beside,
-        _no_relation(problem, q, residual, int(free.sum())),
+        Influence(*map(spread_out, local)), threshold, tuple(int(place[k]) for k in stray), deviations, found, beside, chance,
     )  # fmt: skip
+
+
+def _evened(problem: Problem, q: np.ndarray) -> tuple[Problem, np.ndarray]:
+    """The problem with joint data sets brought to one scatter where theirs differ, solved again: what is far in one may be near in another."""
+    size, group = np.abs(problem.residual(q)), problem.group[problem.keep]
+    sets, counts = np.unique(group, return_counts=True)
+    if len(sets) < 2 or counts.min() < LEAST_SET:
+        return problem, q
+    widths = np.array([np.median(size[group == g]) for g in sets])
+    widths = np.maximum(widths, 1e-3 * widths.max())
+    if widths.max() <= UNEVEN * widths.min():
+        return problem, q
+    factor = np.ones(int(group.max()) + 1)
+    factor[sets] = widths / widths.max()
+    problem = problem.reweighted(factor[np.minimum(problem.group, group.max())])
+    return problem, problem.solve(q)[0]
 
 
 def _basis(jacobian: np.ndarray) -> np.ndarray:
@@ -129,7 +148,7 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     """Stray points (indices among the kept), their deviations, the solution without them and the robust one."""
     n, p = residual.size, len(problem.names)
     most = min(MOST, n - p - 1)
-    robust = _robust(problem, q)
+    robust = _robust(problem, q, floor)
     beside = problem.residual(robust)
     sets: dict[tuple[int, ...], float] = {}
     for r, J in ((residual, jacobian), (beside, problem.jacobian(robust))):
@@ -163,12 +182,12 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     return nothing
 
 
-def _robust(problem: Problem, q: np.ndarray) -> np.ndarray:
+def _robust(problem: Problem, q: np.ndarray, floor: float) -> np.ndarray:
     """A fit in which stray points pull little, its scale found with it."""
     width = 0.0
     for _round in range(ROUNDS):
         size = np.abs(problem.residual(q))
-        new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-300)
+        new = max(1.4826 * float(np.median(size)), 1e-6 * float(np.max(size)), floor, 1e-100)
         if abs(new - width) <= 1e-3 * new:
             break
         width = new
@@ -227,12 +246,14 @@ def _no_relation(problem: Problem, q: np.ndarray, residual: np.ndarray, count: i
     """Probability of so good a description by chance: F test of the model against the mean of each data set; NaN where it does not apply."""
     spread, sets = problem.spread(problem.y), len(np.unique(problem.group[problem.keep]))
     squares, dof = float(residual @ residual), residual.size - count
-    if dof < 1 or spread <= 0.0:
+    size = float(np.sum((problem.y / problem.sigma)[problem.keep] ** 2))
+    if dof < 1:
         return np.nan
+    if spread <= 1e-20 * size:  # one value measured again and again
+        return 1.0 if count > sets else np.nan
     if count <= sets and problem.spread(problem.prediction(q)) < LITTLE * squares:
         # a law with one constant, measured where it hardly varies: the points can only agree on the constant
-        size = float(np.mean((problem.y / problem.sigma)[problem.keep] ** 2))
-        return 1.0 if squares / dof > SCATTERED**2 * size else np.nan
+        return 1.0 if squares / dof > SCATTERED**2 * size / residual.size else np.nan
     freedom = max(count - sets, 1)
     return float(stats.f.sf(max(spread - squares, 0.0) / freedom / (max(squares, 1e-300) / dof), freedom, dof))
 

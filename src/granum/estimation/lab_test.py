@@ -15,7 +15,7 @@ from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.parameters import default_as_json
-from granum.estimation.least_squares import fit
+from granum.estimation.least_squares import fit, judge
 from granum.estimation.results import Fit
 from granum.estimation.tables import Source, read_table
 from granum.estimation.verdicts import Rows, note
@@ -57,6 +57,10 @@ class LabTest(eqx.Module):
                     card=card.key, least=self.least_points, given=min(lengths.values())
                 )
             )
+        for name in lengths:
+            values = np.asarray(getattr(self, name), dtype=float)
+            if not np.all(np.isfinite(values)):
+                raise self.bad_row(name, ~np.isfinite(values), _("'{name}' must be a number in every row: row {number} has {value}."))
 
     @abc.abstractmethod
     def fit(self) -> Fit:
@@ -71,6 +75,10 @@ class LabTest(eqx.Module):
         kinds = {**self.estimates, **(kinds or {})}
         found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
         return replace(found, defaults=self.defaults())
+
+    def judged(self, found: Fit, trials: int) -> Fit:
+        """The best of several models with its diagnostics (fit them with ``judged=False``)."""
+        return judge(found, self.rows(found.problem.x, found.problem.y), trials)
 
     def rows(self, x: Any, y: Any, index: Any = None) -> Rows:
         """The rows of the data behind the points of a fit: as given, or one for one where nothing speaks against it."""
@@ -95,6 +103,21 @@ class LabTest(eqx.Module):
     def note(self, word: str, message: str, name: str = "") -> dict[str, Any]:
         """A flag of this test: a short word and a sentence in the current language."""
         return note(word, message, type(self).card.key, name)
+
+    def bad_row(self, name: str, bad: Any, sentence: str) -> InputError:
+        """The error of the first bad row of a column; the sentence has room for its name, row and value."""
+        at = int(np.argmax(bad))
+        value = float(np.asarray(getattr(self, name), dtype=float)[at])
+        return InputError(sentence.format(name=name, number=at + 1, value=f"{value:g}"), name=name, row=at + 1)
+
+    def above_zero(self, *names: str) -> None:
+        """Raise one clear error when a column holds a zero or less: it enters a logarithm or a quotient."""
+        for name in names:
+            bad = np.asarray(getattr(self, name), dtype=float) <= 0.0
+            if bad.any():
+                raise self.bad_row(
+                    name, bad, _("'{name}' must be greater than zero in every row: row {number} has {value}; leave such rows out.")
+                )
 
     def increasing(self, name: str, *, strictly: bool = True) -> None:
         """Raise one clear error when a column does not increase from point to point."""

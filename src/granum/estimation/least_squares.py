@@ -16,7 +16,6 @@ from scipy.optimize import least_squares
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import kind_of
-from granum.core.parameters import Parameter
 from granum.estimation.diagnostics import diagnose
 from granum.estimation.losses import LeastSquares, Loss
 from granum.estimation.results import Estimate, Fit, derive, t_reach
@@ -39,18 +38,18 @@ class Problem:
     bounds: dict[str, tuple[float, float]]
     loss: Loss
     group: np.ndarray
+    kinds: Mapping[str, Any]
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
         index = np.flatnonzero(self.keep)
-        sigma = self.sigma[index]
 
         def whole(q: Any) -> Any:
             return ravel_pytree(self.model(dict(zip(self.names, q * self.scale, strict=True)), self.x))[0]
 
         def residual(q: Any, measured: Any) -> Any:
-            return (whole(q)[index] - measured[index]) / sigma
+            return whole(q)[index] - measured[index]
 
         return jax.jit(residual), jax.jit(jax.jacfwd(residual)), jax.jit(whole)
 
@@ -60,11 +59,17 @@ class Problem:
 
     def residual(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Weighted residuals (model less measured) of the kept points at scaled parameters."""
-        return np.asarray(self._functions[0](q, self.y if y is None else y))
+        return np.asarray(self._functions[0](q, self.y if y is None else y)) / self.sigma[self.keep]
 
     def jacobian(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Their derivatives with respect to the scaled parameters."""
-        return np.asarray(self._functions[1](q, self.y if y is None else y))
+        return np.asarray(self._functions[1](q, self.y if y is None else y)) / self.sigma[self.keep][:, None]
+
+    def reweighted(self, factor: np.ndarray) -> Problem:
+        """The same problem, its standard deviations multiplied; nothing is compiled again."""
+        other = replace(self, sigma=self.sigma * factor)
+        other.__dict__["_functions"] = self._functions
+        return other
 
     def spread(self, values: np.ndarray) -> float:
         """Weighted sum of squares of values at the kept points about the mean of each data set."""
@@ -95,11 +100,19 @@ class Problem:
         if not free.any():
             return template, None
         robust = {} if width is None else {"loss": loss.rho, "f_scale": loss.threshold * width}
-        outcome = least_squares(
-            lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free],
-            jac=lambda part: weight[:, None] * self.jacobian(whole(part), y)[:, free],  # type: ignore[arg-type]
-            bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
-        )  # fmt: skip
+
+        def slopes(part: np.ndarray) -> np.ndarray:
+            found = weight[:, None] * self.jacobian(whole(part), y)[:, free]
+            if not np.all(np.isfinite(found)):
+                last = {n: float(v) for n, v in zip(self.names, whole(part) * self.scale, strict=True)}
+                raise ConvergenceError(_("The fit came to values at which the model has no slope: {last}.").format(last=last), last=last)
+            return found
+
+        with np.errstate(all="ignore"):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
+            outcome = least_squares(
+                lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free], jac=slopes,  # type: ignore[arg-type]
+                bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
+            )  # fmt: skip
         return whole(outcome.x), outcome
 
 
@@ -119,7 +132,6 @@ def fit(
     card: str = "",
     flags: list[dict[str, Any]] | None = None,
     rows: Rows | None = None,
-    trials: int = 1,
     judged: bool = True,
 ) -> Fit:
     """Fit ``model(parameters, x)`` to ``y``.
@@ -136,8 +148,7 @@ def fit(
     kinds: kinds of parameters and derived quantities by name, for their units.
     derived: function of the parameters whose results get intervals too.
     rows: the rows of the data behind the points, to name a stray one.
-    trials: number of models among which this one is chosen: a relation must then be the clearer.
-    judged: whether to look for stray points and for a relation; the fits of a chart need neither.
+    judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the best needs it (``judge``).
     """
     names = tuple(start)
     measured = np.asarray(ravel_pytree(jax.tree.map(lambda v: jnp.asarray(v, dtype=float), y))[0])
@@ -146,18 +157,23 @@ def fit(
         keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
         scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
         bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived, group=_groups(y),
+        kinds=kinds or {},
     )  # fmt: skip
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
     q, width, held = _settle(problem, first)
-    found = _conclude(problem, q, width, held, kinds or {}, card, list(flags or []))
-    if not judged:
-        return found
-    diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, held)
-    shown = {n: Parameter(n, kind_of((kinds or {}).get(n))) for n in names}
-    found.flags.extend(stray_note(diagnostics, found.values, shown, rows or Rows(), card))
-    found.flags.extend(no_relation_note(diagnostics.probability, found.statistics["r_squared"], card, trials))
-    return replace(found, diagnostics=diagnostics)
+    found = _conclude(problem, q, width, held, card, list(flags or []))
+    return judge(found, rows or Rows()) if judged else found
+
+
+def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
+    """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among which it was chosen."""
+    problem = found.problem
+    diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, found.held)
+    flags = stray_note(diagnostics, found, rows) + no_relation_note(
+        diagnostics.probability, found.statistics["r_squared"], found.card, trials
+    )
+    return replace(found, diagnostics=diagnostics, flags=found.flags + flags)
 
 
 def _groups(y: Any) -> np.ndarray:
@@ -188,9 +204,13 @@ def _check(problem: Problem, first: np.ndarray) -> None:
                 used=used, count=count, least=count + 1
             )
         )
+    for name, (low, high) in problem.bounds.items():
+        if not low < high:
+            raise InputError(_("The points leave no room for '{name}', which would lie between {low} and {high}.").format(
+                name=name, low=f"{low:g}", high=f"{high:g}"), name=name)  # fmt: skip
     if not np.all(np.isfinite(problem.y)):
         raise InputError(_("The data contain values that are not finite numbers."))
-    if not np.all(np.isfinite(problem.residual(first))):
+    if not (np.all(np.isfinite(first)) and np.all(np.isfinite(problem.residual(first)))):
         start = {n: float(v) for n, v in zip(problem.names, first * problem.scale, strict=True)}
         raise InputError(_("The model has no finite value at the start values {start}.").format(start=start))
 
@@ -217,7 +237,7 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
     if problem.loss.robust:
         for _round in range(SCALE_ROUNDS):
             size = np.abs(problem.residual(q))
-            new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-300)
+            new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-100)
             settled = width is not None and abs(new - width) <= 1e-8 * new
             width = new
             if settled:
@@ -229,15 +249,16 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
     return q, width
 
 
-def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], kinds: Mapping[str, Any],
-              card: str, flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
-    names, scale = problem.names, problem.scale
+def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], card: str,
+              flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
+    names, scale, kinds = problem.names, problem.scale, problem.kinds
     values = {n: float(held.get(n, v)) for n, v in zip(names, q * scale, strict=True)}
     residual, jacobian = problem.residual(q), problem.jacobian(q)
     free = np.array([n not in held for n in names])
     used, dof = residual.size, residual.size - int(free.sum())
     lengths = np.linalg.norm(jacobian, axis=0)
-    _u, singular, rotation = np.linalg.svd(jacobian[:, free] / np.where(lengths[free] > 0, lengths[free], 1.0), full_matrices=False)
+    lengths = np.where(lengths > 0.0, lengths, 1.0)
+    _u, singular, rotation = np.linalg.svd(jacobian[:, free] / lengths[free], full_matrices=False)
     condition = float(singular[0] / singular[-1]) if singular.size and singular[-1] > 0 else np.inf
     squares = float(residual @ residual)
     variance = squares / dof if width is None else _robust_variance(problem.loss, residual, width, int(free.sum()))
@@ -267,10 +288,9 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         "residual_standard_deviation": float(np.sqrt(variance)),
         "condition": condition,
     }
-    shown = {n: Parameter(n, kind_of(kinds.get(n))) for n in names}
-    flags += parameter_notes(parameters, covariance, held, condition, shown, problem.bounds, card)
+    flags += parameter_notes(parameters, covariance, held, condition, problem, card)
     found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
-    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem)
+    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem, tuple(held))
 
 
 def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:

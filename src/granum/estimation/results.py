@@ -62,6 +62,7 @@ class Fit:
     statistics: rmse, r_squared, aicc, degrees_of_freedom, points, condition, residual_standard_deviation …
     derived: quantities computed from the parameters, with intervals by the delta method.
     flags: records with a word and a sentence.
+    held: parameters that ended on a bound.
     diagnostics: leverage and influence of every point, stray points, and whether there is a relation at all.
     defaults: conditions and choices that were not given, with the values taken, as plain data by name.
     """
@@ -75,6 +76,7 @@ class Fit:
     derived: dict[str, Estimate]
     flags: list[dict[str, Any]]
     problem: Problem = field(repr=False)
+    held: tuple[str, ...] = ()
     diagnostics: Diagnostics | None = field(default=None, repr=False)
     defaults: Mapping[str, Any] = field(default_factory=dict)
 

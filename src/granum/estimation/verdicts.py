@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from granum.core.i18n import _
+from granum.core.kinds import kind_of
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, from_si, pretty_unit
 
 if TYPE_CHECKING:
     from granum.estimation.diagnostics import Diagnostics
-    from granum.estimation.results import Estimate
+    from granum.estimation.least_squares import Problem
+    from granum.estimation.results import Estimate, Fit
 
 COLLINEAR = 100.0
 """Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
@@ -61,11 +63,14 @@ def _shown(value: float, p: Parameter, values: Any) -> str:
     return f"{format_number(float(from_si(value, unit, p.kind)))} {pretty_unit(unit)}".strip()
 
 
-def stray_note(found: Diagnostics, values: Mapping[str, float], parameters: Mapping[str, Parameter], rows: Rows, card: str) -> list[dict[str, Any]]:
+def stray_note(found: Diagnostics, fit: Fit, rows: Rows) -> list[dict[str, Any]]:
     """Which points do not fit with the others, what they do to the estimates, and what to do."""
     if not found.stray:
         return []
-    change = {n: _change(values[n], found.without[n]) for n in values if n in found.without}
+    estimates = {**fit.derived, **fit.parameters}
+    values = {n: estimates[n].value for n in found.without}
+    parameters = {n: Parameter(n, kind_of(fit.problem.kinds.get(n))) for n in values}
+    change = {n: _change(values[n], found.without[n]) for n in values}
     if not change or max(map(abs, change.values())) < LEAST_CHANGE:
         return []
     told = sorted(change, key=lambda n: -abs(change[n]))[:SHOWN]
@@ -90,7 +95,7 @@ def stray_note(found: Diagnostics, values: Mapping[str, float], parameters: Mapp
     if robust:
         sentence += " " + _("A robust fit to all points gives {robust}.").format(robust=robust)
     sentence += " " + _("Check the reading; leave it out if it is wrong.")
-    return [note("stray point", sentence, card, told[0])]
+    return [note("stray point", sentence, fit.card, told[0])]
 
 
 def _change(old: float, new: float) -> float:
@@ -105,7 +110,7 @@ def no_relation_note(probability: float, r_squared: float, card: str, trials: in
     """Whether the data show the fitted relation at all; ``trials`` is the number of models from which this was chosen."""
     if not np.isfinite(probability) or (min(trials * probability, 1.0) <= CHANCE and not r_squared < LEAST_SHARE):
         return []
-    share = format_number(100.0 * max(r_squared, 0.0), 2)
+    share = format_number(100.0 * r_squared if r_squared > 0.0 else 0.0, 2)
     sentence = _(
         "These points hardly show the fitted relation: it explains {share} % of their scatter, and chance would often do as well. "
         "Do not use the estimates without more or better data."
@@ -114,16 +119,23 @@ def no_relation_note(probability: float, r_squared: float, card: str, trials: in
 
 
 def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,
-                    parameters: Mapping[str, Parameter], bounds: Mapping[str, tuple[float, float]], card: str) -> list[dict[str, Any]]:  # fmt: skip
+                    problem: Problem, card: str) -> list[dict[str, Any]]:  # fmt: skip
     """Parameters at a bound, hardly told apart, or no different from zero."""
     found = []
     for name, bound in held.items():
         sentence = (
             _("'{name}' ended on its lower bound, {value}: the data do not determine it.")
-            if bound == bounds[name][0]
+            if bound == problem.bounds[name][0]
             else _("'{name}' ended on its upper bound, {value}: the data do not determine it.")
         )
-        found.append(note("at bound", sentence.format(name=name, value=_shown(bound, parameters[name], bound)), card, name))
+        found.append(
+            note(
+                "at bound",
+                sentence.format(name=name, value=_shown(bound, Parameter(name, kind_of(problem.kinds.get(name))), bound)),
+                card,
+                name,
+            )
+        )
     if condition >= COLLINEAR:
         deviation = np.sqrt(np.diag(covariance))
         with np.errstate(invalid="ignore", divide="ignore"):

@@ -21,6 +21,7 @@ from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 from granum.estimation import Fit, LabTest, fit
+from granum.estimation.lines import straight_line
 from granum.numerics.smooth import safe_divide
 
 FINE_STEPS = 200  # time steps of a run, shared out between the samples
@@ -130,7 +131,7 @@ class BatchKinetics(LabTest):
                     "The solution is hardly ever supersaturated while crystals grow: check that concentration and solubility have the same basis."
                 )
             )
-        order, level = np.polyfit(np.log(S[good]), np.log(growth[good]), 1)
+        order, level = straight_line(np.log(S[good]), np.log(growth[good]))
         if not 0.7 <= order <= 3.0:
             order = 1.5
             level = float(np.median(np.log(growth[good]) - order * np.log(S[good])))

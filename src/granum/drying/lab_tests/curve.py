@@ -12,6 +12,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Frequency, Mass, MassFlux, MoistureDryBasis, PositiveNumber, Series, Time
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -137,6 +138,8 @@ class DryingCurve(LabTest):
             raise InputError(
                 _("Fewer than {least} points remain after 'warm_up_time'.").format(least=self.least_points), name="warm_up_time"
             )
+        if not np.ptp(X[keep]) > 0.0:
+            raise InputError(_("The moisture is the same at every point: nothing dried."), name="moisture_dry_basis")
         origin = t[keep][0]
         fixed = {} if self.equilibrium_moisture is None else {"equilibrium_moisture": float(self.equilibrium_moisture)}
         fixed |= {} if self.fit_exponent else {"characteristic_exponent": 1.0}
@@ -179,7 +182,7 @@ class DryingCurve(LabTest):
         for share in np.linspace(0.1, 1.15, 16):
             Xc = low + share * (X[0] - low)
             early = min(Xc, X[0] - 0.15 * np.ptp(X)) <= X
-            slope = -np.polyfit(t[early], X[early], 1)[0] if early.sum() > 1 else 0.0
+            slope = -straight_line(t[early], X[early])[0] if early.sum() > 1 else 0.0
             for factor in (0.8, 1.0, 1.3):
                 trial = first | {"rate_per_dry_mass": max(factor * float(slope), 1e-12), "critical_moisture": float(Xc)}
                 left = np.asarray(moisture_model({**trial, **fixed}, t)) - X

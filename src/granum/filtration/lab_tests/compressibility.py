@@ -25,6 +25,7 @@ from granum.core.kinds import (
 )
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ class Compressibility(LabTest):
 
     def fit(self) -> Fit:
         """Reference resistance and exponent with 95 % intervals; medium resistances where raw readings are given."""
+        self.above_zero("pressure_drop", *(("cake_resistance",) if self.cake_resistance is not None else ()))
         if self.cake_resistance is not None:
             return self._from_resistances()
         if self.time is None or self.filtrate_volume is None:
@@ -91,7 +93,7 @@ class Compressibility(LabTest):
         if np.ptp(logs) < 0.05:
             raise InputError(_("Compressibility needs tests at different pressures; these are all at {value} bar.").format(
                 value=format_number(float(pressures[0]) / 1e5)))  # fmt: skip
-        n, level = np.polyfit(logs, np.log(resistances), 1)
+        n, level = straight_line(logs, np.log(resistances))
         if not self.with_threshold:
             return {"cake_resistance_reference": float(np.exp(level)), "compressibility": float(n) or 0.1}
         order = np.argsort(pressures)
@@ -119,7 +121,7 @@ class Compressibility(LabTest):
             found = self.fitted(lambda p, x: self._law(p, x), start, pressures, np.log(resistances), **options)
         else:
             solid = 1.0 - np.asarray(self.void_fraction)
-            slope, level = np.polyfit(np.log(pressures / self.reference_pressure), np.log(solid), 1)
+            slope, level = straight_line(np.log(pressures / self.reference_pressure), np.log(solid))
             start |= {"void_fraction_reference": float(1.0 - np.exp(level)), "compaction_exponent": float(slope) or 0.01}
             first = self.fitted(lambda p, x: self._law(p, x), dict(list(start.items())[: 3 if self.with_threshold else 2]), pressures,
                                 np.log(resistances), **options)  # fmt: skip
@@ -162,7 +164,7 @@ class Compressibility(LabTest):
         assert self.dry_cake_per_filtrate is not None
         rows = []
         for pressure, V, ratio, _rows in self._tests():
-            slope, intercept = np.polyfit(V, ratio, 1)
+            slope, intercept = straight_line(V, ratio)
             cake = slope * 2.0 * pressure * self.area**2 / (self.dynamic_viscosity * self.dry_cake_per_filtrate)
             rows.append((pressure, cake, intercept * pressure * self.area / self.dynamic_viscosity))
         pressures, cakes, media = np.array(rows).T

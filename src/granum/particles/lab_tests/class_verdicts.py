@@ -16,8 +16,6 @@ from scipy import stats
 
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
-from granum.core.kinds import kind_of
-from granum.core.parameters import Parameter
 from granum.estimation import Fit
 from granum.estimation.verdicts import no_relation_note, stray_note
 
@@ -54,9 +52,8 @@ def judged_by_class(test: SizeTest, found: Fit, curve: Callable[[Any, Any], Any]
         q, _outcome = found.problem.solve(best, y=np.cumsum(corrected / corrected.sum())[:-1])
         told = replace(told, without=dict(zip(found.values, (q * found.problem.scale).tolist(), strict=True)),
                        robust={n: v for n, v in told.robust.items() if n != SCALE})  # fmt: skip
-        labels = {n: Parameter(n, kind_of(test.estimates.get(n))) for n in found.values}
         named = replace(test.rows(sizes, shares, rows), elsewhere=_("What passed the finest sieve"))
-        flags += stray_note(told, found.values, labels, named, found.card)
+        flags += stray_note(told, found, named)
     return replace(found, flags=flags, diagnostics=told)
 
 
@@ -66,7 +63,10 @@ def improbable_particles(sizes: np.ndarray, below: np.ndarray) -> dict[int, floa
     Among n particles the largest exceeds a size with the probability 1 - Fⁿ.
     """
     n, found = sizes.size, {}
-    for k, beyond, sign in ((int(np.argmax(sizes)), 1.0 - below[np.argmax(sizes)], 1.0), (int(np.argmin(sizes)), below[np.argmin(sizes)], -1.0)):
+    for k, beyond, sign in (
+        (int(np.argmax(sizes)), 1.0 - below[np.argmax(sizes)], 1.0),
+        (int(np.argmin(sizes)), below[np.argmin(sizes)], -1.0),
+    ):
         if -np.expm1(n * np.log1p(-min(max(float(beyond), 0.0), 1.0 - 1e-16))) < IMPROBABLE:
             found[k] = sign * float(stats.norm.isf(max(float(beyond), 1e-300)))
     return found

@@ -10,8 +10,7 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Fraction, Law, Length, Ratio, Series, kind_of
-from granum.core.parameters import Parameter
+from granum.core.kinds import Fraction, Law, Length, Ratio, Series
 from granum.estimation import Estimate, Fit
 from granum.estimation.verdicts import stray_note
 from granum.particles.distributions import SUM_TOLERANCE, Basis, SizeDistribution
@@ -133,19 +132,19 @@ class ImageAnalysis(SizeTest):
         found = super().fit()
         x = np.asarray(self.particle_diameter)
         means = _means(x)
-        found.flags.extend(self._stray(found, x, means))
         surface = {"specific_surface": Estimate(6.0 / means["mean_diameter_surface_volume"].value, "1/m")}
-        return replace(found, derived={**found.derived, **means, **surface})
+        found = replace(found, derived={**found.derived, **means, **surface})
+        found.flags.extend(self._stray(found, x))
+        return found
 
-    def _stray(self, found: Fit, x: np.ndarray, means: dict[str, Estimate]) -> list[dict[str, Any]]:
+    def _stray(self, found: Fit, x: np.ndarray) -> list[dict[str, Any]]:
         """Particles that the law of the others does not expect, with what they do to the means."""
         far = improbable_particles(x, np.asarray(self.law(found)(x)))
         if not far or found.diagnostics is None or x.size - len(far) < 2:
             return []
         without = {name: e.value for name, e in _means(np.delete(x, list(far))).items()}
         told = replace(found.diagnostics, stray=tuple(far), deviations=tuple(far.values()), without=without, robust={})
-        labels = {name: Parameter(name, kind_of(Length)) for name in means}
-        return stray_note(told, {n: e.value for n, e in means.items()}, labels, self.rows(x, x), found.card)
+        return stray_note(told, found, self.rows(x, x))
 
 
 MEANS = {"mean_diameter_number_length": (1, 0), "mean_diameter_surface_volume": (3, 2), "mean_diameter_mass": (4, 3)}
