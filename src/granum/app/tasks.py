@@ -19,7 +19,7 @@ from granum.core import registry
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
-from granum.reports.quantities import check_row, estimate_rows, statistics_text, stream_figures, stream_table, value_text
+from granum.reports.quantities import check_row, defaults_text, estimate_rows, statistics_text, stream_figures, stream_table, value_text
 
 
 def packed(content: Any) -> bytes:
@@ -116,7 +116,7 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         data
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
-            "statistics_shown": statistics_text(data),
+            "statistics_shown": " · ".join(filter(None, (statistics_text(data), defaults_text(data)))),
             "chart": json.loads(test.chart().to_json()),
         }
     )

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import equinox as eqx
+import jax
 import numpy as np
 
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.estimation.least_squares import fit, note
+from granum.core.parameters import default_as_json
+from granum.estimation.least_squares import fit, judge
 from granum.estimation.results import Fit
 from granum.estimation.tables import Source, read_table
+from granum.estimation.verdicts import Rows, note
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -53,19 +57,67 @@ class LabTest(eqx.Module):
                     card=card.key, least=self.least_points, given=min(lengths.values())
                 )
             )
+        for name in lengths:
+            values = np.asarray(getattr(self, name), dtype=float)
+            if not np.all(np.isfinite(values)):
+                raise self.bad_row(name, ~np.isfinite(values), _("'{name}' must be a number in every row: row {number} has {value}."))
 
     @abc.abstractmethod
     def fit(self) -> Fit:
         """Estimate the parameters."""
 
     def fitted(self, model: Callable[[dict[str, Any], Any], Any], start: Mapping[str, float], x: Any, y: Any, *,
-               kinds: Mapping[str, Any] | None = None, **options: Any) -> Fit:  # fmt: skip
-        """``granum.estimation.fit`` with the card and the kinds of this class filled in."""
-        return fit(model, start, x, y, card=type(self).card.key, kinds={**self.estimates, **(kinds or {})}, **options)
+               kinds: Mapping[str, Any] | None = None, index: Any = None, **options: Any) -> Fit:  # fmt: skip
+        """``granum.estimation.fit`` with the card, the kinds, the rows and the defaults of this class filled in.
+
+        ``index`` is the row of the data from which each point was computed, needed where some rows gave none or points are in another order.
+        """
+        kinds = {**self.estimates, **(kinds or {})}
+        found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
+        return replace(found, defaults=self.defaults())
+
+    def judged(self, found: Fit, trials: int) -> Fit:
+        """The best of several models with its diagnostics (fit them with ``judged=False``)."""
+        return judge(found, self.rows(found.problem.x, found.problem.y), trials)
+
+    def rows(self, x: Any, y: Any, index: Any = None) -> Rows:
+        """The rows of the data behind the points of a fit: as given, or one for one where nothing speaks against it."""
+        columns = [(p, np.asarray(value)) for p in type(self).card.parameters if p.series and (value := getattr(self, p.name)) is not None]
+        count, points = len(columns[0][1]), sum(np.size(part) for part in jax.tree.leaves(y))
+        if index is not None:
+            return Rows(columns, np.resize(np.asarray(index), points))
+        if points % count or (np.size(x) == count and not any(_same_order(np.ravel(x), values) for _p, values in columns)):
+            return Rows()
+        return Rows(columns, np.arange(points) % count)
+
+    def defaults(self) -> dict[str, Any]:
+        """Conditions and choices that stand at their defaults, as plain data."""
+        found = {}
+        for p in type(self).card.parameters:
+            if not (p.series or p.required or p.default is None):
+                value = default_as_json(getattr(self, p.name))
+                if value == default_as_json(p.default):
+                    found[p.name] = value
+        return found
 
     def note(self, word: str, message: str, name: str = "") -> dict[str, Any]:
         """A flag of this test: a short word and a sentence in the current language."""
         return note(word, message, type(self).card.key, name)
+
+    def bad_row(self, name: str, bad: Any, sentence: str) -> InputError:
+        """The error of the first bad row of a column; the sentence has room for its name, row and value."""
+        at = int(np.argmax(bad))
+        value = float(np.asarray(getattr(self, name), dtype=float)[at])
+        return InputError(sentence.format(name=name, number=at + 1, value=f"{value:g}"), name=name, row=at + 1)
+
+    def above_zero(self, *names: str) -> None:
+        """Raise one clear error when a column holds a zero or less: it enters a logarithm or a quotient."""
+        for name in names:
+            bad = np.asarray(getattr(self, name), dtype=float) <= 0.0
+            if bad.any():
+                raise self.bad_row(
+                    name, bad, _("'{name}' must be greater than zero in every row: row {number} has {value}; leave such rows out.")
+                )
 
     def increasing(self, name: str, *, strictly: bool = True) -> None:
         """Raise one clear error when a column does not increase from point to point."""
@@ -106,3 +158,7 @@ class LabTest(eqx.Module):
         if not kept.all():
             add_points(drawing, across(x[~kept]), upward(y[~kept]), _("excluded"), hollow=True)
         return drawing
+
+
+def _same_order(one: np.ndarray, other: np.ndarray) -> bool:
+    return bool(np.array_equal(np.argsort(one, kind="stable"), np.argsort(other, kind="stable")))

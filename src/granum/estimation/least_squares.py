@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -16,12 +16,12 @@ from scipy.optimize import least_squares
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import kind_of
+from granum.estimation.diagnostics import diagnose
 from granum.estimation.losses import LeastSquares, Loss
 from granum.estimation.results import Estimate, Fit, derive, t_reach
+from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, stray_note
 
 SCALE_ROUNDS = 50
-COLLINEAR = 100.0
-"""Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
 
 
 @dataclass(frozen=True)
@@ -37,18 +37,19 @@ class Problem:
     scale: np.ndarray
     bounds: dict[str, tuple[float, float]]
     loss: Loss
+    group: np.ndarray
+    kinds: Mapping[str, Any]
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
         index = np.flatnonzero(self.keep)
-        sigma = self.sigma[index]
 
         def whole(q: Any) -> Any:
             return ravel_pytree(self.model(dict(zip(self.names, q * self.scale, strict=True)), self.x))[0]
 
         def residual(q: Any, measured: Any) -> Any:
-            return (whole(q)[index] - measured[index]) / sigma
+            return whole(q)[index] - measured[index]
 
         return jax.jit(residual), jax.jit(jax.jacfwd(residual)), jax.jit(whole)
 
@@ -58,16 +59,35 @@ class Problem:
 
     def residual(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Weighted residuals (model less measured) of the kept points at scaled parameters."""
-        return np.asarray(self._functions[0](q, self.y if y is None else y))
+        return np.asarray(self._functions[0](q, self.y if y is None else y)) / self.sigma[self.keep]
 
     def jacobian(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Their derivatives with respect to the scaled parameters."""
-        return np.asarray(self._functions[1](q, self.y if y is None else y))
+        return np.asarray(self._functions[1](q, self.y if y is None else y)) / self.sigma[self.keep][:, None]
 
-    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None,
-              width: float | None = None) -> tuple[np.ndarray, Any]:  # fmt: skip
-        """Scaled solution and SciPy's outcome, some parameters held; ``width`` is the scale of a robust loss (None: plain squares)."""
+    def reweighted(self, factor: np.ndarray) -> Problem:
+        """The same problem, its standard deviations multiplied; nothing is compiled again."""
+        other = replace(self, sigma=self.sigma * factor)
+        other.__dict__["_functions"] = self._functions
+        return other
+
+    def spread(self, values: np.ndarray) -> float:
+        """Weighted sum of squares of values at the kept points about the mean of each data set."""
+        weight, group, kept = 1.0 / self.sigma[self.keep] ** 2, self.group[self.keep], values[self.keep]
+        sums = np.bincount(group, weight)
+        means = np.bincount(group, weight * kept) / np.where(sums > 0, sums, 1.0)
+        return float(np.sum(weight * (kept - means[group]) ** 2))
+
+    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None, width: float | None = None,
+              loss: Loss | None = None, without: Sequence[int] = ()) -> tuple[np.ndarray, Any]:  # fmt: skip
+        """Scaled solution and SciPy's outcome, some parameters held, some of the kept points left out.
+
+        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain squares).
+        """
         held = fixed or {}
+        loss = loss or self.loss
+        weight = np.ones(int(self.keep.sum()))
+        weight[list(without)] = 0.0
         free = np.array([n not in held for n in self.names])
         template = np.array([held.get(n, 0.0) for n in self.names]) / self.scale
         low, high = (np.array([self.bounds[n][side] for n in self.names]) / self.scale for side in (0, 1))
@@ -79,12 +99,20 @@ class Problem:
 
         if not free.any():
             return template, None
-        robust = {} if width is None else {"loss": self.loss.rho, "f_scale": self.loss.threshold * width}
-        outcome = least_squares(
-            lambda part: self.residual(whole(part), y), np.clip(q, low, high)[free],
-            jac=lambda part: self.jacobian(whole(part), y)[:, free],  # type: ignore[arg-type]
-            bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
-        )  # fmt: skip
+        robust = {} if width is None else {"loss": loss.rho, "f_scale": loss.threshold * width}
+
+        def slopes(part: np.ndarray) -> np.ndarray:
+            found = weight[:, None] * self.jacobian(whole(part), y)[:, free]
+            if not np.all(np.isfinite(found)):
+                last = {n: float(v) for n, v in zip(self.names, whole(part) * self.scale, strict=True)}
+                raise ConvergenceError(_("The fit came to values at which the model has no slope: {last}.").format(last=last), last=last)
+            return found
+
+        with np.errstate(all="ignore"):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
+            outcome = least_squares(
+                lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free], jac=slopes,  # type: ignore[arg-type]
+                bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=5000, **robust,
+            )  # fmt: skip
         return whole(outcome.x), outcome
 
 
@@ -103,6 +131,8 @@ def fit(
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None,
     card: str = "",
     flags: list[dict[str, Any]] | None = None,
+    rows: Rows | None = None,
+    judged: bool = True,
 ) -> Fit:
     """Fit ``model(parameters, x)`` to ``y``.
 
@@ -117,6 +147,8 @@ def fit(
     loss: ``LeastSquares()``, ``Huber()`` or ``SoftL1()``.
     kinds: kinds of parameters and derived quantities by name, for their units.
     derived: function of the parameters whose results get intervals too.
+    rows: the rows of the data behind the points, to name a stray one.
+    judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the best needs it (``judge``).
     """
     names = tuple(start)
     measured = np.asarray(ravel_pytree(jax.tree.map(lambda v: jnp.asarray(v, dtype=float), y))[0])
@@ -124,12 +156,30 @@ def fit(
         model=model, x=x, y=measured, sigma=_spread(sigma, y), names=names, loss=loss or LeastSquares(),
         keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
         scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
-        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived,
+        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived, group=_groups(y),
+        kinds=kinds or {},
     )  # fmt: skip
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
     q, width, held = _settle(problem, first)
-    return _conclude(problem, q, width, held, kinds or {}, card, list(flags or []))
+    found = _conclude(problem, q, width, held, card, list(flags or []))
+    return judge(found, rows or Rows()) if judged else found
+
+
+def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
+    """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among which it was chosen."""
+    problem = found.problem
+    diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, found.held)
+    flags = stray_note(diagnostics, found, rows) + no_relation_note(
+        diagnostics.probability, found.statistics["r_squared"], found.card, trials
+    )
+    return replace(found, diagnostics=diagnostics, flags=found.flags + flags)
+
+
+def _groups(y: Any) -> np.ndarray:
+    """Number of the data set of each point."""
+    parts = [np.size(part) for part in jax.tree.leaves(y)]
+    return np.repeat(np.arange(len(parts)), parts) if max(parts) > 1 else np.zeros(len(parts), int)
 
 
 def _spread(sigma: Any, y: Any) -> np.ndarray:
@@ -154,9 +204,13 @@ def _check(problem: Problem, first: np.ndarray) -> None:
                 used=used, count=count, least=count + 1
             )
         )
+    for name, (low, high) in problem.bounds.items():
+        if not low < high:
+            raise InputError(_("The points leave no room for '{name}', which would lie between {low} and {high}.").format(
+                name=name, low=f"{low:g}", high=f"{high:g}"), name=name)  # fmt: skip
     if not np.all(np.isfinite(problem.y)):
         raise InputError(_("The data contain values that are not finite numbers."))
-    if not np.all(np.isfinite(problem.residual(first))):
+    if not (np.all(np.isfinite(first)) and np.all(np.isfinite(problem.residual(first)))):
         start = {n: float(v) for n, v in zip(problem.names, first * problem.scale, strict=True)}
         raise InputError(_("The model has no finite value at the start values {start}.").format(start=start))
 
@@ -183,7 +237,7 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
     if problem.loss.robust:
         for _round in range(SCALE_ROUNDS):
             size = np.abs(problem.residual(q))
-            new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-300)
+            new = max(1.4826 * float(np.median(size)), 1e-12 * float(np.max(size)), 1e-100)
             settled = width is not None and abs(new - width) <= 1e-8 * new
             width = new
             if settled:
@@ -195,15 +249,16 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
     return q, width
 
 
-def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], kinds: Mapping[str, Any],
-              card: str, flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
-    names, scale = problem.names, problem.scale
+def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], card: str,
+              flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
+    names, scale, kinds = problem.names, problem.scale, problem.kinds
     values = {n: float(held.get(n, v)) for n, v in zip(names, q * scale, strict=True)}
     residual, jacobian = problem.residual(q), problem.jacobian(q)
     free = np.array([n not in held for n in names])
     used, dof = residual.size, residual.size - int(free.sum())
     lengths = np.linalg.norm(jacobian, axis=0)
-    _u, singular, rotation = np.linalg.svd(jacobian[:, free] / np.where(lengths[free] > 0, lengths[free], 1.0), full_matrices=False)
+    lengths = np.where(lengths > 0.0, lengths, 1.0)
+    _u, singular, rotation = np.linalg.svd(jacobian[:, free] / lengths[free], full_matrices=False)
     condition = float(singular[0] / singular[-1]) if singular.size and singular[-1] > 0 else np.inf
     squares = float(residual @ residual)
     variance = squares / dof if width is None else _robust_variance(problem.loss, residual, width, int(free.sum()))
@@ -220,9 +275,7 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
         parameters[n] = Estimate(values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error))
     whole = problem.prediction(q)
-    weight = 1.0 / problem.sigma[problem.keep] ** 2
-    kept_y = problem.y[problem.keep]
-    spread = float(np.sum(weight * (kept_y - np.average(kept_y, weights=weight)) ** 2))
+    spread = problem.spread(problem.y)
     count = int(free.sum()) + 1
     correction = 2.0 * count * (count + 1) / (used - count - 1) if used > count + 1 else np.inf
     statistics = {
@@ -235,9 +288,9 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
         "residual_standard_deviation": float(np.sqrt(variance)),
         "condition": condition,
     }
-    flags += _warnings(parameters, covariance, held, condition, card)
+    flags += parameter_notes(parameters, covariance, held, condition, problem, card)
     found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
-    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem)
+    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem, tuple(held))
 
 
 def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:
@@ -246,36 +299,3 @@ def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int)
     mean = float(np.mean(slope))
     correction = 1.0 + count / residual.size * float(np.var(slope)) / mean**2
     return correction**2 * width**2 * float(psi @ psi) / (residual.size - count) / mean**2
-
-
-def _warnings(parameters: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,
-              card: str) -> list[dict[str, Any]]:  # fmt: skip
-    found = []
-    for name in held:
-        found.append(note("at bound", _("'{name}' ended on its bound: the data do not determine it.").format(name=name), card, name))
-    if condition >= COLLINEAR:
-        deviation = np.sqrt(np.diag(covariance))
-        with np.errstate(invalid="ignore", divide="ignore"):
-            correlation = np.abs(np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation)))
-        i, j = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
-        names = list(parameters)
-        found.append(
-            note(
-                "poorly identified",
-                _("'{one}' and '{other}' can hardly be told apart by these data (condition {condition}).").format(
-                    one=names[i], other=names[j], condition=f"{condition:.0f}" if np.isfinite(condition) else "∞"
-                ),
-                card,
-                names[i],
-            )
-        )
-    for name, estimate in parameters.items():
-        low, high = estimate.interval_95
-        if name not in held and low < 0.0 < high:
-            found.append(note("not significant", _("'{name}' does not differ from zero at 95 %.").format(name=name), card, name))
-    return found
-
-
-def note(word: str, message: str, card: str, name: str = "") -> dict[str, Any]:
-    """One flag of a fit: a short word and a sentence."""
-    return {"flag": word, "name": name, "card": card, "message": message}

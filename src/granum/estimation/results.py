@@ -16,6 +16,7 @@ from granum.core.errors import unknown_name
 from granum.core.i18n import _
 
 if TYPE_CHECKING:
+    from granum.estimation.diagnostics import Diagnostics
     from granum.estimation.intervals import Profile
     from granum.estimation.least_squares import Problem
 
@@ -61,6 +62,9 @@ class Fit:
     statistics: rmse, r_squared, aicc, degrees_of_freedom, points, condition, residual_standard_deviation …
     derived: quantities computed from the parameters, with intervals by the delta method.
     flags: records with a word and a sentence.
+    held: parameters that ended on a bound.
+    diagnostics: leverage and influence of every point, stray points, and whether there is a relation at all.
+    defaults: conditions and choices that were not given, with the values taken, as plain data by name.
     """
 
     card: str
@@ -72,6 +76,9 @@ class Fit:
     derived: dict[str, Estimate]
     flags: list[dict[str, Any]]
     problem: Problem = field(repr=False)
+    held: tuple[str, ...] = ()
+    diagnostics: Diagnostics | None = field(default=None, repr=False)
+    defaults: Mapping[str, Any] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Estimate:
         found = {**self.derived, **self.parameters}
@@ -172,6 +179,8 @@ class Fit:
             "derived": {name: e.as_json() for name, e in self.derived.items()},
             "statistics": {name: _number(value) for name, value in self.statistics.items()},
             "flags": self.flags,
+            "diagnostics": self.diagnostics.as_json() if self.diagnostics else None,
+            "defaults": dict(self.defaults),
         }
 
 

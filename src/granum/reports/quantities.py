@@ -95,6 +95,16 @@ def statistics_text(data: dict[str, Any]) -> str:
     return " · ".join(f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers)
 
 
+def defaults_text(data: dict[str, Any]) -> str:
+    """What a fit took because it was not given, in one line; empty where nothing was."""
+    from granum.core import registry
+
+    thing = registry.everything().get(data["card"])
+    declared = {p.name: p for p in thing.card.parameters} if thing else {}
+    shown = [f"{declared[n].label} = {value_text(value, declared[n])}" for n, value in data.get("defaults", {}).items() if n in declared]
+    return _("Taken by default: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
+
+
 class EstimateRow(NamedTuple):
     """An estimate in its display unit, each number to the second figure of the standard error."""
 

@@ -18,7 +18,16 @@ from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.symbols import text_symbol
 from granum.core.units import format_number, pretty_unit, show
-from granum.reports.quantities import check_row, estimate_rows, figure_named, label_of, statistics_text, stream_table, value_text
+from granum.reports.quantities import (
+    check_row,
+    defaults_text,
+    estimate_rows,
+    figure_named,
+    label_of,
+    statistics_text,
+    stream_table,
+    value_text,
+)
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 
@@ -70,7 +79,8 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
     for row in estimate_rows(data):
         table.add_row(row.label, row.value, row.error, row.interval, row.unit, style="dim" if row.derived else None)
     console.print(table)
-    console.print(Text(statistics_text(data), style="dim"))
+    for line in filter(None, (statistics_text(data), defaults_text(data))):
+        console.print(Text(line, style="dim"))
     for flag in data["flags"]:
         console.print(Text("! " + (flag["message"] if isinstance(flag, dict) else str(flag)), style=CAUTION))
     if saved:

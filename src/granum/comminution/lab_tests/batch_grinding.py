@@ -9,6 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import lab_test
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import Fraction, Frequency, Series, Time
 from granum.estimation import Fit, LabTest
 
@@ -35,6 +37,8 @@ class BatchGrinding(LabTest):
         """Rate of breakage and the fraction at time 0 (below 1 when the sieving was not perfect)."""
         t, w = np.asarray(self.grinding_time), np.asarray(self.remaining_fraction)
         usable = w > 0
+        if np.ptp(t) <= 0 or usable.sum() < 2:
+            raise InputError(_("The rate of breakage shows only between two grinding times with material left."), name="remaining_fraction")
         slope = max(-log(max(w[usable][-1] / w[usable][0], 1e-12)) / max(t[usable][-1] - t[usable][0], 1e-12), 1e-9)
         return self.fitted(
             lambda p, x: p["remaining_fraction_start"] * jnp.exp(-p["selection_function"] * x),

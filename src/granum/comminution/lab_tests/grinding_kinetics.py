@@ -60,6 +60,10 @@ class GrindingKinetics(LabTest):
             raise InputError(_("A cumulative curve falls with the size: check the rows of that time."), name="cumulative_fraction")
         return times, sizes, grid
 
+    def _row_of(self) -> np.ndarray:
+        """Row of the data of each cumulative fraction, time by size."""
+        return np.lexsort((np.asarray(self.particle_diameter), np.asarray(self.grinding_time)))
+
     def model(self, values: dict[str, Any], times: Any, sizes: Any, feed: Any) -> Any:
         """Cumulative fractions at times after the feed, time by size."""
         edges = np.concatenate([np.zeros(1), sizes])
@@ -79,6 +83,7 @@ class GrindingKinetics(LabTest):
         start = {"selection_rate": rate, "selection_exponent": 1.0, "fines_share": 0.5, "fines_exponent": 0.8, "coarse_exponent": 4.0}
         return self.fitted(
             lambda p, x: self.model(p, x, sizes, feed)[:, :-1].ravel(), start, later, grid[1:, :-1].ravel(),
+            index=self._row_of().reshape(grid.shape)[1:, :-1].ravel(),
             bounds={"selection_rate": (rate * 1e-4, inf), "selection_exponent": (0.0, 4.0), "fines_share": (0.0, 1.0),
                     "fines_exponent": (0.05, 5.0), "coarse_exponent": (0.5, 20.0)},
         )  # fmt: skip

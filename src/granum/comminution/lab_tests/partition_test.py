@@ -67,6 +67,7 @@ class PartitionTest(LabTest):
 
     def fit(self) -> Fit:
         """Cut size, sharpness and bypass; the 25 and 75 % sizes are those of the corrected curve."""
+        self.above_zero("class_sizes")
         sizes = np.asarray(self.class_sizes)
         numbers, total = self.partition_numbers()
         filled = total > 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
@@ -20,6 +21,7 @@ from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.crystals import Crystal
 from granum.estimation import Fit, LabTest, fit
+from granum.estimation.lines import straight_line
 from granum.numerics.smooth import safe_divide
 
 FINE_STEPS = 200  # time steps of a run, shared out between the samples
@@ -129,7 +131,7 @@ class BatchKinetics(LabTest):
                     "The solution is hardly ever supersaturated while crystals grow: check that concentration and solubility have the same basis."
                 )
             )
-        order, level = np.polyfit(np.log(S[good]), np.log(growth[good]), 1)
+        order, level = straight_line(np.log(S[good]), np.log(growth[good]))
         if not 0.7 <= order <= 3.0:
             order = 1.5
             level = float(np.median(np.log(growth[good]) - order * np.log(S[good])))
@@ -155,9 +157,11 @@ def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
         if best is None or misfit < best[0]:
             best = (misfit, start)
     assert best is not None
-    return fit(
-        model, best[1], np.zeros(1), y, sigma=sigma, card=BatchKinetics.card.key, kinds=BatchKinetics.estimates,
+    alone = tests[0].rows(np.zeros(1), y) if len(tests) == 1 else None
+    found = fit(
+        model, best[1], np.zeros(1), y, sigma=sigma, rows=alone, card=BatchKinetics.card.key, kinds=BatchKinetics.estimates,
         scale={"log_growth_coefficient": 1.0, "growth_order": 0.5, "log_nucleation_coefficient": 2.0, "nucleation_order": 1.0},
         bounds={"growth_order": (0.3, 6.0), "nucleation_order": (0.3, 12.0), "log_nucleation_coefficient": (0.0, 80.0)},
         derived=lambda p: {"growth_coefficient": jnp.exp(p["log_growth_coefficient"]), "nucleation_coefficient": jnp.exp(p["log_nucleation_coefficient"])},
     )  # fmt: skip
+    return replace(found, defaults=tests[0].defaults())

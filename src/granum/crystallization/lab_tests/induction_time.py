@@ -13,6 +13,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Density, Length, MolarMass, PositiveNumber, Series, SurfaceTension, Temperature, Time
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 
 @lab_test("induction_time", source="mullin2001, ch. 5; volmer1939", title="Induction time by supersaturation",
@@ -36,12 +37,13 @@ class InductionTime(LabTest):
 
     def fit(self) -> Fit:
         """Interfacial energy and the limit of the induction time with 95 % intervals; critical radii from them."""
+        self.above_zero("induction_time")
         S, t = np.asarray(self.supersaturation_ratio), np.asarray(self.induction_time)
         if np.any(S <= 1.0):
             raise InputError(_("A solution with a supersaturation ratio of 1 or less never crystallizes: leave those points out."),
                              name="supersaturation_ratio")  # fmt: skip
         T, nu, v = self.temperature, self.ions_per_formula, self.molar_mass / (self.crystal_density * AVOGADRO)
-        slope, level = np.polyfit(1.0 / (nu * np.log(S)) ** 2, np.log(t), 1)
+        slope, level = straight_line(1.0 / (nu * np.log(S)) ** 2, np.log(t))
         kT = BOLTZMANN * T
         unit = 16.0 * np.pi / 3.0 * v**2 / kT**3
         return self.fitted(
@@ -56,6 +58,7 @@ class InductionTime(LabTest):
         """Logarithm of the induction time against the inverse square of the logarithm of the supersaturation."""
         from granum.core.charts import add_line, add_points, axis_title, figure
 
+        self.above_zero("induction_time")
         S, t = np.asarray(self.supersaturation_ratio), np.asarray(self.induction_time)
         grid = np.linspace(S.min(), S.max(), 100)
         drawing = figure("1 / (ln <i>β</i>)²", axis_title("induction_time", "s"), title=type(self).card.title, y_log=True)

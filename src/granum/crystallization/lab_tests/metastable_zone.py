@@ -23,6 +23,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.kinds import CoolingRate
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 
 @formula(
@@ -58,8 +59,9 @@ class MetastableZone(LabTest):
 
     def fit(self) -> Fit:
         """Order and constant with 95 % intervals."""
+        self.above_zero("cooling_rate", "undercooling")
         R, dT = np.asarray(self.cooling_rate), np.asarray(self.undercooling)
-        slope, level = np.polyfit(np.log(R), np.log(dT), 1)
+        slope, level = straight_line(np.log(R), np.log(dT))
         m = float(1.0 / slope)
 
         def derived(p: dict[str, Any]) -> dict[str, Any]:
@@ -99,8 +101,9 @@ class MetastableZoneSangwal(LabTest):
 
     def fit(self) -> Fit:
         """Slope and constant with 95 % intervals; the interfacial energy from the slope."""
+        self.above_zero("cooling_rate", "undercooling")
         R, y = np.asarray(self.cooling_rate), (self.temperature_saturation / np.asarray(self.undercooling)) ** 2
-        slope, level = np.polyfit(np.log(R), y, 1)
+        slope, level = straight_line(np.log(R), y)
         T, v = self.temperature_saturation, self.molar_mass / (self.crystal_density * AVOGADRO)
 
         def derived(p: dict[str, Any]) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 
 @formula(
@@ -79,7 +80,7 @@ class MsmprAnalysis(LabTest):
         L, n, tau = np.asarray(self.crystal_size), np.asarray(self.population_density), float(self.residence_time)
         if np.any(n <= 0):
             raise InputError(_("A population density of zero has no logarithm: leave that point out."), name="population_density")
-        slope, level = np.polyfit(L, np.log(n), 1)
+        slope, level = straight_line(L, np.log(n))
         if slope >= 0:
             raise InputError(_("The population density does not fall with size: this is no continuous crystallizer at steady state."))
 

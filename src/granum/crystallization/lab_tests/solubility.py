@@ -19,6 +19,7 @@ from granum.crystallization.formulas.solubility_laws import (
     VantHoffSolubility,
 )
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import polynomial, straight_line
 
 
 class _Solubility(LabTest):
@@ -27,6 +28,7 @@ class _Solubility(LabTest):
     axes: ClassVar = {"temperature": Temperature, "solute_per_solvent": MassRatio}
 
     def _mole_fractions(self) -> np.ndarray:
+        self.above_zero("solute_per_solvent")
         moles = np.asarray(self.solute_per_solvent) / self.molar_mass
         return moles / (moles + 1.0 / self.solvent_molar_mass)
 
@@ -91,7 +93,7 @@ class SolubilityVantHoff(_Solubility):
     def fit(self) -> Fit:
         """Enthalpy and entropy of dissolution with 95 % intervals."""
         T, y = np.asarray(self.temperature), np.log(self._mole_fractions())
-        slope, level = np.polyfit(1 / T, y, 1)
+        slope, level = straight_line(1 / T, y)
         return self.fitted(
             lambda p, T: (p["entropy_of_dissolution"] - p["enthalpy_of_dissolution"] / T) / GAS_CONSTANT,
             {"enthalpy_of_dissolution": float(-slope * GAS_CONSTANT), "entropy_of_dissolution": float(level * GAS_CONSTANT)}, T, y,
@@ -119,7 +121,7 @@ class SolubilityPolynomial(_Solubility):
     def fit(self) -> Fit:
         """Coefficients with 95 % intervals."""
         theta, y = np.asarray(self.temperature) - ZERO_CELSIUS, np.asarray(self.solute_per_solvent)
-        c, b, a = np.polyfit(theta, y, 2)
+        a, b, c = polynomial(theta, y, 2)
         return self.fitted(
             lambda p, t: p["constant_coefficient"] + t * (p["linear_coefficient"] + t * p["quadratic_coefficient"]),
             {"constant_coefficient": float(a), "linear_coefficient": float(b), "quadratic_coefficient": float(c)}, theta, y,
@@ -143,8 +145,9 @@ class SolubilityAntisolvent(LabTest):
 
     def fit(self) -> Fit:
         """Solubility in the pure solvent, power and curvature with 95 % intervals, fitted on the logarithm."""
+        self.above_zero("solute_per_solvent")
         w, y = np.asarray(self.antisolvent_fraction), np.log(np.asarray(self.solute_per_solvent))
-        c, b, a = np.polyfit(w, y, 2)
+        a, b, c = polynomial(w, y, 2)
         return self.fitted(
             lambda p, w: jnp.log(p["solubility_per_solvent"]) - w * (p["antisolvent_power"] + w * p["antisolvent_curvature"]),
             {"solubility_per_solvent": float(np.exp(a)), "antisolvent_power": float(-b), "antisolvent_curvature": float(-c)}, w, y,

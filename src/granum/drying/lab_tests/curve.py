@@ -12,6 +12,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Frequency, Mass, MassFlux, MoistureDryBasis, PositiveNumber, Series, Time
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -108,12 +109,13 @@ class DryingCurve(LabTest):
         """Points in one local parabola."""
         return min(len(self.time), max(LEAST_NEIGHBORS, int(np.ceil(NEIGHBORS * len(self.time)))))
 
-    def rate_curve(self) -> RateCurve:
-        """−dX/dt at every point from a local parabola, with its standard error."""
+    def rate_curve(self, points: slice = slice(None)) -> RateCurve:
+        """−dX/dt at every point (or some of them) from a local parabola, with its standard error."""
         t, X = np.asarray(self.time, dtype=float), self.moisture()
         count = self._neighbors
-        smooth, rate, error = np.empty_like(X), np.empty_like(X), np.empty_like(X)
-        for i, now in enumerate(t):
+        shown = t[points]
+        smooth, rate, error = np.empty_like(shown), np.empty_like(shown), np.empty_like(shown)
+        for i, now in enumerate(shown):
             near = np.argsort(np.abs(t - now), kind="stable")[:count]
             reach = max(np.abs(t[near] - now).max(), 1e-12) * 1.0001
             s = (t[near] - now) / reach
@@ -126,7 +128,7 @@ class DryingCurve(LabTest):
             variance = float(weight @ left**2) / max(weight.sum() - 3.0, 1.0)
             spread = inverse @ (basis.T @ (weight[:, None] ** 2 * basis)) @ inverse * variance
             smooth[i], rate[i], error[i] = found[0], -found[1] / reach, np.sqrt(max(spread[1, 1], 0.0)) / reach
-        return RateCurve(t, smooth, rate, error)
+        return RateCurve(shown, smooth, rate, error)
 
     def fit(self) -> Fit:
         self.increasing("time")
@@ -136,6 +138,8 @@ class DryingCurve(LabTest):
             raise InputError(
                 _("Fewer than {least} points remain after 'warm_up_time'.").format(least=self.least_points), name="warm_up_time"
             )
+        if not np.ptp(X[keep]) > 0.0:
+            raise InputError(_("The moisture is the same at every point: nothing dried."), name="moisture_dry_basis")
         origin = t[keep][0]
         fixed = {} if self.equilibrium_moisture is None else {"equilibrium_moisture": float(self.equilibrium_moisture)}
         fixed |= {} if self.fit_exponent else {"characteristic_exponent": 1.0}
@@ -178,7 +182,7 @@ class DryingCurve(LabTest):
         for share in np.linspace(0.1, 1.15, 16):
             Xc = low + share * (X[0] - low)
             early = min(Xc, X[0] - 0.15 * np.ptp(X)) <= X
-            slope = -np.polyfit(t[early], X[early], 1)[0] if early.sum() > 1 else 0.0
+            slope = -straight_line(t[early], X[early])[0] if early.sum() > 1 else 0.0
             for factor in (0.8, 1.0, 1.3):
                 trial = first | {"rate_per_dry_mass": max(factor * float(slope), 1e-12), "critical_moisture": float(Xc)}
                 left = np.asarray(moisture_model({**trial, **fixed}, t)) - X
@@ -196,8 +200,8 @@ class DryingCurve(LabTest):
             )
         elif Xc <= X.min() + 0.02 * np.ptp(X):
             notes.append(self.note("no falling-rate period", _("The rate is constant to the end: the critical moisture was not reached.")))
-        rates = self.rate_curve()
-        early = rates.rate[np.asarray(self.time) >= self.warm_up_time][:3]
+        first = int(np.argmax(np.asarray(self.time) >= self.warm_up_time))
+        early = self.rate_curve(slice(first, first + 3)).rate
         if Xc < X0 and early.max() < 0.7 * found["rate_per_dry_mass"].value:
             notes.append(
                 self.note("warm-up", _("The first points dry slower than the rest: warming up; leave them out with 'warm_up_time'."))

@@ -57,6 +57,7 @@ class VialHeatTest(LabTest):
 
     def fit(self) -> Fit:
         """The three coefficients with 95 % intervals."""
+        self.above_zero("pressure_chamber", "time")
         P, K = np.asarray(self.pressure_chamber, dtype=float), self.coefficients()
         slope = max((K.max() - K.min()) / max(P.max() - P.min(), 1e-9), 1e-6)
         start = {

@@ -16,6 +16,7 @@ from granum.drying.isotherms import empirical as m
 from granum.drying.lab_tests.ranking import Ranked, rank
 from granum.drying.lab_tests.thin_layer import best_sentence
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import polynomial, straight_line
 
 INF = float("inf")
 POSITIVE = (1e-9, INF)
@@ -47,7 +48,7 @@ class IsothermTest(LabTest):
     axes: ClassVar = {"water_activity": WaterActivity, "moisture_dry_basis": MoistureDryBasis}
     least_points: ClassVar[int] = 4
 
-    def _fit_one(self, cls: Any) -> Fit:
+    def _fit_one(self, cls: Any, *, judged: bool = False) -> Fit:
         aw, X = np.asarray(self.water_activity, dtype=float), np.asarray(self.moisture_dry_basis, dtype=float)
         if np.any((aw <= 0) | (aw >= 1)):
             raise InputError(_("Every water activity must lie strictly between 0 and 1."), name="water_activity")
@@ -58,7 +59,7 @@ class IsothermTest(LabTest):
         def model(p: dict[str, Any], aw: Any) -> Any:
             return cls(**p, **fixed).moisture(jnp.asarray(aw), self.temperature)
 
-        return self.fitted(model, start, aw, X, keep=keep, bounds=bounds)
+        return self.fitted(model, start, aw, X, keep=keep, bounds=bounds, judged=judged)
 
     def ranking(self) -> tuple[list[Ranked], dict[str, str]]:
         """All models over the whole range, best first, and those that could not be fitted with the reason."""
@@ -67,9 +68,9 @@ class IsothermTest(LabTest):
     def fit(self) -> Fit:
         """The chosen isotherm, or the best-ranked one, whose name and rivals stand in the flags."""
         if self.model != "best":
-            return self._fit_one(MODELS[self.model])
+            return self._fit_one(MODELS[self.model], judged=True)
         ranked, _failed = self.ranking()
-        found = ranked[0].fit
+        found = self.judged(ranked[0].fit, len(ranked))
         found.flags.append(self.note("best model", best_sentence(ranked), ranked[0].name))
         return found
 
@@ -88,7 +89,7 @@ def _sorted(aw: np.ndarray, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    slope, intercept = np.polyfit(x, y, 1)
+    slope, intercept = straight_line(x, y)
     return float(slope), float(intercept)
 
 
@@ -111,9 +112,9 @@ def starts(cls: Any, aw: np.ndarray, X: np.ndarray, T: float) -> tuple[dict[str,
              "isotherm_exponent_second": (0.01, 100.0)},
         )  # fmt: skip
     if cls is m.DoubleLog:
-        c = np.polynomial.polynomial.polyfit(np.log(low), X, 3)
+        c = polynomial(np.log(low), X, 3)
         names = ("isotherm_coefficient", "isotherm_coefficient_second", "isotherm_coefficient_third", "isotherm_coefficient_fourth")
-        return dict(zip(names, map(float, c), strict=True)), {}
+        return dict(zip(names, c, strict=True)), {}
     if cls is m.LewickiThree:
         scale = float(np.interp(0.5, *_sorted(aw, X)))
         return {"isotherm_coefficient": scale, "isotherm_exponent": 0.4, "isotherm_exponent_second": 5.0}, {

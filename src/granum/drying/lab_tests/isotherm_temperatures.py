@@ -18,6 +18,7 @@ from granum.drying.isotherms.base import WATER_MOLAR_MASS
 from granum.drying.lab_tests.ranking import Ranked, rank
 from granum.drying.lab_tests.thin_layer import best_sentence
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -80,7 +81,7 @@ class IsothermTemperatures(LabTest):
             values[constant] = values[constant] * jnp.exp(-values[energy] * r)
         return cls(**values)
 
-    def _fit_one(self, cls: Any) -> Fit:
+    def _fit_one(self, cls: Any, *, judged: bool = False) -> Fit:
         T, aw, X = self.columns()
         moisture, mean = self.reference
         start, bounds = starts(cls, T, aw, X)
@@ -92,7 +93,7 @@ class IsothermTemperatures(LabTest):
         def derived(p: dict[str, Any]) -> dict[str, Any]:
             return {"isosteric_heat_net": self.law_of(cls, p).net_isosteric_heat(moisture, mean)}
 
-        return self.fitted(model, start, aw, X, bounds=bounds, derived=derived)
+        return self.fitted(model, start, aw, X, bounds=bounds, derived=derived, judged=judged)
 
     def ranking(self) -> tuple[list[Ranked], dict[str, str]]:
         """All models, best first, and those that could not be fitted with the reason."""
@@ -102,9 +103,9 @@ class IsothermTemperatures(LabTest):
         """The chosen law, or the best-ranked one, whose name and rivals stand in the flags."""
         self.columns()
         if self.model != "best":
-            return self._fit_one(MODELS[self.model])
+            return self._fit_one(MODELS[self.model], judged=True)
         ranked, _failed = self.ranking()
-        found = ranked[0].fit
+        found = self.judged(ranked[0].fit, len(ranked))
         found.flags.append(self.note("best model", best_sentence(ranked), ranked[0].name))
         return found
 
@@ -159,7 +160,7 @@ def _levels(T: np.ndarray) -> np.ndarray:
 
 
 def _line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    slope, intercept = np.polyfit(x, y, 1)
+    slope, intercept = straight_line(x, y)
     return float(slope), float(intercept)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from granum.core.errors import GranumError
+from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.estimation import Fit
 
@@ -59,9 +59,12 @@ def rank(models: Mapping[str, type], fit_one: Callable[[type], Fit]) -> tuple[li
             failed[name] = _("{points} points are too few for {count} parameters.").format(
                 points=found.statistics["points"], count=len(found.parameters)
             )
+    if not fits:
+        reasons = "; ".join(f"{name}: {reason}" for name, reason in list(failed.items())[:2])
+        raise InputError(_("None of the models can be fitted to these points ({reasons}).").format(reasons=reasons))
     order = sorted(fits, key=lambda n: (fits[n].statistics["aicc"], n))
     leaders: dict[str, str] = {}
-    best = fits[order[0]].statistics["aicc"] if order else 0.0
+    best = fits[order[0]].statistics["aicc"]
     rows = []
     for name in order:
         curve = models[name].curve  # type: ignore[attr-defined]

@@ -55,7 +55,7 @@ class ThinLayerTest(LabTest):
             raise InputError(_("The equilibrium moisture lies above the first moisture."), name="equilibrium_moisture")
         return (X - self.equilibrium_moisture) / (X[0] - self.equilibrium_moisture)
 
-    def _fit_one(self, cls: Any) -> Fit:
+    def _fit_one(self, cls: Any, *, judged: bool = False) -> Fit:
         t, MR = np.asarray(self.time, dtype=float), self.ratios()
         unit = self._unit(t, MR)
         first = cls.first(1.0)
@@ -65,7 +65,7 @@ class ThinLayerTest(LabTest):
 
         # start values belong to times in units of the time to 1/e, where every parameter is of order one
         start = self._restated(first, cls, unit)
-        return self.fitted(model, start, t, MR, bounds=dict(cls.bounds))
+        return self.fitted(model, start, t, MR, bounds=dict(cls.bounds), judged=judged)
 
     @staticmethod
     def _unit(t: np.ndarray, MR: np.ndarray) -> float:
@@ -90,9 +90,9 @@ class ThinLayerTest(LabTest):
         """The chosen model, or the best-ranked one, whose name and rivals stand in the flags."""
         self.increasing("time")
         if self.model != "best":
-            return self._fit_one(MODELS[self.model])
+            return self._fit_one(MODELS[self.model], judged=True)
         ranked, _failed = self.ranking()
-        found = ranked[0].fit
+        found = self.judged(ranked[0].fit, len(ranked))
         found.flags.append(self.note("best model", best_sentence(ranked), ranked[0].name))
         return found
 

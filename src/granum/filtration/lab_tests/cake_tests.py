@@ -23,6 +23,7 @@ from granum.core.kinds import (
     VoidFraction,
 )
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.formulas.deliquoring import saturation_after_deliquoring
 from granum.filtration.formulas.washing import wash_effluent_concentration
 
@@ -55,9 +56,10 @@ class CompressionCell(LabTest):
 
     def fit(self) -> Fit:
         """Tiller and Leu's constants with 95 % intervals."""
+        self.above_zero("solids_pressure", "cake_resistance")
         p, alpha, solid = np.asarray(self.solids_pressure), np.asarray(self.cake_resistance), 1.0 - np.asarray(self.void_fraction)
-        n, _level = np.polyfit(np.log(p), np.log(alpha), 1)
-        b, _level = np.polyfit(np.log(p), np.log(solid), 1)
+        n, _level = straight_line(np.log(p), np.log(alpha))
+        b, _level = straight_line(np.log(p), np.log(solid))
         low = float(np.median(p))
         start = {"cake_resistance_unloaded": float(alpha[np.argmin(p)]), "compressibility": float(n) or 0.1,
                  "void_fraction_unloaded": float(1.0 - solid.min()), "compaction_exponent": float(b) or 0.01, "characteristic_pressure": low}  # fmt: skip

@@ -25,6 +25,7 @@ from granum.core.kinds import (
 )
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start
 from granum.filtration.quantities import OVER_COMPRESSIBLE
 
@@ -71,6 +72,7 @@ class Compressibility(LabTest):
 
     def fit(self) -> Fit:
         """Reference resistance and exponent with 95 % intervals; medium resistances where raw readings are given."""
+        self.above_zero("pressure_drop", *(("cake_resistance",) if self.cake_resistance is not None else ()))
         if self.cake_resistance is not None:
             return self._from_resistances()
         if self.time is None or self.filtrate_volume is None:
@@ -92,7 +94,7 @@ class Compressibility(LabTest):
         if np.ptp(logs) < 0.05:
             raise InputError(_("Compressibility needs tests at different pressures; these are all at {value} bar.").format(
                 value=format_number(float(pressures[0]) / 1e5)))  # fmt: skip
-        n, level = np.polyfit(logs, np.log(resistances), 1)
+        n, level = straight_line(logs, np.log(resistances))
         if not self.with_threshold:
             return {"cake_resistance_reference": float(np.exp(level)), "compressibility": float(n) or 0.1}
         order = np.argsort(pressures)
@@ -120,7 +122,7 @@ class Compressibility(LabTest):
             found = self.fitted(lambda p, x: self._law(p, x), start, pressures, np.log(resistances), **options)
         else:
             solid = 1.0 - np.asarray(self.void_fraction)
-            slope, level = np.polyfit(np.log(pressures / self.reference_pressure), np.log(solid), 1)
+            slope, level = straight_line(np.log(pressures / self.reference_pressure), np.log(solid))
             start |= {"void_fraction_reference": float(1.0 - np.exp(level)), "compaction_exponent": float(slope) or 0.01}
             first = self.fitted(lambda p, x: self._law(p, x), dict(list(start.items())[: 3 if self.with_threshold else 2]), pressures,
                                 np.log(resistances), **options)  # fmt: skip
@@ -134,8 +136,8 @@ class Compressibility(LabTest):
             found = self.fitted(both, start, pressures, (np.log(resistances), np.log(solid)), sigma=sizes, **options)
         return self._judged(found)
 
-    def _tests(self) -> list[tuple[float, np.ndarray, np.ndarray]]:
-        """Pressure, volumes and t/V of each test, without the origin and bad first points."""
+    def _tests(self) -> list[tuple[float, np.ndarray, np.ndarray, np.ndarray]]:
+        """Pressure, volumes, t/V and rows of each test, without the origin and bad first points."""
         pressure, t, V = (np.asarray(x) for x in (self.pressure_drop, self.time, self.filtrate_volume))
         assert self.area is not None
         tests, first = [], 0
@@ -152,7 +154,7 @@ class Compressibility(LabTest):
                     )
                 )
             skip = bad_start(u, v / u)
-            tests.append((float(np.mean(pressure[rows])), u[skip:], (v / u)[skip:]))
+            tests.append((float(np.mean(pressure[rows])), u[skip:], (v / u)[skip:], first + np.flatnonzero(good)[skip:]))
             first = i
         return tests
 
@@ -162,8 +164,8 @@ class Compressibility(LabTest):
         assert self.dynamic_viscosity is not None
         assert self.dry_cake_per_filtrate is not None
         rows = []
-        for pressure, V, ratio in self._tests():
-            slope, intercept = np.polyfit(V, ratio, 1)
+        for pressure, V, ratio, _rows in self._tests():
+            slope, intercept = straight_line(V, ratio)
             cake = slope * 2.0 * pressure * self.area**2 / (self.dynamic_viscosity * self.dry_cake_per_filtrate)
             rows.append((pressure, cake, intercept * pressure * self.area / self.dynamic_viscosity))
         pressures, cakes, media = np.array(rows).T
@@ -183,22 +185,23 @@ class Compressibility(LabTest):
         def model(p: dict[str, Any], volumes: Any) -> Any:
             return tuple(
                 eta / (pressure * A) * (jnp.exp(self._law(p, pressure)) * W * V / (2.0 * A) + p[name])
-                for (pressure, _V, _ratio), V, name in zip(tests, volumes, names, strict=True)
+                for (pressure, *_rest), V, name in zip(tests, volumes, names, strict=True)
             )
 
         # readings of slow and fast tests count alike: their scatter is taken proportional to the mean of t/V
-        sigma = tuple(float(np.mean(ratio)) for _p, _V, ratio in tests)
+        sigma = tuple(float(np.mean(ratio)) for _p, _V, ratio, _rows in tests)
         bounds = {**options.pop("bounds"), **dict.fromkeys(names, (0.0, np.inf))}
         kinds = {**options.pop("kinds"), **dict.fromkeys(names, MediumResistance)}
         given = sum((np.asarray(self.time) > 0) & (np.asarray(self.filtrate_volume) > 0))
-        left_out = int(given) - sum(len(V) for _p, V, _r in tests)
+        left_out = int(given) - sum(len(V) for _p, V, *_rest in tests)
         flags = (
             [self.note("points excluded", _("First points left out: {count}.").format(count=left_out), "filtrate_volume")]
             if left_out
             else []
         )
-        found = self.fitted(model, start, tuple(V for _p, V, _r in tests), tuple(r for _p, _V, r in tests), sigma=sigma, bounds=bounds,
-                            kinds=kinds, flags=flags, **options)  # fmt: skip
+        volumes, ratios, rows = (tuple(test[i] for test in tests) for i in (1, 2, 3))
+        found = self.fitted(model, start, volumes, ratios, index=np.concatenate(rows), sigma=sigma, bounds=bounds, kinds=kinds, flags=flags,
+                            **options)  # fmt: skip
         return self._judged(found)
 
     def _judged(self, found: Fit) -> Fit:

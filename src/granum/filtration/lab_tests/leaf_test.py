@@ -12,6 +12,7 @@ from granum.core.i18n import _
 from granum.core.kinds import Area, CakeResistance, Concentration, DynamicViscosity, MediumResistance, PressureDrop, Series, Time, Volume
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start, bend
 from granum.filtration.quantities import RuthConstant, TimePerVolume, TimePerVolumeSquared
 
@@ -59,7 +60,7 @@ class LeafTest(LabTest):
         if not W > 0:
             raise InputError(_("'dry_cake_per_filtrate' must be greater than zero."), name="dry_cake_per_filtrate")
         per_slope, per_intercept = eta * W / (2.0 * dp * A**2), eta / (dp * A)
-        slope, intercept = np.polyfit(V[kept], (t / V)[kept], 1)
+        slope, intercept = straight_line(V[kept], (t / V)[kept])
         if slope <= 0:
             flags.append(self.note("no cake", _("t/V does not rise with V: no cake resistance shows in these data."), "cake_resistance"))
         if intercept < 0:
@@ -92,7 +93,7 @@ class LeafTest(LabTest):
         scale = {"cake_resistance": abs(slope) / per_slope, "medium_resistance": np.mean(t / V) / per_intercept}
         start = {"cake_resistance": scale["cake_resistance"], "medium_resistance": max(intercept, 0.01 * np.mean(t / V)) / per_intercept}
         return self.fitted(
-            model, start, V, t / V, keep=kept, scale=scale, derived=constants, flags=flags,
+            model, start, V, t / V, index=np.flatnonzero(counted), keep=kept, scale=scale, derived=constants, flags=flags,
             bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
             kinds={"ruth_constant": RuthConstant, "ruth_volume": Volume, "ruth_time": Time,
                    "line_slope": TimePerVolumeSquared, "line_intercept": TimePerVolume},

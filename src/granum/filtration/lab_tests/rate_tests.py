@@ -22,6 +22,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start, bend
 from granum.filtration.quantities import PressureTimePerVolume
 
@@ -78,7 +79,7 @@ class ConstantRateTest(LabTest):
         skip = bad_start(t, dp)
         kept = np.arange(len(t)) >= skip
         flags = [self.note("points excluded", _("First points left out: {count}.").format(count=skip), "time")] if skip else []
-        slope, intercept = np.polyfit(t[kept], dp[kept], 1)
+        slope, intercept = straight_line(t[kept], dp[kept])
         if abs(bend(t[kept], dp[kept])) > NOTICEABLE_BEND:
             sentence = _("The pressure does not rise along a straight line: the cake is compressible; fit it with compressible = yes.")
             flags.append(self.note("bent line", sentence, "pressure_drop"))
@@ -129,9 +130,10 @@ class VariablePressureTest(LabTest):
             flags.append(self.note("bent line", sentence, "impulse_per_volume"))
         per_cake = self.dynamic_viscosity * self.dry_cake_per_filtrate / (2.0 * self.area**2)
         per_medium = self.dynamic_viscosity / self.area
-        slope, intercept = np.polyfit(V[kept], ratio[kept], 1)
+        slope, intercept = straight_line(V[kept], ratio[kept])
         return self.fitted(
             lambda p, V: p["cake_resistance"] * per_cake * V + p["medium_resistance"] * per_medium,
             {"cake_resistance": abs(slope) / per_cake, "medium_resistance": max(intercept, 0.01 * ratio.mean()) / per_medium},
-            V, ratio, keep=kept, flags=flags, bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
+            V, ratio, index=np.flatnonzero(good), keep=kept, flags=flags,
+            bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
         )  # fmt: skip

@@ -11,6 +11,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Concentration, Density, Fraction, Mass, MassFraction, PressureDrop, Ratio, Series, Volume, VolumeFlow
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 
 
 @lab_test(
@@ -84,7 +85,7 @@ class PumpCurve(LabTest):
     def fit(self) -> Fit:
         """Both ends of the curve with 95 % intervals."""
         q, dp = np.asarray(self.volume_flow, dtype=float), np.asarray(self.pressure_drop, dtype=float)
-        slope, top = np.polyfit(q**2, dp, 1)
+        slope, top = straight_line(q**2, dp)
         if slope >= 0 or top <= 0:
             raise InputError(
                 _("The pressure of the pump does not fall with the flow: not a centrifugal pump, or swapped columns."), name="pressure_drop"

@@ -18,17 +18,23 @@ def bad_start(x: np.ndarray, y: np.ndarray) -> int:
     backwards, several bad points cannot hide each other.
     """
     most = min(len(x) // 3, len(x) - LEAST_LEFT)
-    for first in range(most, 0, -1):
-        u, v = x[first:], y[first:]
-        slope, intercept = np.polyfit(u, v, 1)
-        dof = len(u) - 2
-        variance = np.sum((v - slope * u - intercept) ** 2) / dof
-        spread = np.sqrt(variance * (1.0 + 1.0 / len(u) + (x[first - 1] - u.mean()) ** 2 / np.sum((u - u.mean()) ** 2)))
-        expected = slope * x[first - 1] + intercept
-        miss = abs(y[first - 1] - expected)
-        if miss > stats.t.ppf(1.0 - SIGNIFICANCE / 2.0, dof) * spread and miss > NOTICEABLE * abs(expected):
-            return first
-    return 0
+    if most < 1:
+        return 0
+    # every line at once: sums from the end of the centered and scaled points, which are the sums of each rest
+    middle, width, level = x[most:].mean(), np.ptp(x) or 1.0, y[most:].mean()
+    height = np.max(np.abs(y - level)) or 1.0
+    u, v = (x - middle) / width, (y - level) / height
+    first = np.arange(1, most + 1)
+    left = len(x) - first
+    su, sv, suu, suv, svv = (np.cumsum(z[::-1])[::-1][first] for z in (u, v, u * u, u * v, v * v))
+    across = np.maximum(suu - su**2 / left, 1e-300)
+    slope = (suv - su * sv / left) / across
+    expected = sv / left + slope * (u[first - 1] - su / left)
+    squares = np.maximum(svv - sv**2 / left - slope**2 * across, 1e-24)  # round-off is no scatter
+    spread = np.sqrt(squares / (left - 2) * (1.0 + 1.0 / left + (u[first - 1] - su / left) ** 2 / across))
+    miss = np.abs(v[first - 1] - expected)
+    bad = (miss > stats.t.isf(SIGNIFICANCE / 2.0, left - 2) * spread) & (miss * height > NOTICEABLE * np.abs(level + height * expected))
+    return int(first[bad][-1]) if bad.any() else 0
 
 
 def bend(x: np.ndarray, y: np.ndarray) -> float:

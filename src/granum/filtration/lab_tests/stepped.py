@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.estimation import Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start
 from granum.filtration.quantities import TimePerVolume
 
@@ -83,8 +84,8 @@ class SteppedPressureTest(LabTest):
             cake = q["cake_resistance_reference"] * (now / p0) ** q["compressibility"] * per_cake * volume
             return (cake + q["medium_resistance"] * per_medium) / now
 
-        slope, intercept = np.polyfit(middle[keep], (slow * p)[keep], 1)
+        slope, intercept = straight_line(middle[keep], (slow * p)[keep])
         start = {"cake_resistance_reference": abs(slope) / per_cake, "compressibility": 0.3,
                  "medium_resistance": max(intercept, 0.01 * float(np.mean(slow * p))) / per_medium}  # fmt: skip
         bounds = {"cake_resistance_reference": (0.0, np.inf), "compressibility": (0.0, 2.0), "medium_resistance": (0.0, np.inf)}
-        return self.fitted(model, start, middle, slow, keep=keep, flags=flags, bounds=bounds)
+        return self.fitted(model, start, middle, slow, index=1 + np.flatnonzero(grown), keep=keep, flags=flags, bounds=bounds)

@@ -12,8 +12,10 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, Law, Length, Ratio, Series
 from granum.estimation import Estimate, Fit
+from granum.estimation.verdicts import stray_note
 from granum.particles.distributions import SUM_TOLERANCE, Basis, SizeDistribution
 from granum.particles.in_class import UniformDensity
+from granum.particles.lab_tests.class_verdicts import improbable_particles
 from granum.particles.lab_tests.size_test import SizeLawName, SizeTest
 
 
@@ -88,6 +90,10 @@ class ParticleCounter(SizeTest):
             )
         return SizeDistribution.from_amounts(edges, numbers[1:], "number", self.in_class)
 
+    def class_rows(self) -> np.ndarray:
+        """Each count from the second row on, and nothing above the last limit."""
+        return np.concatenate([np.arange(1, len(np.asarray(self.class_edges))), [-1]])
+
     def points(self) -> tuple[Any, Any]:
         """Limits and the number fractions below them."""
         numbers = np.cumsum(np.asarray(self.class_numbers))
@@ -125,12 +131,27 @@ class ImageAnalysis(SizeTest):
         """The law, and the moment-ratio means of the particles themselves with standard errors."""
         found = super().fit()
         x = np.asarray(self.particle_diameter)
-        means = {
-            name: _mean_with_error(x, p, q)
-            for name, p, q in (("mean_diameter_number_length", 1, 0), ("mean_diameter_surface_volume", 3, 2), ("mean_diameter_mass", 4, 3))
-        }
+        means = _means(x)
         surface = {"specific_surface": Estimate(6.0 / means["mean_diameter_surface_volume"].value, "1/m")}
-        return replace(found, derived={**found.derived, **means, **surface})
+        found = replace(found, derived={**found.derived, **means, **surface})
+        found.flags.extend(self._stray(found, x))
+        return found
+
+    def _stray(self, found: Fit, x: np.ndarray) -> list[dict[str, Any]]:
+        """Particles that the law of the others does not expect, with what they do to the means."""
+        far = improbable_particles(x, np.asarray(self.law(found)(x)))
+        if not far or found.diagnostics is None or x.size - len(far) < 2:
+            return []
+        without = {name: e.value for name, e in _means(np.delete(x, list(far))).items()}
+        told = replace(found.diagnostics, stray=tuple(far), deviations=tuple(far.values()), without=without, robust={})
+        return stray_note(told, found, self.rows(x, x))
+
+
+MEANS = {"mean_diameter_number_length": (1, 0), "mean_diameter_surface_volume": (3, 2), "mean_diameter_mass": (4, 3)}
+
+
+def _means(x: np.ndarray) -> dict[str, Estimate]:
+    return {name: _mean_with_error(x, p, q) for name, (p, q) in MEANS.items()}
 
 
 def _mean_with_error(x: np.ndarray, p: int, q: int) -> Estimate:

@@ -99,6 +99,10 @@ class SieveAnalysis(SizeTest):
             raise InputError(_("The largest size must lie above the coarsest sieve."), name="largest_size", value=self.largest_size)
         return self.largest_size
 
+    def class_rows(self) -> np.ndarray:
+        """The pan, which is no row, then what lies on each sieve from fine to coarse."""
+        return np.concatenate([[-1], np.argsort(np.asarray(self.aperture))])
+
     def points(self) -> tuple[Any, Any]:
         """Apertures and the mass fractions that pass them."""
         aperture, mass = self._sorted()

@@ -14,6 +14,7 @@ from granum.core.kinds import Fraction, Length, PositiveNumber, Ratio, SpecificS
 from granum.estimation import Estimate, Fit, LabTest
 from granum.particles.class_means import SizeSummary, summary_of
 from granum.particles.distributions import SizeDistribution
+from granum.particles.lab_tests.class_verdicts import judged_by_class
 from granum.particles.size_laws import GatesGaudinSchuhmann, GaudinMeloy, LogNormal, Mixture, Normal, RosinRammler, SizeLaw
 
 if TYPE_CHECKING:
@@ -108,6 +109,13 @@ class SizeTest(LabTest):
     def points(self) -> tuple[Any, Any]:
         """Sizes and measured cumulative fractions to which the law is fitted."""
 
+    def class_rows(self) -> np.ndarray | None:
+        """Row of the data of each class: below the first point, between the points, above the last; -1 where there is none.
+
+        None where a row is not a class, so that the points of the curve are judged themselves.
+        """
+        return None
+
     def notices(self) -> list[dict[str, Any]]:
         """Flags of the measurement."""
         return []
@@ -128,10 +136,13 @@ class SizeTest(LabTest):
         recipe, measured = RECIPES[self.size_law], self.distribution()
         start = recipe.start(measured)
         sizes, below = self.points()
+        bounds = {n: {**_BOUNDS, **recipe.bounds}.get(n, (start[n] * 1e-6, inf)) for n in start}
+        by_class = self.class_rows()
         found = self.fitted(
-            lambda p, x: recipe.build(p, measured.basis)(x), start, sizes, below,
-            bounds={n: {**_BOUNDS, **recipe.bounds}.get(n, (start[n] * 1e-6, inf)) for n in start}, flags=self.notices(),
+            lambda p, x: recipe.build(p, measured.basis)(x), start, sizes, below, bounds=bounds, flags=self.notices(), judged=by_class is None,
         )  # fmt: skip
+        if by_class is not None:
+            found = judged_by_class(self, found, lambda p, x: recipe.build(p, measured.basis)(x), by_class)
         table = self.summary()._asdict()
         figures = {n: Estimate(float(table[n]), "" if (k := kind_of(kind)) is None else k.unit) for n, kind in FIGURES.items()}
         if getattr(self, "solid_density", None) is not None:

@@ -63,6 +63,7 @@ class Permeametry(LabTest):
             raise InputError(
                 _("'superficial_velocity' must be above zero at every point; leave out the point at rest."), name="superficial_velocity"
             )
+        self.above_zero("pressure_drop")
         # relative least squares, in closed form, for the start
         a, b = self.dynamic_viscosity * self.length * U / drop, self.fluid_density * self.length * U**2 / drop
         resistance = (a @ np.ones_like(a)) / (a @ a)

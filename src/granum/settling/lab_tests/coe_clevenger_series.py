@@ -13,6 +13,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Concentration, MassFlux, Series, Speed
 from granum.estimation import Estimate, Fit, LabTest
+from granum.estimation.lines import straight_line
 from granum.settling.flux import limiting_flux_underflow
 from granum.settling.formulas.thickening import unit_area_coe_clevenger
 from granum.settling.quantities import SpecificVolume
@@ -46,7 +47,7 @@ class CoeClevengerSeries(LabTest):
                     underflow=float(self.underflow_concentration)
                 )
             )
-        slope, level = np.polyfit(C, np.log(v), 1)
+        slope, level = straight_line(C, np.log(v))
         start = {"vesilind_velocity": float(np.exp(level)), "vesilind_coefficient": max(float(-slope), 0.1 / float(C.max()))}
         feed, Cu = float(C.min()), float(self.underflow_concentration)
 

@@ -35,6 +35,7 @@ class SludgeIndexTest(LabTest):
 
     def fit(self) -> Fit:
         """The index with its interval and band."""
+        self.above_zero("solids_concentration")
         X, share = np.asarray(self.solids_concentration, dtype=float), np.asarray(self.settled_fraction, dtype=float)
         if self.stirred:
             start = {"sludge_volume_index": float(np.mean(share / X)), "settled_fraction_offset": 0.01}
