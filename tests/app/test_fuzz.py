@@ -38,7 +38,7 @@ def test_requests_made_from_the_description_are_never_a_fault(fuzzed: str) -> No
         @settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck))
         @given(case=operation.as_strategy())
         def ask(case: schemathesis.Case) -> None:
-            case.call_and_validate(checks=[not_a_server_error])
+            case.call_and_validate(checks=[not_a_server_error], timeout=120)
 
         ask()
         asked += 1

@@ -16,6 +16,7 @@ from granum import studies
 from granum.cases import read_studies, studies_of_line
 from granum.core.errors import GranumError
 from granum.flowsheet.specifications import design
+from granum.studies import engine
 from granum.studies.lines import LineSubject, verdict
 from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, UNMET
 
@@ -37,6 +38,21 @@ def test_recycle_by_hand_and_a_case_without_solution(line) -> None:
     assert found.column("out.liquid.water")[:3] == pytest.approx([0.9] * 3)
     assert found.counts()["reasons"] == {"a loop did not converge": 1}
     assert np.isnan(found.column("hot.mass_flow")[3])
+
+
+def test_slow_lines_are_looked_after_often(line, monkeypatch) -> None:
+    """When one case takes longer than a slice, progress is told case by case; the figures are those of large chunks."""
+    shares = np.linspace(0.2, 1.0, 9)
+    seen: list[int] = []
+    monkeypatch.setattr(engine, "SLICE", 0.0)
+    how = {"outputs": ["hot.mass_flow", "warm.heat_duty", "out.liquid.water"]}
+    found = studies.sweep(line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done))
+    assert seen == list(range(10))
+    assert found.column("hot.mass_flow") == pytest.approx(1 / shares, rel=1e-9)
+    monkeypatch.setattr(engine, "SLICE", 1e9)
+    at_once = studies.sweep(line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done))
+    assert seen[10:] == [0, 9]
+    assert np.array_equal(at_once.cases.y, found.cases.y)
 
 
 def test_only_a_solution_counts(line) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections import OrderedDict
 from collections.abc import Callable, Generator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -23,6 +24,8 @@ from granum.studies.subjects import EXTRAPOLATED, FINE, IMPOSSIBLE, NOT_RUN, OUT
 
 MEMORY = 512 * 2**20
 """Bytes of working memory that one chunk may take."""
+SLICE = 0.5
+"""Seconds of a slow line after which a study looks around: progress is shown, it can be stopped, and little is lost."""
 CHUNKS = {"batched": 16384, "line": 64, "accelerator": 2048, "python": 64}
 
 
@@ -91,6 +94,7 @@ class Evaluator:
     size: int
     compiled: Any
     arrays: Any
+    serial: bool = False
 
     @staticmethod
     def of(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], count: int) -> Evaluator:
@@ -103,13 +107,21 @@ class Evaluator:
         arrays = subject.numbers()
         one = subject.traced(inputs, outputs)
         # one after the other in compiled code beats side by side for a line on a processor: no case waits for the slowest
-        many = jax.vmap(one, in_axes=(None, 0)) if sort != "line" else lambda a, x: jax.lax.map(lambda v: one(a, v), x)
+        many = _one_after_the_other(one) if sort == "line" else lambda a, x, _count: jax.vmap(one, in_axes=(None, 0))(a, x)
         while True:
-            compiled = jax.jit(many).lower(arrays, jnp.zeros((size, len(inputs)))).compile()
+            compiled = jax.jit(many).lower(arrays, jnp.zeros((size, len(inputs))), jnp.int32(size)).compile()
             memory = compiled.memory_analysis()
             if memory is None or memory.temp_size_in_bytes <= MEMORY or size == 1:
-                return Evaluator(subject, inputs, outputs, size, compiled, arrays)
+                return Evaluator(subject, inputs, outputs, size, compiled, arrays, sort == "line")
             size = max(1, int(size * 0.9 * MEMORY / memory.temp_size_in_bytes))
+
+    def chunk(self, x: np.ndarray) -> int:
+        """How many cases to compute before the next look around: all at once, or as many slow lines as take about ``SLICE``."""
+        if not self.serial:
+            return self.size
+        began = time.perf_counter()
+        self._some(x[:1])
+        return max(1, min(self.size, int(SLICE / (time.perf_counter() - began))))
 
     def __call__(self, x: np.ndarray) -> Part:
         """Figures, codes and texts of any number of cases."""
@@ -134,12 +146,12 @@ class Evaluator:
             return Part(y, codes, {})
         if self.compiled is None:
             return self._one_by_one(x, y, codes, fine)
-        # impossible and missing cases are computed at a possible place and thrown away: one shape, one compilation
+        # a chunk that is not full is filled up with a possible case: one shape, one compilation
         padded = np.repeat(x[fine[:1]], self.size, axis=0)
-        padded[fine] = x[fine]
-        figures, found = (np.asarray(part)[: len(x)] for part in self.compiled(self.arrays, jnp.asarray(padded)))
-        codes[fine] = found[fine]
-        y[codes <= FINE] = figures[codes <= FINE]
+        padded[: len(fine)] = x[fine]
+        figures, found = (np.asarray(part)[: len(fine)] for part in self.compiled(self.arrays, jnp.asarray(padded), jnp.int32(len(fine))))
+        codes[fine], y[fine] = found, figures
+        y[codes > FINE] = np.nan
         return Part(y, codes, {})
 
     def _one_by_one(self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray) -> Part:
@@ -153,6 +165,20 @@ class Evaluator:
             except GranumError as problem:
                 codes[case], texts[int(case)] = RAISED, problem.message
         return Part(y, codes, texts)
+
+
+def _one_after_the_other(one: Any) -> Any:
+    """As many of the cases as are wanted, in a loop of compiled code."""
+
+    def many(arrays: Any, x: Any, count: Any) -> Any:
+        figures, code = jax.eval_shape(one, arrays, x[0])
+
+        def step(i: Any, made: Any) -> Any:
+            return tuple(part.at[i].set(new) for part, new in zip(made, one(arrays, x[i]), strict=True))
+
+        return jax.lax.fori_loop(0, count, step, tuple(jnp.zeros((len(x), *new.shape), new.dtype) for new in (figures, code)))
+
+    return many
 
 
 def _possible(y: np.ndarray, kind: Kind | None) -> np.ndarray:
@@ -199,7 +225,7 @@ def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...]
     store = Store(Path(folder)) if folder is not None else None
     size = store.open(subject.fingerprint(), (inputs, outputs), x) if store is not None else None
     if size is None:
-        size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).size
+        size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).chunk(x)
         if store is not None:
             store.begin(size)
     todo = [start for start in range(0, len(x), size) if not _kept(store, cases, start)]
