@@ -6,6 +6,7 @@ import io
 import json
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -19,7 +20,11 @@ from granum.core import registry
 from granum.core.cards import Card
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
+from granum.core.units import format_number
+from granum.flowsheet.watching import Watch
 from granum.reports.quantities import check_row, defaults_text, estimate_rows, statistics_text, stream_figures, stream_table, value_text
+
+LONGEST = 900.0  # s that a line may take
 
 
 def packed(content: Any) -> bytes:
@@ -131,28 +136,39 @@ def table(payload: dict[str, Any], _tell: Tell) -> bytes:
     return packed({"text": as_csv(source)})
 
 
-@lru_cache(maxsize=4)
-def _line(case: str, folder: str, root: str, _language: str) -> Any:
-    return read_line({"case": case, "folder": folder, "root": root})
+@dataclass
+class _Kept:
+    """A line with its solution, kept for the report and for the next edit."""
+
+    line: Any
+    outcome: Any = None
 
 
 @lru_cache(maxsize=4)
-def _solved(*place: str) -> Any:
-    """The solved line of a case, kept for its report."""
-    found = _line(*place).solve()
-    _compiled.add(_line(*place).title)
-    return found
-
-
-_compiled: set[str] = set()
+def _kept(case: str, folder: str, root: str, _language: str) -> _Kept:
+    return _Kept(read_line({"case": case, "folder": folder, "root": root}))
 
 
 def _outcome(payload: dict[str, Any], tell: Tell) -> Any:
-    place = (payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
     tell(0.0, _("reading the case"))
-    known = _line(*place).title in _compiled
-    tell(0.2, _("solving") if known else _("compiling and solving"))
-    return _solved(*place)
+    kept = _kept(payload["case"], payload.get("folder", ""), payload.get("root", ""), current_language())
+    if kept.outcome is None:
+        tell(0.2, _("compiling and solving"))
+        kept.outcome = kept.line.solve(_watch(tell))
+    return kept.outcome
+
+
+def _watch(tell: Tell) -> Watch:
+    """Tells the page of each pass through a loop, and stops when nobody waits for the line any more."""
+
+    def seen(loop: str, number: int, residual: float) -> None:
+        told = _("loop through '{stream}': pass {number}, residual {residual}")
+        tell.say(0.5, told.format(stream=loop, number=number, residual=format_number(residual, 2)))
+        if tell.stopped():
+            watch.stop()
+
+    watch = Watch(seen, seconds=LONGEST)
+    return watch
 
 
 def run(payload: dict[str, Any], tell: Tell) -> bytes:

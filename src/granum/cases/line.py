@@ -22,7 +22,7 @@ from granum.core.results import plain, quantity_json
 from granum.estimation.results import Fit
 from granum.flowsheet import Flowsheet, Solution
 from granum.flowsheet.dynamics import Course, Profile, march
-from granum.flowsheet.findings import Findings
+from granum.flowsheet.findings import Findings, fault_in_time
 from granum.flowsheet.ladder import climb
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.schedule import Schedule, schedule
@@ -80,6 +80,11 @@ class Line:
                 ),
                 last=course,
             )
+        wrong = fault_in_time(self.sheet, course.streams, times)
+        if wrong is not None:
+            at, fault = wrong
+            told = _("At {time} s: {fault}").format(time=f"{at:.6g}", fault=fault.message)
+            raise ConvergenceError(told, last=course, unit=fault.unit or None, stream=fault.stream, kind=fault.kind)
         return course
 
     def with_values(self, **values: Any) -> Line:

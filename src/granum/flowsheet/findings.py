@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import jax
@@ -21,7 +21,7 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import COLDEST, HOTTEST, Stream
 
 CLOSURE = 1e-9  # of what enters: a balance that misses by more than this is not a balance
-NEGATIVE = -1e-9  # of the largest stream: what rounding may leave of a flow that is zero
+LEAST = -1e-9  # of the largest stream: what rounding may leave of a flow that is zero
 SATURATED = 1.001  # a gas that leaves saturated may lie this far above by the difference between two vapor pressures
 PHASES = {"solid": "solids", "liquid": "liquids", "gas": "gases"}
 WRONG = flags.OUTSIDE_DOMAIN | flags.NOT_FINITE | flags.NOT_CONVERGED
@@ -84,14 +84,19 @@ def sound(found: Findings) -> Any:
     """Whether the solution is one, loops apart."""
     return (
         jnp.all(found.finite)
-        & jnp.all(found.lowest >= NEGATIVE)
+        & jnp.all(found.lowest >= LEAST)
         & jnp.all(found.saturation <= SATURATED)
-        & jnp.all((found.temperature > COLDEST + 1.0) & (found.temperature < HOTTEST - 1.0))
+        & known_temperatures(found)
         & jnp.all(found.mass <= CLOSURE)
         & jnp.all(found.energy <= CLOSURE)
         & ~jnp.any(found.lost)
         & jnp.all(found.figures)
     )
+
+
+def known_temperatures(found: Findings) -> Any:
+    """Whether all streams lie between the ends at which the search for a temperature gives up."""
+    return jnp.all((found.temperature > COLDEST + 1.0) & (found.temperature < HOTTEST - 1.0))
 
 
 def faults(line: Flowsheet, solution: Solution, found: Findings) -> list[Fault]:
@@ -110,7 +115,8 @@ def _saturations(streams: Stream, least: Any) -> Any:
         humid = HumidMixture(streams.mixture)
     except GranumError:  # one gas alone, or vapors that the library does not know: nothing to hold against it
         return jnp.zeros(jnp.shape(streams.temperature))
-    return jax.vmap(lambda s: jnp.where(s.gas_flow > least, humid.relative_humidity(s), 0.0))(streams)
+    least = jnp.broadcast_to(least, jnp.shape(streams.temperature))
+    return jax.vmap(lambda s, few: jnp.where(s.gas_flow > few, humid.relative_humidity(s), 0.0))(streams, least)
 
 
 def _lost(records: list[flags.Record]) -> Any:
@@ -133,33 +139,62 @@ def _of_unit(line: Flowsheet, solution: Solution, found: Findings, unit: str) ->
 
 
 def _of_stream(line: Flowsheet, solution: Solution, found: Findings, name: str) -> Iterator[Fault]:
-    link, i = line.link(name), _place(line, name)
-    unit, stream = link.source_unit, solution.streams[name]
-    what = _("Stream '{stream}' from unit '{unit}'").format(stream=name, unit=unit) if unit else _("Feed '{stream}'").format(stream=name)
-    if not bool(found.finite[i]):
-        before = [k.name for k in line.links if unit and k.target_unit == unit and not bool(found.finite[_place(line, k.name)])]
-        if not before:  # a unit that is given no number gives none: the fault lies before it
-            yield Fault("no value", unit, name, _("{what} is not a finite number: check the inputs of that unit.").format(what=what))
+    unit, i = line.link(name).source_unit, _place(line, name)
+    if bool(found.finite[i]):
+        yield from impossible(line, name, solution.streams[name], *(float(x[i]) for x in found[1:4]))
         return
-    if float(found.lowest[i]) < NEGATIVE:
+    before = [k.name for k in line.links if unit and k.target_unit == unit and not bool(found.finite[_place(line, k.name)])]
+    if not before:  # a unit that is given no number gives none: the fault lies before it
+        yield Fault(
+            "no value", unit, name, _("{what} is not a finite number: check the inputs of that unit.").format(what=_what(line, name))
+        )
+
+
+def _what(line: Flowsheet, name: str) -> str:
+    unit = line.link(name).source_unit
+    return _("Stream '{stream}' from unit '{unit}'").format(stream=name, unit=unit) if unit else _("Feed '{stream}'").format(stream=name)
+
+
+def impossible(line: Flowsheet, name: str, stream: Stream, lowest: float, saturation: float, temperature: float) -> Iterator[Fault]:
+    """What cannot be in a stream of finite numbers."""
+    unit, what = line.link(name).source_unit, _what(line, name)
+    if lowest < LEAST:
         phase, species, flow = _most_negative(stream)
         yield Fault(
             "stream", unit, name,
             _("{what} would carry {flow} kg/s of {species} ({phase}): a negative flow.").format(
                 what=what, flow=format_number(flow), species=species, phase=_(phase)),
         )  # fmt: skip
-    if float(found.saturation[i]) > SATURATED:
+    if saturation > SATURATED:
         yield Fault(
             "stream", unit, name,
             _("{what} would hold {share} times the vapor that saturates it at {temperature}: give it more gas or a higher temperature, or let it condense in a streams.humid_mixer or streams.condenser_cooler.").format(
-                what=what, share=format_number(float(found.saturation[i])), temperature=_kelvin(found.temperature[i])),
+                what=what, share=format_number(saturation), temperature=_kelvin(temperature)),
         )  # fmt: skip
-    if not COLDEST + 1.0 < float(found.temperature[i]) < HOTTEST - 1.0:
+    if not COLDEST + 1.0 < temperature < HOTTEST - 1.0:
         yield Fault(
             "stream", unit, name,
             _("{what} would be at {temperature}, outside all that its properties are known for: check the heat that goes in and out.").format(
-                what=what, temperature=_kelvin(found.temperature[i])),
+                what=what, temperature=_kelvin(temperature)),
         )  # fmt: skip
+
+
+def fault_in_time(line: Flowsheet, streams: Mapping[str, Stream], times: np.ndarray) -> tuple[float, Fault] | None:
+    """The first instant of a course at which a stream is impossible, with what is wrong there; None when all are possible."""
+    largest = np.max([np.asarray(jax.vmap(lambda s: s.mass_flow)(s)) for s in streams.values()], axis=0)
+    largest = np.where(largest > 0, largest, 1.0)
+    first: tuple[float, Fault] | None = None
+    for k in line.links:
+        s = streams[k.name]
+        rows = (jax.vmap(_lowest)(s) / largest, _saturations(s, 1e-9 * jnp.asarray(largest)), s.temperature)
+        lowest, saturation, temperature = map(np.asarray, rows)
+        bad = (lowest < LEAST) | (saturation > SATURATED) | ~((temperature > COLDEST + 1.0) & (temperature < HOTTEST - 1.0))
+        at = int(np.argmax(bad))
+        if bad.any() and (first is None or times[at] < first[0]):
+            then = jax.tree.map(lambda leaf, at=at: leaf[at], s)
+            told = next(impossible(line, k.name, then, float(lowest[at]), float(saturation[at]), float(temperature[at])))
+            first = float(times[at]), told
+    return first
 
 
 def _of_balance(line: Flowsheet, found: Findings, unit: str) -> Iterator[Fault]:

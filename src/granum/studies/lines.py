@@ -21,13 +21,25 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
-from granum.flowsheet import Flowsheet, closures
+from granum.flowsheet import Flowsheet
+from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
 from granum.flowsheet.specifications import Designed, Target, design, outlets_of
 from granum.streams.stream import Stream
 from granum.studies.expressions import Lookup
-from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, NOT_CONVERGED, UNMET, Subject, Variable, split_index
+from granum.studies.subjects import (
+    FINE,
+    LOST,
+    NEGATIVE,
+    NOT_CLOSED,
+    NOT_CONVERGED,
+    OVERSATURATED,
+    TOO_HOT,
+    UNMET,
+    Subject,
+    Variable,
+    split_index,
+)
 
-CLOSED = 1e-9
 """Largest part of what enters that a balance may lose before the line is no solution."""
 PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
 FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
@@ -187,6 +199,11 @@ class LineSubject(Subject):
 
         return lookup, code
 
+    def reason(self, code: int, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> str:
+        if code >= LOST:
+            return _("unit '{unit}' has no solution").format(unit=self.sheet.order[code - LOST])
+        return super().reason(code, inputs, outputs)
+
     def _changed(self, sheet: Flowsheet, values: Mapping[str, Any]) -> Flowsheet:
         """The sheet with other values; figures of feeds first shares, then flows."""
         plain: dict[str, Any] = {}
@@ -212,14 +229,14 @@ class LineSubject(Subject):
 def verdict(found: Designed) -> Any:
     """Whether a solved line counts as a solution: ``FINE``, or the code of the reason why its figures are none."""
     met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
-    units, whole = closures(found.line, found.solution)
-    closed = jnp.all(jnp.stack([jnp.maximum(c.mass, c.energy) <= CLOSED for c in (*units.values(), whole)]))  # false when not finite
-    streams = found.solution.streams.values()
-    least = jnp.min(jnp.stack([jnp.min(jnp.concatenate([jnp.ravel(s.solid), s.liquid, s.gas])) for s in streams]))
-    most = jnp.max(jnp.stack([s.mass_flow for s in streams]))
-    code = jnp.where(closed, FINE, NOT_CLOSED)
-    code = jnp.where(least < -CLOSED * most, NEGATIVE, code)
-    return jnp.where(found.converged, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
+    measured = findings(found.line, found.solution)
+    code = jnp.where(jnp.all((measured.mass <= CLOSURE) & (measured.energy <= CLOSURE)), FINE, NOT_CLOSED)  # false when not finite
+    code = jnp.where(jnp.all(measured.finite) & ~known_temperatures(measured), TOO_HOT, code)
+    code = jnp.where(jnp.any(measured.saturation > SATURATED), OVERSATURATED, code)
+    code = jnp.where(jnp.any(measured.lowest < LEAST), NEGATIVE, code)
+    code = jnp.where(jnp.any(measured.lost), LOST + jnp.argmax(measured.lost), code)
+    unsettled = jnp.where(jnp.any(measured.lost) & met, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
+    return jnp.where(found.converged, code, unsettled)
 
 
 def _flows(stream: Stream, phase: str) -> Any:

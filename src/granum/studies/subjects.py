@@ -22,10 +22,11 @@ from granum.core.parameters import Parameter, convert
 from granum.estimation.cards import inputs_of
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
-EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE = -1, 0, 1, 2, 3, 4, 5, 6
-NOT_FINITE, OUTSIDE, IMPOSSIBLE = 1000, 2000, 3000
+EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE, OVERSATURATED, TOO_HOT = range(-1, 9)
+NOT_FINITE, OUTSIDE, IMPOSSIBLE, LOST = 1000, 2000, 3000, 4000
 """Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result
-that is not finite, from 2000 the input at fault, from 3000 the result that is not possible."""
+that is not finite, from 2000 the input at fault, from 3000 the result that is not possible, from 4000 the unit that has no
+solution."""
 
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
@@ -208,6 +209,8 @@ class Subject(abc.ABC):
             NOT_RUN: _("not run: the study was stopped"),
             NOT_CLOSED: _("the balance of mass or energy does not close"),
             NEGATIVE: _("a flow is negative"),
+            OVERSATURATED: _("a gas holds more vapor than saturates it"),
+            TOO_HOT: _("a stream lies beyond all temperatures that properties are known for"),
         }[code]
 
 
