@@ -5,15 +5,13 @@ from __future__ import annotations
 import doctest
 import importlib
 import inspect
-import os
-from contextlib import AbstractContextManager, nullcontext
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.contracts.drawing import ELEMENTWISE, EVERYTHING, FORMULAS, draw, quickly
 
-from granum.core import flags, registry
 from granum.core import glossary as glossary_module
 from granum.core import sources as sources_module
 from granum.core.formulas import Formula
@@ -21,30 +19,6 @@ from granum.core.glossary import quantity_in
 from granum.core.i18n import catalog
 from granum.core.sources import bibliography, keys_of
 from granum.reports.mathml import mathml
-
-# GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
-EVERYTHING = registry.everything(tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS)
-FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
-ELEMENTWISE = {k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))}
-
-
-def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
-    """Ordinary values for each numeric input: log-uniform where the range is positive, inside the hard bounds."""
-    rng = np.random.default_rng(seed)
-    values = {}
-    for p in f.card.parameters:
-        if p.kind is None or p.sort is int or (not p.required and p.typical is None and not isinstance(p.default, float)):
-            continue
-        low, high = p.ordinary()
-        u = rng.uniform(0.02, 0.98, count)
-        values[p.name] = np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
-    return values
-
-
-def quickly(f: Formula, inputs: dict[str, np.ndarray]) -> AbstractContextManager[object]:
-    """Step by step where the formula has no loop, since compiling it takes longer than running it; its example runs compiled anyway."""
-    program = str(jax.make_jaxpr(lambda kw: f(**kw))({n: float(v[0]) for n, v in inputs.items()}))
-    return nullcontext() if "while[" in program or "scan[" in program else jax.disable_jit()
 
 
 def leaves(out: object) -> list[np.ndarray]:
@@ -129,23 +103,6 @@ def agree(f: Formula, inputs: dict[str, np.ndarray]) -> None:
         difference = (ahead - behind) / (2 * h)
         scale = max(abs(difference), value / max(abs(x), 1e-12) * 1e-3, 1e-300)
         assert abs(float(gradient[name][0]) - difference) <= 2e-5 * scale, f"d/d{name}: {gradient[name]} against {difference}"
-
-
-@pytest.mark.parametrize("key", ELEMENTWISE)
-def test_outside_bounds_is_flagged_not_silent(key: str) -> None:
-    f = ELEMENTWISE[key]
-    inputs = draw(f, 2)
-    for p in f.card.parameters:
-        if p.name not in inputs or p.kind is None or p.kind.lower == -np.inf:
-            continue
-        bad = {**inputs, p.name: np.array([inputs[p.name][0], p.kind.lower - 1.0])}
-        with quickly(f, inputs):
-            result = f.evaluate(**bad)
-        for out in leaves(result.value):
-            assert np.isnan(np.broadcast_to(out, (2,))[1])
-        assert result.flags[1] & flags.OUTSIDE_DOMAIN
-        assert not result.flags[0] & flags.OUTSIDE_DOMAIN
-        break
 
 
 @pytest.mark.parametrize("key", [k for k, f in ELEMENTWISE.items() if f.fitted])

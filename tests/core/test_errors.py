@@ -12,7 +12,6 @@ import pytest
 from granum.core import record_steps, registry
 from granum.core.errors import ApplicabilityError, InputError, nearest
 from granum.core.files import write_atomic
-from granum.cyclones.formulas.efficiency import vortex_exponent_alexander
 from granum.particles import drag_coefficient_stokes, reynolds_number, terminal_velocity
 
 GOOD = {"particle_diameter": 1e-3, "velocity": 0.1, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
@@ -98,9 +97,3 @@ def test_atomic_write_replaces_or_leaves(tmp_path: Path) -> None:
 def test_law_with_options_as_text() -> None:
     found = registry.law("partition_curve", "logistic", options={"cut_size": "100 um", "sharpness": 3.0})
     assert float(found(200e-6)) == pytest.approx(8 / 9)
-
-
-def test_a_celsius_number_without_its_unit_is_told():
-    told = [n["message"] for n in vortex_exponent_alexander.evaluate(diameter=0.3, temperature=25).notices]
-    assert any("read in kelvin" in message for message in told)
-    assert not vortex_exponent_alexander.evaluate(diameter=0.3, temperature="25 degC").notices

@@ -36,7 +36,8 @@ def figures(outputs: Iterable[Parameter], out: Any) -> Iterator[tuple[Parameter,
 def concerned(mask: Any, value: Any, whole: bool) -> Any:
     """The elements of a value that a check concerns; ``whole`` where a check over another axis concerns all of it."""
     shape = jnp.shape(value)
-    fits = len(mask.shape) <= len(shape) and all(n in (1, m) for n, m in zip(mask.shape[::-1], shape[::-1], strict=False))
+    mask = flags.within(mask, shape)
+    fits = all(n in (1, m) for n, m in zip(mask.shape[::-1], shape[::-1], strict=False))
     return mask if fits else jnp.any(mask) if whole else jnp.asarray(False)
 
 

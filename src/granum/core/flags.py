@@ -165,11 +165,16 @@ def limit_active(mask: Any, value: Any, name: str, reason: str) -> None:
         record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source, reason=reason)
 
 
+def within(mask: Any, shape: tuple[int, ...]) -> Any:
+    """A mask without the leading axes that a result of this shape does not have: what concerns any of them concerns the element."""
+    return mask.any(axis=tuple(range(max(mask.ndim - len(shape), 0))))
+
+
 def bits(records: list[Record], shape: tuple[int, ...]) -> np.ndarray:
     """All records as one int32 flag array of the result's shape."""
     flags = np.zeros(shape, dtype=np.int32)
     for found in records:
-        mask = np.asarray(found.mask)
+        mask = within(np.asarray(found.mask), shape)
         try:
             flags |= np.where(np.broadcast_to(mask, shape), np.int32(found.bit), np.int32(0))
         except ValueError:  # a check over another axis than the result's: it concerns the result as a whole

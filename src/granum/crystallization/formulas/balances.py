@@ -62,7 +62,8 @@ def _crystals_and_liquor(A: Any, V: Any, x_A: Any, x: Any, x_L: Any) -> tuple[An
     return crystals, A - V - crystals, safe_divide(crystals * x, A * x_A)
 
 
-@formula(source="mullin2001, ch. 3; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}")
+@formula(source="mullin2001, ch. 3; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}",
+         typical={"molar_mass": (0.05, 0.15), "hydrate_molar_mass": (0.15, 0.35)})  # fmt: skip
 def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarMass) -> Ratio:
     """Mass fraction of anhydrous solute in a hydrated crystal.
 
@@ -106,7 +107,13 @@ def crystallizer_balance(
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
     equation=r"\dot Q = A c_{p} (T_L - T_A) - C q_c + V L_v",
     output="heat_duty",
-    typical={"temperature_inlet": (330.0, 350.0), "temperature": (280.0, 300.0), "crystal_flow": (0.1, 1.0), "evaporation": (0.0, 0.2)},
+    typical={
+        "mass_flow": (2.0, 10.0),
+        "temperature_inlet": (330.0, 350.0),
+        "temperature": (280.0, 300.0),
+        "crystal_flow": (0.1, 1.0),
+        "evaporation": (0.0, 0.2),
+    },
 )
 def heat_duty_crystallizer(
     mass_flow: MassFlow,

@@ -311,8 +311,9 @@ class CombustionGas(NamedTuple):
     source="keey1978",
     equation=r"m_{a} = n\,\frac{x_C/12.011 + x_H/4.032 + x_S/32.06 - x_O/31.998}{0.2095}\,28.966,\quad "
     r"h = \frac{m_a h_a + \mathrm{PCI} + L_0\,(9x_H + x_W)}{m_g}",
-    typical={"temperature": (285.0, 300.0), "fuel_fraction_hydrogen": (0.1, 0.25), "fuel_fraction_carbon": (0.7, 0.75),
-             "humidity_ratio": (0.004, 0.01), "excess_air_ratio": (4.0, 10.0), "heat_loss_share": (0.01, 0.05), "lower_heating_value": (4e7, 5e7)},
+    typical={"temperature": (285.0, 300.0), "fuel_fraction_hydrogen": (0.1, 0.2), "fuel_fraction_carbon": (0.7, 0.75),
+             "humidity_ratio": (0.004, 0.01), "excess_air_ratio": (4.0, 10.0), "fuel_fraction_oxygen": (0.0, 0.02),
+             "fuel_fraction_sulfur": (0.0, 0.01), "fuel_fraction_water": (0.0, 0.01), "heat_loss_share": (0.01, 0.05), "lower_heating_value": (4e7, 5e7)},
     title="Combustion gas for direct firing",
 )  # fmt: skip
 def combustion_gas(

@@ -1,19 +1,25 @@
-"""Random valid inputs for any card, and what its answer to them must hold."""
+"""Values for the inputs of any formula, ordinary or random, and what its answer to them must hold."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import jax
 import numpy as np
 
+from granum.core import registry
 from granum.core.bounds import figures, limits
 from granum.core.formulas import Formula
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 
+# GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
+EVERYTHING = registry.everything(tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS)
+FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
+ELEMENTWISE = {k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))}
 SETS = int(os.environ.get("GRANUM_RANDOM_SETS", "1000"))
 """Sets of random inputs a card; the long run gives 1000000."""
 BLOCK = 10_000  # of them in one array
@@ -31,6 +37,18 @@ def ordinary(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
     low, high = p.ordinary()
     u = rng.uniform(0.02, 0.98, count)
     return np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
+
+
+def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
+    """Ordinary values for each numeric input, inside the hard bounds."""
+    rng = np.random.default_rng(seed)
+    return {p.name: ordinary(p, rng, count) for p in drawn(f)}
+
+
+def quickly(f: Formula, inputs: Mapping[str, np.ndarray]) -> AbstractContextManager[object]:
+    """Step by step where the formula has no loop, since compiling it takes longer than running it; its example runs compiled anyway."""
+    program = str(jax.make_jaxpr(lambda kw: f(**kw))({n: float(v[0]) for n, v in inputs.items()}))
+    return nullcontext() if "while[" in program or "scan[" in program else jax.disable_jit()
 
 
 def wide(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
@@ -77,9 +95,3 @@ def wrong(result: Result, inputs: Mapping[str, Any]) -> list[str]:
                 given = {n: float(np.ravel(v)[at]) for n, v in inputs.items() if np.size(v) == array.size}
                 found.append(f"{result.card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} at {given}")
     return found
-
-
-def no_value(result: Result) -> int:
-    """Sets without a value."""
-    return int(np.any([np.isnan(np.broadcast_to(x, result.flags.shape)) for x in jax.tree.leaves(result.value)
-                       if np.shape(x) in ((), result.flags.shape)] or [False], axis=0).sum())  # fmt: skip
