@@ -26,7 +26,7 @@ def test_nearest_name() -> None:
     ("change", "message"),
     [
         ({"particle_diameter": -1.0}, "must be greater than 0"),
-        ({"particle_diameter": float("nan")}, "not possible"),
+        ({"particle_diameter": float("nan")}, "not a number"),
         ({"particle_diameter": float("inf")}, "not possible"),
         ({"particle_diameter": True}, "not a number"),
         ({"particle_diameter": object()}, "not a number"),

@@ -30,6 +30,10 @@ from granum.particles import reynolds_number
         ("1 short ton", "Mass", 907.18474), ("10 tph", "MassFlow", 10000 / 3600), ("77 F", "Temperature", 298.15), ("25 C", "Temperature", 298.15),
         ("1/8 in", "Length", 0.003175), ("1/3", "VolumeFraction", 1 / 3), ("2 1/m", "SpecificSurface", 2.0),
         ("18 degF", "TemperatureDifference", 10.0), ("18 °F", "TemperatureDifference", 10.0), ("10 K", "TemperatureDifference", 10.0),
+        ("100 mTorr", "Pressure", 13.3322368421), ("760 Torr", "Pressure", 101325.0), ("85 microns", "Length", 85e-6), ("3 cm²", "Area", 3e-4), ("3 cm2", "Area", 3e-4),
+        ("1 200 kg/h", "MassFlow", 1 / 3), ("1 200,5 kg/h", "MassFlow", 1200.5 / 3600), ("1\u202f200,5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1\u00a0200\u00a0kg/h", "MassFlow", 1 / 3), ("1,200.5 kg/h", "MassFlow", 1200.5 / 3600), ("1.200,5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1,200 kg/h", "MassFlow", 1.2 / 3600), ("\u22125 degC", "Temperature", 268.15), ("1.07 × 10⁸ Pa", "Pressure", 1.07e8), ("2 × 10⁻³ m", "Length", 2e-3),
         # a difference knows no zero of the scale: 2 bar above atmosphere drop by 2 bar, not by 3
         ("2 barg", "PressureDrop", 2e5), ("40 psig", "PressureDifference", 275790.29172673),
     ],
@@ -49,7 +53,7 @@ def test_mesh_numbers_lead_to_the_sieve_series() -> None:
         units.read_quantity("200 mesh", KINDS["Length"], "particle_diameter")
 
 
-@pytest.mark.parametrize("text", ["", "abc", "--3 m", "1..2 m", "nan m"])
+@pytest.mark.parametrize("text", ["", "abc", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
 def test_what_is_not_a_number_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         units.read_quantity(text, KINDS["Length"], "x")
@@ -72,6 +76,37 @@ def test_what_is_not_a_number_is_refused(text: str) -> None:
 )
 def test_lists(text: str, expected: list[float]) -> None:
     np.testing.assert_allclose(units.read_series(text, KINDS["Length"]), np.array(expected) * 1e-6, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("85 um", 85),
+        ("0,85 um", 0.85),
+        ("1\u202f200 um", 1200),
+        ("60 85 um", [60, 85]),
+        ("0,10,20 um", [0, 10, 20]),
+        ("[50, 85, 100] um", [50, 85, 100]),
+        ("[50, 1200] um", [50, 1200]),
+        ("1,5; 2,5 um", [1.5, 2.5]),
+        ("60um 0.085mm", [60, 85]),
+    ],
+)
+def test_one_value_or_several(text: str, expected: object) -> None:
+    found = units.read_values(text, KINDS["Length"])
+    assert np.shape(found) == np.shape(expected)
+    np.testing.assert_allclose(found, np.array(expected) * 1e-6, rtol=1e-12)
+
+
+@pytest.mark.parametrize("text", ["60 300 um", "-1 200 um", "1,200,300 um"])
+def test_digits_in_threes_are_not_guessed_where_several_values_may_stand(text: str) -> None:
+    with pytest.raises(InputError, match="one number or several"):
+        units.read_values(text, KINDS["Length"], "particle_diameter")
+
+
+def test_several_values_of_an_input_of_a_formula() -> None:
+    more = {"velocity": 0.1, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
+    np.testing.assert_allclose(reynolds_number(particle_diameter="1, 2, 3 mm", **more), [100.0, 200.0, 300.0])
 
 
 def test_a_list_whose_last_value_lacks_the_unit_is_refused() -> None:

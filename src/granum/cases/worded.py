@@ -14,9 +14,9 @@ from typing import Any
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.core.written import read_number
 from granum.estimation.cards import inputs_of
 
-_NUMBER = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _LIMIT = re.compile(r"^(.*?)(<=|>=|<|>)(.*)$")
 STEPS = {"sweep": 25, "map": 15}
 SHOWN = 6  # results of a piece of equipment, when none are named
@@ -89,14 +89,14 @@ def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | Non
 def _pair(name: str, value: str, mark: str) -> tuple[str, str]:
     """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has none."""
     first, _mark, second = value.partition(mark)
-    found = [_NUMBER.match(part) for part in (first, second)]
-    if not all(found):
+    found = [read_number(part) for part in (first, second)]
+    if found[0] is None or found[1] is None:
         raise InputError(
             _("'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um.").format(name=name, value=value),
             name=name,
         )
-    (one, unit), (_two, last) = (m.groups() for m in found if m)
-    return (f"{one} {unit or last}".strip() if mark == ".." or last != "%" else first.strip()), second.strip()
+    (one, unit), (_two, last) = found
+    return (f"{repr(one).removesuffix('.0')} {unit or last}".strip() if mark == ".." or last != "%" else first.strip()), second.strip()
 
 
 def _spread(mean: str, width: str) -> dict[str, Any]:

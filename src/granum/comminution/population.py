@@ -152,7 +152,7 @@ class PlugFlow(ResidenceTimeLaw):
 class TanksInSeries(ResidenceTimeLaw):
     """Equal stirred tanks in a row; one is a fully mixed mill, many approach plug flow."""
 
-    tank_count: int = 1
+    tank_count: Annotated[int, Within(1, 1000)] = 1
 
     def __check_init__(self) -> None:
         if self.tank_count < 1:

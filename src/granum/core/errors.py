@@ -7,6 +7,8 @@ from difflib import get_close_matches
 
 from granum.core.i18n import _
 
+_LONGEST_NAME = 100  # characters; what is longer is no misspelt name
+
 
 class GranumError(Exception):
     """Base of every error that Granum raises on purpose."""
@@ -55,7 +57,7 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     >>> nearest("particle_diametre", ["particle_density", "particle_diameter"])
     'particle_diameter'
     """
-    found = get_close_matches(word, list(known), n=1, cutoff=0.55)
+    found = get_close_matches(word, list(known), n=1, cutoff=0.55) if len(word) <= _LONGEST_NAME else []
     return found[0] if found else None
 
 
@@ -63,6 +65,7 @@ def unknown_name(what: str, name: str, known: Iterable[str], where: str = "") ->
     """The one error for a name that does not exist: it lists or suggests those that do."""
     known = sorted(known)
     close = nearest(name, known)
+    name = name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "…"
     place = f" {where.strip()}" if where else ""
     message = _("{what} '{name}' is not known{place}.").format(what=what, name=name, place=place)
     if close:

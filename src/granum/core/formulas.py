@@ -116,13 +116,27 @@ class Formula:
             if is_tracer(value):
                 traced = True
                 continue
-            values[i] = value = convert(value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key))
+            values[i] = value = convert(value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key), several=True)
+            if is_tracer(value):  # a list with traced elements
+                traced = True
+                continue
             if p.kind is None and not isinstance(value, (Formula, str, bool, int, type(None))):
                 traced = traced or any(map(is_tracer, jax.tree_util.tree_leaves(value)))
             batched = batched or (p.kind is not None and not p.series and getattr(value, "ndim", 0) > 0)
         if self._series:
             self._check_lengths(values)
+        if batched:
+            self._check_shapes(values)
         return values, traced, batched
+
+    def _check_shapes(self, values: list[Any]) -> None:
+        """Arrays given for single values fit one another: equally long, or as NumPy broadcasts them."""
+        rows = [(p.name, np.shape(v)) for p, v in zip(self.card.parameters, values, strict=True) if p.kind and not p.series and np.ndim(v)]
+        try:
+            np.broadcast_shapes(*(shape for _name, shape in rows))
+        except ValueError:
+            shown = ", ".join(f"'{name}' ({' × '.join(map(str, shape))})" for name, shape in rows)
+            raise InputError(_("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0]) from None
 
     def _check_lengths(self, values: list[Any]) -> None:
         """Series along one axis are equally long; an optional one may be a single value for all."""
@@ -131,6 +145,24 @@ class Formula:
             if len({count for p, count in rows if p.required or count > 1}) > 1:
                 shown = ", ".join(f"'{p.name}' ({count})" for p, count in rows)
                 raise InputError(_("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name)
+
+    @contextmanager
+    def _fitting(self, values: list[Any]) -> Iterator[None]:
+        """Beside a series an array for a single value fits only some bodies: where it does not, the arrays are named."""
+        try:
+            yield
+        except (TypeError, ValueError) as problem:
+            rows = [(p.name, np.shape(v)) for p, v in zip(self.card.parameters, values, strict=True) if p.kind and np.ndim(v)]
+            single = [name for name, _shape in rows if not self.card.parameter(name).series]
+            if not single or len(single) == len(rows):
+                raise
+            shown = ", ".join(f"'{name}' ({' × '.join(map(str, shape))})" for name, shape in rows)
+            raise InputError(
+                _("{owner} takes one value of {names} beside its series; given: {shown}.").format(
+                    owner=self.key, names=", ".join(f"'{name}'" for name in single), shown=shown
+                ),
+                name=single[0],
+            ) from problem
 
     def _split(self, values: list[Any]) -> tuple[tuple[Any, ...], list[Any]]:
         """Static part (hashable key) and dynamic part of the arguments."""
@@ -277,7 +309,8 @@ class Formula:
             return self._evaluate(values).value
         key, dynamic = self._split(values)
         if batched:
-            return self._compile(key, "masked")(*dynamic)
+            with self._fitting(values):
+                return self._compile(key, "masked")(*dynamic)
         return self._told(_floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
 
     def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
@@ -300,7 +333,8 @@ class Formula:
 
     def _evaluate(self, values: list[Any]) -> Result:
         key, dynamic = self._split(values)
-        out, records = self._compile(key, "checked")(*dynamic)
+        with self._fitting(values):
+            out, records = self._compile(key, "checked")(*dynamic)
         inputs = {p.name: value for p, value in zip(self.card.parameters, values, strict=True)}
         shape = (
             np.broadcast_shapes(*(np.shape(x) for x in jax.tree.leaves(out)))

@@ -7,17 +7,17 @@ import sys
 import tomllib
 import types
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from granum.core import units
+from granum.core import given, units
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.glossary import Term, ending, glossary
 from granum.core.i18n import _
-from granum.core.kinds import Kind, Law, Series, extra_of, kind_of
+from granum.core.kinds import Kind, Law, Series, Within, extra_of, kind_of
 
 REQUIRED = inspect.Parameter.empty
 COLDEST = 150.0  # K: colder than any operation here, warmer than any Celsius number that forgot its unit
@@ -35,6 +35,7 @@ class Parameter:
     series: what a vector argument runs over; None for a single value.
     law: family of the law expected; None for quantities.
     choices: allowed words of a choice.
+    within: smallest and largest whole number.
     typical: range of ordinary values, SI.
     fitted: range over which the source holds, SI.
     """
@@ -46,6 +47,7 @@ class Parameter:
     law: str | None = None
     choices: tuple[Any, ...] = ()
     sort: type | None = None
+    within: Within | None = None
     optional: bool = False
     typical: tuple[float, float] | None = None
     fitted: tuple[float, float] | None = None
@@ -126,6 +128,8 @@ class Parameter:
             row["choices"] = list(self.choices)
         if self.sort:
             row["sort"] = self.sort.__name__
+        if self.within:
+            row |= {"lower": int(self.within.lower), "upper": int(self.within.upper)}
         row["required"] = self.required
         if not self.required:
             row["default"] = default_as_json(self.default)
@@ -163,6 +167,7 @@ def parameter_of(name: str, annotation: Any, default: Any, **ranges: Any) -> Par
         law=law.family if law else None,
         choices=choices,
         sort=sort,
+        within=extra_of(annotation, Within) if sort is int else None,
         optional=optional,
         **ranges,
     )
@@ -199,6 +204,8 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
     """The error for a value outside the hard bounds of its kind."""
     kind = parameter.kind
     assert kind is not None
+    if np.isnan(value):
+        return given.not_a_number(parameter.name, where)
     shown = units.show(float(value), kind) if np.isfinite(value) else str(float(value))
     if kind.lower > -np.inf and kind.upper < np.inf:
         allowed = _("between {low} and {high}").format(low=units.show(kind.lower, kind), high=units.show(kind.upper, kind))
@@ -225,11 +232,12 @@ def _forgotten_unit(value: float, parameter: Parameter, where: str) -> InputErro
     return InputError(message, name=parameter.name, value=value)
 
 
-def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
+def convert(value: Any, parameter: Parameter, where: str = "", several: bool = False) -> Any:
     """Whatever a user passes for a parameter as what the function body takes; raises one clear error otherwise.
 
     Text and Pint quantities become SI numbers; words become choices or laws; numbers are checked against the hard
-    bounds when they are single values. Arrays keep their out-of-range elements, which evaluation flags. Tracers pass.
+    bounds when they are single values. Where ``several`` values may stand, arrays keep their out-of-range elements, which
+    evaluation flags. Tracers pass.
     """
     if is_tracer(value):
         return value
@@ -244,81 +252,124 @@ def convert(value: Any, parameter: Parameter, where: str = "") -> Any:
     if parameter.kind is None:
         return _plain(value, parameter, where)
     kind, coldest = parameter.kind, parameter.coldest
-    bare = not units.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
+    bare = not given.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
     if isinstance(value, str):
-        value = (units.read_series if parameter.series else units.read_quantity)(value, kind, parameter.name)
-    elif units.is_quantity(value):
+        read = units.read_series if parameter.series else units.read_values if several else units.read_quantity
+        value = read(value, kind, parameter.name)
+    elif given.is_quantity(value):
         value = units.quantity_to_si(value, kind, parameter.name)
-    elif isinstance(value, (list, tuple)):
-        value = np.asarray([convert(v, _single(parameter), where) for v in value], dtype=float)
-    if isinstance(value, bool) or (not hasattr(value, "__float__") and not hasattr(value, "__array__")):
-        raise InputError(
-            _("'{name}' = {value!r} is not a number{where}; write it as '{example}'.").format(
-                name=parameter.name, value=value, where=where, example=f"1.5 {parameter.units[0]}"
-            ),
-            name=parameter.name,
-        )
-    if np.ndim(value) == 0 and not hasattr(value, "at"):
-        value = float(value)
-        if bare and coldest is not None and -ZERO_CELSIUS < value < coldest:
-            raise _forgotten_unit(value, parameter, where)
-        if not kind.contains(value) or np.isinf(value):
-            raise out_of_bounds(value, parameter, where)
-        if parameter.sort is int:
-            if value != int(value):
-                raise InputError(
-                    _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=value, where=where),
-                    name=parameter.name,
-                )
-            value = int(value)
-        if parameter.series:
-            value = np.asarray([value])
+    elif isinstance(value, (list, tuple)) or given.holds_objects(value):
+        value = _items(value, parameter, where)
+        if is_tracer(value):
+            return value
+    value = given.number_or_array(value, parameter.name, where, f"1.5 {parameter.units[0]}")
+    if not given.is_array(value):
+        if not hasattr(value, "at"):
+            if bare and coldest is not None and -ZERO_CELSIUS < value < coldest:
+                raise _forgotten_unit(value, parameter, where)
+            if not kind.contains(value) or np.isinf(value):
+                raise out_of_bounds(value, parameter, where)
+            if parameter.series:
+                value = np.asarray([value])
     elif parameter.series:
         array = np.asarray(value, dtype=float)
+        if array.ndim > 1:
+            raise InputError(
+                _("'{name}' is one row of values{where}, not a table of {shape}.").format(
+                    name=parameter.name, where=where, shape=" × ".join(map(str, array.shape))
+                ),
+                name=parameter.name,
+            )
         bad = ~np.asarray(kind.contains(array))
         if bad.any():
             first = int(np.argmax(bad.ravel()))
             raise out_of_bounds(array.ravel()[first], parameter, where + _(" (item {index})").format(index=first + 1))
+    elif not several:
+        raise InputError(
+            _("'{name}' takes one value{where}; {count} were given. Call it once for each, or vary it with 'granum study'.").format(
+                name=parameter.name, where=where, count=np.size(value)
+            ),
+            name=parameter.name,
+        )
     return value
 
 
-def _single(parameter: Parameter) -> Parameter:
-    from dataclasses import replace
+def _items(values: Any, parameter: Parameter, where: str) -> Any:
+    """A list as an array, each of its items converted; rows of unequal length are refused."""
+    single, kind = replace(parameter, series=None, default=REQUIRED, optional=False), parameter.kind
+    assert kind is not None
+    if given.depth(values) > 3:
+        raise InputError(_("'{name}' has lists in lists too deep{where}.").format(name=parameter.name, where=where), name=parameter.name)
+    items = [
+        v
+        if type(v) is float and kind.contains(v) and v not in (np.inf, -np.inf) and parameter.coldest is None
+        else convert(v, single, where, several=True)
+        for v in values
+    ]
+    if any(map(is_tracer, items)):
+        import jax.numpy as jnp
 
-    return replace(parameter, series=None)
+        return jnp.asarray(items)
+    if len(set(map(np.shape, items))) > 1:
+        raise InputError(_("'{name}' has rows of unequal length{where}.").format(name=parameter.name, where=where), name=parameter.name)
+    return np.asarray(items, dtype=float)
 
 
 def _choice(value: Any, parameter: Parameter, where: str) -> Any:
     if isinstance(value, str) and value not in parameter.choices:  # a number typed as text
         value = next((choice for choice in parameter.choices if str(choice) == value.strip()), value)
-    if value not in parameter.choices:
-        raise unknown_name(_("Choice for '{name}'").format(name=parameter.name), str(value), map(str, parameter.choices), where)
+    fits = isinstance(value, (str, int, float)) and any(
+        value == choice and isinstance(value, bool) == isinstance(choice, bool) for choice in parameter.choices
+    )
+    if not fits:
+        raise unknown_name(_("Choice for '{name}'").format(name=parameter.name), given.shown(value), map(str, parameter.choices), where)
     return value
 
 
 def _plain(value: Any, parameter: Parameter, where: str) -> Any:
-    if parameter.sort is bool and isinstance(value, str):
-        word = value.strip().lower()
-        if word not in ("true", "false", "yes", "no", "oui", "non", "1", "0"):
+    if parameter.sort is bool:
+        word = given.truth(value)
+        if word is None:
             raise InputError(_("'{name}' takes yes or no{where}.").format(name=parameter.name, where=where), name=parameter.name)
-        return word in ("true", "yes", "oui", "1")
+        return word
     if parameter.sort is int:
-        try:
-            whole = int(str(value))
-        except ValueError:
-            raise InputError(
-                _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=value, where=where),
-                name=parameter.name,
-            ) from None
-        return whole
+        return _whole(value, parameter, where)
+    if parameter.sort is str and not isinstance(value, str):
+        raise InputError(
+            _("'{name}' = {value} is not a text{where}.").format(name=parameter.name, value=given.shown(value), where=where),
+            name=parameter.name,
+        )
     return value
+
+
+def _whole(value: Any, parameter: Parameter, where: str) -> int:
+    count = given.whole_number(value)
+    if count is None:
+        raise InputError(
+            _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=given.shown(value), where=where),
+            name=parameter.name,
+        )
+    limits = parameter.within
+    if limits is not None and not limits.lower <= count <= limits.upper:
+        raise InputError(
+            _("{label} ('{name}') = {value} is not possible{where}: it must be a whole number from {low} to {high}.").format(
+                label=parameter.label,
+                name=parameter.name,
+                value=given.shown(count),
+                where=where,
+                low=int(limits.lower),
+                high=int(limits.upper),
+            ),
+            name=parameter.name,
+        )
+    return count
 
 
 def _table(text: str, parameter: Parameter, where: str) -> Any:
     """A law with its options as typed on a command line: ``{law = "power_law", exponent = 2}``."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # no TOML, a whole number of thousands of digits, tables in tables without end
         raise InputError(
             _("'{name}' is not a table such as {{law = \"…\", option = 1}}{where}.").format(name=parameter.name, where=where),
             name=parameter.name,
@@ -326,11 +377,15 @@ def _table(text: str, parameter: Parameter, where: str) -> Any:
 
 
 def _law(value: Any, parameter: Parameter, where: str) -> Any:
+    assert parameter.law is not None
     if not isinstance(value, (str, Mapping)):
-        return value
+        if value is parameter.default:
+            return value
+        from granum.core.laws import as_law
+
+        return as_law(value, parameter.law, parameter.name, where)
     from granum.core.registry import law
 
-    assert parameter.law is not None
     if isinstance(value, str) and value.lstrip().startswith("{"):
         value = _table(value, parameter, where)
     if isinstance(value, str):

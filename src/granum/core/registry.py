@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import pkgutil
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from typing import Any
 
 from granum.core.cards import domain_of
@@ -81,7 +83,7 @@ def _short_names(family_name: str) -> dict[str, Any]:
 
 
 def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
-    """A law of a family by key, by name or by the author's part of the name; modules are built with ``options``.
+    """A law of a family by key, by name or by the author's part of the name; modules are built with ``options``, formulas keep them.
 
     Domains are imported one after the other until the name is found, those already in use first.
     """
@@ -97,8 +99,20 @@ def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any]
     if isinstance(found, type):
         return found(**(options or {}))
     if options:
-        raise unknown_name(_("Option"), next(iter(options)), [], where)
+        from granum.core.laws import FormulaWith
+
+        return FormulaWith.of(found, options, where)
     return found
+
+
+@cache
+def abilities(family_name: str) -> tuple[str, ...]:
+    """Methods besides the call that every declared law of a family has: what a law of one's own needs in order to stand in for them."""
+    members = family(family_name).values()
+    shared = [
+        {n for n, thing in inspect.getmembers(m, callable) if not n.startswith("_")} if isinstance(m, type) else set() for m in members
+    ]
+    return tuple(sorted(set.intersection(*shared))) if shared else ()
 
 
 def domain_names(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from granum.core.errors import InputError, UnitError
+from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.kinds import Kind
+from granum.core.written import apart, read_number, tidy
 
-_NUMBER = re.compile(r"^\s*([+-]?(?:\d+/[1-9]\d*(?![\d.,])|(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*$", re.DOTALL)
 _LONGEST_UNIT = 40
 
 
@@ -42,6 +43,7 @@ def _registry() -> Any:
         "psia = psi",
         "psig = 6894.757293168361 * pascal; offset: 101325 = psi_gauge",
         "bara = bar",
+        "@alias torr = Torr",
         "lbm = pound",
         "lbmol = 453.59237 * mole",
         "btu = Btu",
@@ -197,33 +199,53 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
     >>> read_quantity("1.2 cP", KINDS["DynamicViscosity"])
     0.0012
     """
-    found = _NUMBER.match(text)
-    if not found:
+    found = read_number(text)
+    if found is None:
         raise InputError(
             _("'{name}' = '{text}' is not a number with a unit. Write it as '{example}'.").format(
-                name=name or kind.name, text=text, example=f"1.5 {kind.units[0]}"
+                name=name or kind.name, text=shown(text), example=f"1.5 {kind.units[0]}"
             ),
             name=name or kind.name,
-            value=text,
+            value=shown(text),
         )
-    above, _over, below = found.group(1).replace(",", ".").partition("/")  # 1/8 in
-    number = float(above) / float(below or 1.0)
-    return number if not found.group(2) else float(to_si(number, found.group(2), kind, name))
+    number, unit = found
+    return float(to_si(number, unit, kind, name)) if unit else number
+
+
+def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:
+    """The SI value of a text, or the values of one that holds several: ``"60 85 um"``, ``"0,10,20degC"``, ``"[1; 2] bar"``."""
+    digits = apart(text)
+    if digits:
+        raise InputError(
+            _("'{name}' = '{text}' may be one number or several: write '{one}' for one, '{more}' for several.").format(
+                name=name or kind.name, text=shown(text), one=re.sub("[ ,]", "", digits), more=re.sub("[ ,]", "; ", digits)
+            ),
+            name=name or kind.name,
+        )
+    try:
+        return read_quantity(text, kind, name)
+    except InputError:
+        try:
+            values = read_series(text, kind, name)
+        except InputError:
+            values = np.empty(0)
+        if values.size < 2:
+            raise
+        return values
 
 
 def has_unit(text: str) -> bool:
-    """Whether text is a number with a unit.
+    """Whether text says a unit beside its number or numbers.
 
-    >>> has_unit("25 degC"), has_unit("25")
-    (True, False)
+    >>> has_unit("25 degC"), has_unit("0,10,20degC"), has_unit("2.5e1")
+    (True, True, False)
     """
-    found = _NUMBER.match(text)
-    return bool(found and found.group(2))
+    return re.search(r"[^\W\d_]|[°%]", re.sub(r"(?<=\d)[eE](?=[+-]?\d)", "", text)) is not None
 
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value without a unit takes the next one's."""
-    cleaned = re.sub(r"[\[\];]", " ", text)
+    cleaned = re.sub(r"[\[\];]", " ", tidy(text))
     cleaned = re.sub(r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned)  # before a blank or after a unit the comma separates
     numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
     if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
@@ -231,12 +253,14 @@ def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     values: list[float] = []
     units: list[str] = []
     for word in cleaned.split():
-        found = _NUMBER.match(word)
+        found = read_number(word)
         if values and (found is None or re.match(r"1/[A-Za-z(]", word)):
             units[-1] = f"{units[-1]} {word}".strip()
+            if len(units[-1]) > _LONGEST_UNIT:
+                parse_unit(units[-1])
             continue
-        values.append(read_quantity(found.group(1) if found else word, kind, name))
-        units.append(found.group(2) if found else "")
+        values.append(found[0] if found else read_quantity(word, kind, name))
+        units.append(found[1] if found else "")
     if any(units) and not units[-1]:
         raise InputError(
             _(
@@ -250,11 +274,6 @@ def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     if len(set(units)) <= 1:
         return array if not any(units) else np.asarray(to_si(array, units[0], kind, name))
     return np.asarray([to_si(value, unit, kind, name) for value, unit in zip(values, units, strict=True)])
-
-
-def is_quantity(value: Any) -> bool:
-    """Whether a value is a Pint quantity (of any registry)."""
-    return hasattr(value, "magnitude") and hasattr(value, "units")
 
 
 def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:

@@ -27,6 +27,7 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
+    Within,
 )
 from granum.core.units import format_number
 from granum.crystallization.formulas.programs import TemperaturePoints
@@ -79,8 +80,8 @@ def optimal_cooling(
     volume_shape_factor: PositiveNumber = 1.0,
     liquid_density: Density = 1000.0,
     relative_supersaturation_maximum: PositiveNumber = 1.0,
-    intervals: int = 12,
-    steps: int = 200,
+    intervals: Annotated[int, Within(1, 200)] = 12,
+    steps: Annotated[int, Within(2, 100_000)] = 200,
 ) -> CoolingRecipe:
     """Cooling program, straight by pieces and never rising, that leaves the least mass grown from nuclei at given start and end.
 

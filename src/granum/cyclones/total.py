@@ -23,6 +23,7 @@ from granum.core.kinds import (
     Series,
     Speed,
     VolumeFlow,
+    Within,
 )
 from granum.core.units import format_number
 from granum.cyclones.formulas.efficiency import cyclone_efficiency_muschelknautz
@@ -59,7 +60,7 @@ def cyclone_for_efficiency(
     size_distribution: Annotated[Any, Law("size_distribution")] = USUAL_DUST,
     pressure_drop: PressureDrop | None = None,
     parallel_number: PositiveNumber | None = None,
-    series_number: int = 1,
+    series_number: Annotated[int, Within(1, 20)] = 1,
     fluid_density: Density = 1.2,
     dynamic_viscosity: DynamicViscosity = 1.8e-5,
     cyclone_geometry: Annotated[Any, Law("cyclone_geometry")] = StandardCyclone(),

@@ -29,6 +29,7 @@ from granum.core.kinds import (
     Temperature,
     ThermalConductivity,
     Time,
+    Within,
 )  # fmt: skip
 from granum.drying.formulas.moisture import POTATO, IsothermLaw
 from granum.humid_gas.formulas.transport import transport
@@ -150,7 +151,7 @@ def body_drying(
     specific_heat_capacity: HeatCapacity = 1500.0,
     thermal_conductivity: ThermalConductivity = 0.4,
     mass_transfer_coefficient: MassTransferCoefficient | None = None,
-    cells: int = 24,
+    cells: Annotated[int, Within(2, 1000)] = 24,
 ) -> BodyDrying:
     """Moisture and temperature inside a body that dries in gas of constant temperature and humidity, from center to surface.
 

@@ -12,9 +12,11 @@ from typing import IO, Any
 import numpy as np
 
 from granum.core.errors import InputError, nearest
+from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.units import to_si
+from granum.core.written import read_number
 
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:[\[(]\s*(.*?)\s*[\])]|\s/\s*(.+?))?\s*$")
 Row = tuple[int, list[Any]]
@@ -106,14 +108,11 @@ def _column(p: Parameter, unit: str | None, cells: list[tuple[int, Any]], where:
         )
     values = []
     for line, cell in cells:
-        try:
-            value = float(cell)
-        except (TypeError, ValueError):
-            value = np.nan
+        value = _number(cell)
         if not np.isfinite(value):
             raise InputError(
                 _("Line {line}, column '{name}': '{text}' is not a number{where}.").format(
-                    line=line, name=p.name, text="" if cell is None else cell, where=where
+                    line=line, name=p.name, text="" if cell is None else shown(cell), where=where
                 ),
                 name=p.name,
                 line=line,
@@ -131,6 +130,17 @@ def _column(p: Parameter, unit: str | None, cells: list[tuple[int, Any]], where:
             line=line,
         )
     return array
+
+
+def _number(cell: Any) -> float:
+    """The number of a cell; NaN for what is none."""
+    if isinstance(cell, str):
+        try:
+            return float(cell)
+        except ValueError:
+            found = read_number(cell)
+            return found[0] if found and not found[1] else np.nan
+    return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else np.nan
 
 
 def _rows(source: Source, where: str) -> Iterable[Row]:

@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 from granum.core import chart
 from granum.core.charts import ACCENT, CAUTION, GAS, INK, LIQUID, OUT, SOLID, add_label, add_line, add_points, axis_title, figure
 from granum.core.i18n import _
-from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series, Time, VolumeFlow
+from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series, Time, VolumeFlow, Within
 from granum.core.units import format_number
 from granum.settling.column import Suspension
 from granum.settling.flux import settling_flux, state_point_clarifier
@@ -103,7 +103,7 @@ def flux_diagram(
        typical={"time": (0.0, 7200.0), "initial_concentration": (2.0, 6.0), "initial_height": (0.3, 1.0)})  # fmt: skip
 def settling_course_chart(
     initial_concentration: Concentration, initial_height: Length, time: Annotated[Time, Series("times")], settling: Settling = "takacs",
-    compression: Annotated[Any, Law("solids_stress")] | None = None, packed_concentration: Concentration | None = None, cells: int = 80,
+    compression: Annotated[Any, Law("solids_stress")] | None = None, packed_concentration: Concentration | None = None, cells: Annotated[int, Within(5, 5000)] = 80,
 ) -> go.Figure:  # fmt: skip
     """Concentration in a settling cylinder over height, played through time."""
     course = batch_course(

@@ -10,7 +10,21 @@ import numpy as np
 from granum.core import procedure
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, Concentration, Density, Distance, Fraction, Law, Length, Number, OpenFraction, Series, Time, VolumeFlow
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Density,
+    Distance,
+    Fraction,
+    Law,
+    Length,
+    Number,
+    OpenFraction,
+    Series,
+    Time,
+    VolumeFlow,
+    Within,
+)
 from granum.settling.column import Cone, Operation, Simulation, Suspension, settle, simulate
 
 Settling = Annotated[Any, Law("settling_velocity")]
@@ -52,7 +66,7 @@ def check_times(time: Any) -> np.ndarray:
 def batch_simulation(
     initial_concentration: Concentration, initial_height: Length, time: Times, settling: Settling = "takacs",
     compression: Compression | None = None, solid_density: Density = 1050.0, liquid_density: Density = 998.0,
-    packed_concentration: Concentration | None = None, cells: int = 100,
+    packed_concentration: Concentration | None = None, cells: Annotated[int, Within(5, 5000)] = 100,
 ) -> BatchCourse:  # fmt: skip
     """Batch settling of a uniform suspension, hindered and compressed, by a monotone conservative scheme.
 
@@ -84,7 +98,7 @@ def continuous_simulation(
     underflow_volume_flow: Annotated[VolumeFlow, Series("intervals")], area: Area, height: Length, settling: Settling = "takacs",
     compression: Compression | None = None, solid_density: Density = 1050.0, liquid_density: Density = 998.0,
     packed_concentration: Concentration | None = None, start_concentration: Concentration = 0.0, feed_depth_share: Fraction = 0.5,
-    cone_height_share: Fraction = 0.0, bottom_area_share: OpenFraction = 0.05, cells: int = 100,
+    cone_height_share: Fraction = 0.0, bottom_area_share: OpenFraction = 0.05, cells: Annotated[int, Within(5, 5000)] = 100,
 ) -> ContinuousCourse:  # fmt: skip
     """Continuous clarifier-thickener with feed, underflow and overflow that change from interval to interval.
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from granum.core.errors import InputError, unknown_name
+from granum.core.given import shown, whole_number
 from granum.core.i18n import _
 from granum.core.parameters import convert
 from granum.estimation import Fit
@@ -90,9 +91,11 @@ def si(parameter: Any, value: Any, where: str) -> float:
 
 def whole(value: Any, name: str, least: int, most: int) -> int:
     """A count inside its limits."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most or value != int(value):
-        shown = f"2^{value.bit_length()}" if isinstance(value, int) and value.bit_length() > 200 else value
+    count = whole_number(value)
+    if count is None or not least <= count <= most:
         raise InputError(
-            _("'{name}' = {value} must be a whole number from {least} to {most}.").format(name=name, value=shown, least=least, most=most)
+            _("'{name}' = {value} must be a whole number from {least} to {most}.").format(
+                name=name, value=shown(value), least=least, most=most
+            )
         )
-    return int(value)
+    return count

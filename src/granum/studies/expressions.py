@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import operator
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,6 +19,7 @@ from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter, convert
+from granum.core.written import read_number
 
 Lookup = Callable[[str], Any]
 
@@ -29,7 +29,6 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "max": lambda *x: jnp.max(jnp.stack(x)),
 }  # fmt: skip
 LONGEST = 2000
-_NUMBER = re.compile(r"^\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -78,7 +77,7 @@ class Expression:
         if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
             return float(node.value)
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            return _quantity(node.value) if node.value[:1] in "0123456789.+-" else lookup(node.value)
+            return _quantity(node.value) if node.value[:1] in "0123456789.+-\u2212" else lookup(node.value)
         if isinstance(node, (ast.Name, ast.Attribute, ast.Subscript)):
             return lookup(_path(node, self.text))
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
@@ -114,10 +113,11 @@ def _path(node: ast.expr, text: str) -> str:
 
 
 def _quantity(text: str) -> float:
-    found = _NUMBER.match(text)
+    found = read_number(text)
     if found is None:
         raise InputError(_("'{text}' is not a number with a unit.").format(text=text))
-    given = units.registry().Quantity(float(found.group(1)), units.parse_unit(found.group(2)))
+    number, unit = found
+    given = units.registry().Quantity(number, units.parse_unit(unit))
     return float(given.to_base_units().magnitude)
 
 

@@ -22,6 +22,7 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
+    Within,
 )
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
@@ -94,7 +95,7 @@ def next_batch(
     concentration_error: MassRatio = 1e-4,
     size_error: Ratio = 0.02,
     size_is_measured: bool = True,
-    samples: int = 20,
+    samples: Annotated[int, Within(2, 10_000)] = 20,
 ) -> NextBatches:
     """Candidate batches ranked by what they would teach about growth and secondary nucleation, given what was run already.
 

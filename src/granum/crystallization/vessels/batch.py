@@ -25,6 +25,7 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
+    Within,
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.population.compiled import compiled
@@ -134,7 +135,7 @@ def batch(
     evaporation_program: Annotated[Any, Law("program")] | None = None,
     antisolvent_program: Annotated[Any, Law("program")] | None = None,
     growth_dispersion: Ratio = 0.0,
-    steps: int = 400,
+    steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> BatchCourse:
     """Concentration, temperature and crystals of a cooling batch over time, with its product and the error of the time steps.
 
@@ -212,7 +213,7 @@ def agglomerating_batch(
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: int = 400,
+    steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> AgglomeratingCourse:
     """A cooling batch whose crystals grow, are born, agglomerate and break, followed in size classes that move with the growth.
 

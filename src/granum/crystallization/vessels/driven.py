@@ -30,6 +30,7 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
     Time,
+    Within,
 )
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.formulas.nucleation import NoNucleation
@@ -97,7 +98,7 @@ def jacketed_batch(
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: int = 400,
+    steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> JacketedCourse:
     """Temperature, concentration and crystals of a batch cooled through its jacket, from the heat balance with the heat of crystallization.
 
@@ -165,7 +166,7 @@ def vacuum_batch(
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: int = 400,
+    steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> VacuumCourse:
     """Temperature, concentration, crystals and evaporation of a batch cooled by boiling: the pressure sets the temperature, the heat balance the vapor.
 

@@ -30,6 +30,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
     Volume,
+    Within,
 )
 from granum.crystallization.formulas.nucleation import NucleationLaw
 from granum.crystallization.population.compiled import compiled
@@ -237,7 +238,7 @@ def msmpr_over_time(
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
     growth_dispersion: Ratio = 0.0,
-    steps: int = 1000,
+    steps: Annotated[int, Within(2, 100_000)] = 1000,
 ) -> ContinuousCourse:
     """Start-up of a continuous crystallizer or of a cascade: composition, magma density and size of the last vessel over time.
 

@@ -20,6 +20,7 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
+    Within,
 )
 from granum.crystallization.population.lagrangian import Equilibrium, Model, SuspensionVolume
 from granum.crystallization.population.operations import Operation
@@ -130,7 +131,7 @@ def precipitation_batch(
     seed_size: Length = 10e-6,
     volume_shape_factor: PositiveNumber = 1.0,
     temperature: Temperature = 298.15,
-    steps: int = 400,
+    steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> PrecipitationCourse:
     """Supersaturation, ions and crystals of a stirred vessel into which the reagent with the anion is run, mixing being perfect.
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature
+from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature, Within
 from granum.drying.contact.column import Zone
 from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, humidity_of, sized
 from granum.drying.contact.kinetics import AbstractKinetics
@@ -31,13 +31,13 @@ class BeltDryer(LayerDryer):
     layer_depth: Length
     bulk_density_dry: Density
     kinetics: Annotated[Any, Law("drying_kinetics")]
-    zone_count: int = 1
+    zone_count: Annotated[int, Within(1, 100)] = 1
     alternating: bool = False
     heat_transfer_coefficient: HeatTransferCoefficient | None = None
     specific_surface: SpecificSurface | None = None
     temperature_limit: Temperature | None = None
-    layers: int = 24
-    steps: int = 120
+    layers: Annotated[int, Within(1, 1000)] = 24
+    steps: Annotated[int, Within(1, 100_000)] = 120
 
     def extent(self) -> Any:
         return self.area

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature
+from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, Within
 from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey
 from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, recalled, sized
@@ -37,7 +37,7 @@ class FlashDryer(Dryer):
     downward: Fraction = 0.0
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    cells: int = 60
+    cells: Annotated[int, Within(1, 2000)] = 60
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2

@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import equipment
-from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction
+from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
 from granum.drying.contact.cells import Contact, Inlet, Network, Profile
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, sized
 from granum.drying.contact.kinetics import AbstractKinetics
@@ -39,13 +39,13 @@ class FluidBedDryer(ContactDryer):
     area: Area
     mass: Mass
     kinetics: Annotated[Any, Law("drying_kinetics")]
-    cells: int = 1
+    cells: Annotated[int, Within(1, 500)] = 1
     bypass_fraction: Fraction | None = None
     void_fraction: VoidFraction = 0.45
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    ages: int = 8
-    age_cells: int = 24
+    ages: Annotated[int, Within(1, 200)] = 8
+    age_cells: Annotated[int, Within(1, 2000)] = 24
 
     def extent(self) -> Any:
         return self.area

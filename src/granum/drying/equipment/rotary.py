@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Fraction, HeatTransferCoefficient, Law, Length, PositiveNumber, Power, RotationSpeed, Temperature
+from granum.core.kinds import Fraction, HeatTransferCoefficient, Law, Length, PositiveNumber, Power, RotationSpeed, Temperature, Within
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
 from granum.drying.contact.kinetics import AbstractKinetics
@@ -39,7 +39,7 @@ class RotaryDryer(ContactDryer):
     wetted_share: Fraction = 0.15
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    cells: int = 40
+    cells: Annotated[int, Within(1, 2000)] = 40
 
     def extent(self) -> Any:
         return self.length * self.section

@@ -17,6 +17,7 @@ from granum.core.kinds import (
     SpecificSurface,
     Temperature,
     Volume,
+    Within,
 )
 from granum.drying.contact.cells import Profile
 from granum.drying.contact.column import Zone
@@ -57,8 +58,8 @@ class SiloDryer(LayerDryer):
     heat_transfer_coefficient: HeatTransferCoefficient | None = None
     specific_surface: SpecificSurface | None = None
     temperature_limit: Temperature | None = None
-    layers: int = 20
-    steps: int = 50
+    layers: Annotated[int, Within(1, 1000)] = 20
+    steps: Annotated[int, Within(1, 100_000)] = 50
 
     def extent(self) -> Any:
         return self.volume

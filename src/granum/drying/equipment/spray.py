@@ -11,7 +11,7 @@ from jax.scipy.special import gammaln
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature
+from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature, Within
 from granum.drying.contact.cells import Inlet, Network, Profile
 from granum.drying.contact.conveyed import Path, convey, drop_ratio
 from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, parted, recalled, sized
@@ -44,7 +44,7 @@ class SprayDryer(Dryer):
     surface_tension: SurfaceTension = 0.06
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    cells: int = 50
+    cells: Annotated[int, Within(1, 2000)] = 50
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2 * self.length

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, HeatTransferCoefficient, Law, Power, SpecificSurfaceMass, Temperature, Time, Volume
+from granum.core.kinds import Area, HeatTransferCoefficient, Law, Power, SpecificSurfaceMass, Temperature, Time, Volume, Within
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
 from granum.drying.contact.kinetics import AbstractKinetics
@@ -33,7 +33,7 @@ class TunnelDryer(ContactDryer):
     heat_transfer_coefficient: HeatTransferCoefficient | None = None
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    cells: int = 40
+    cells: Annotated[int, Within(1, 2000)] = 40
 
     def extent(self) -> Any:
         return self.volume

@@ -9,7 +9,18 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, CakeResistance, Concentration, DynamicViscosity, MediumResistance, PressureDrop, Series, Time, Volume
+from granum.core.kinds import (
+    Area,
+    CakeResistance,
+    Concentration,
+    DynamicViscosity,
+    MediumResistance,
+    PressureDrop,
+    Series,
+    Time,
+    Volume,
+    Within,
+)
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
@@ -39,7 +50,7 @@ class LeafTest(LabTest):
     pressure_drop: PressureDrop
     dynamic_viscosity: DynamicViscosity
     dry_cake_per_filtrate: Concentration
-    first_points_excluded: int | None = None
+    first_points_excluded: Annotated[int, Within(0, 10_000)] | None = None
 
     estimates: ClassVar = {"cake_resistance": CakeResistance, "medium_resistance": MediumResistance}
     axes: ClassVar = {"filtrate_volume": Volume, "time_per_filtrate_volume": TimePerVolume}

@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Concentration, Distance, Fraction, Law, Length, Mass, Ratio, Speed, Time, VolumeFlow
+from granum.core.kinds import Area, Concentration, Distance, Fraction, Law, Length, Mass, Ratio, Speed, Time, VolumeFlow, Within
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import passing_flux, steady_state
@@ -65,7 +65,7 @@ class ClarifierThickener(Unit, Dynamic):
     bottom_area_share: Fraction = 1.0
     settling_time: Time = 10 * 86400.0
     concentration_maximum: Concentration = 1000.0
-    cells: int = eqx.field(static=True, default=40)
+    cells: Annotated[int, Within(5, 5000)] = eqx.field(static=True, default=40)
 
     def _velocities(self, feed: Stream) -> tuple[Any, Any]:
         """Feed and underflow per area, m/s; the underflow is at most the feed."""

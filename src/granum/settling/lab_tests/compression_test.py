@@ -9,7 +9,7 @@ import numpy as np
 
 from granum.core import lab_test
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time
+from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time, Within
 from granum.estimation import Fit, LabTest
 from granum.settling.column import Suspension, settle
 from granum.settling.compression import LogarithmicStress
@@ -33,7 +33,7 @@ class CompressionTest(LabTest):
     liquid_density: Density = 998.0
     initial_height: Length | None = None
     stress_concentration: Concentration = 4.0
-    cells: int = 100
+    cells: Annotated[int, Within(5, 5000)] = 100
 
     estimates: ClassVar = {
         "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume,

@@ -1,0 +1,61 @@
+"""Numbers as people write them, read in one place: decimal comma, thousands apart, ``1/8``, the printed minus, ``1.07 × 10⁸``."""
+
+from __future__ import annotations
+
+import re
+
+LONGEST = 200  # characters of one number with its unit
+_APART = "\u00a0\u202f\u2009"  # no-break, narrow no-break and thin space
+_THOUSANDS = re.compile(rf"(?<![\d.,])([1-9]\d{{0,2}})((?:[{_APART}]\d{{3}})+)(?!\d)")
+_POWER = re.compile(r"(?<=\d)\s*[×x·*]\s*10(?:\^?([+-]?\d+)|([⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))")
+_RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+_GROUPED = r"[1-9]\d{0,2}(?: \d{3})+(?![\d/])"
+_BOTH = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.\d+|(?:\.\d{3})+,\d+)(?![\d.,])"  # 1,200.5 and 1.200,5
+_APART_IN_THREES = re.compile(rf"\s*([+-]?(?:{_GROUPED}|[1-9]\d{{0,2}}(?:,\d{{3}}){{2,}}(?![\d.,])))")
+_NUMBER = re.compile(
+    rf"\s*([+-]?(?:\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*",
+    re.DOTALL,
+)
+
+
+def tidy(text: str) -> str:
+    """Text with plain signs and spaces: thousands that a no-break or thin space sets apart are joined, powers of ten become ``e``.
+
+    >>> tidy("−1\u202f200,5 kg"), tidy("1.07 × 10⁸ Pa")
+    ('-1200,5 kg', '1.07e8 Pa')
+    """
+    joined = _THOUSANDS.sub(lambda m: m[1] + re.sub(rf"[{_APART}]", "", m[2]), text.replace("\u2212", "-"))
+    powers = _POWER.sub(lambda m: "e" + (m[1] or m[2].translate(_RAISED)), joined)
+    return re.sub(rf"[{_APART}]", " ", powers)
+
+
+def read_number(text: str) -> tuple[float, str] | None:
+    """The number a text starts with and what follows it; None where it starts with none.
+
+    >>> read_number("0,8 bar"), read_number("1 200,5 kg/h"), read_number("1,200.5"), read_number("1/8 in")
+    ((0.8, 'bar'), (1200.5, 'kg/h'), (1200.5, ''), (0.125, 'in'))
+    """
+    found = _NUMBER.fullmatch(tidy(text)) if len(text) <= LONGEST else None
+    if found is None:
+        return None
+    above, _over, below = _plain(found[1]).partition("/")
+    return float(above) / float(below or 1.0), found[2]
+
+
+def apart(text: str) -> str:
+    """The number of a text whose digits stand in threes apart, such as ``60 300`` or ``1,200,300``; empty where they do not.
+
+    It may be thousands or two values: where several values may stand only its writer knows.
+
+    >>> apart("60 300 um"), apart("60 85 um")
+    ('60 300', '')
+    """
+    found = _APART_IN_THREES.match(tidy(text))
+    return found[1] if found else ""
+
+
+def _plain(number: str) -> str:
+    number = number.replace(" ", "")
+    if "," in number and "." in number:  # the mark in front sets thousands apart
+        number = number.replace("," if number.index(",") < number.index(".") else ".", "")
+    return number.replace(",", ".")
