@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import re
+import time
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
@@ -102,7 +103,7 @@ def test_a_value_may_come_as_value_and_unit(client: httpx.Client) -> None:
         ({"particle_diameter": "-3 um"}, "must be greater than"),
         ({"particle_diameter": "85 kg"}, "does not fit"),
         ({"particle_diameter": "eighty"}, "is not a number with a unit"),
-        ({"particle_diameter": ""}, "needs 'particle_diameter'"),
+        ({"particle_diameter": ""}, "needs particle diameter (µm)"),
         ({"particle_diameter": {"a": 1}}, "is not a number"),
         ({"particle_diameter": True}, "is not a number"),
         ({"particle_diametre": "85 um"}, "Did you mean"),
@@ -113,6 +114,65 @@ def test_bad_inputs_are_explained(client: httpx.Client, changed: dict[str, Any],
     body = json.dumps(SPHERE | changed)
     answer = client.post("/api/calc/particles.terminal_velocity_stokes", content=body, headers={"content-type": "application/json"})
     assert says in message(answer)
+
+
+LENGTH = {"name": "particle_diameter", "kind": "length", "unit": "m", "lower": 0.0, "open_lower": True, "units": ["um", "mm", "m", "inch"]}
+
+
+@pytest.mark.parametrize(
+    ("number", "unit", "shown", "kept"),
+    [
+        ("85", "um", "85 µm", "85 um"),
+        ("85", "microns", "85 µm", "85 um"),
+        ("0,5", "in", "0.5 in", "0.5 inch"),
+        ("1e-3", "mm", "0.001 mm", "0.001 mm"),
+        ("1/8", "in", "0.125 in", "0.125 inch"),
+        ("85", "", "85 m", "85 m"),
+    ],
+)
+def test_what_a_field_holds_is_read_and_said(client: httpx.Client, number: str, unit: str, shown: str, kept: str) -> None:
+    answer = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}).json()
+    assert (answer["shown"], f"{answer['number']} {answer['unit']}") == (shown, kept)
+    french = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}, headers={"x-language": "fr"}).json()
+    assert french["shown"] == shown.replace(".", ",")
+
+
+def test_several_values_are_read_and_what_is_not_understood_is_said(client: httpx.Client) -> None:
+    series = LENGTH | {"series": "classes"}
+    assert client.post("/api/read", json=series | {"number": "2 4,5 8", "unit_typed": "um"}).json()["number"] == "2 4.5 8"
+    mixed = client.post("/api/read", json=series | {"number": "2", "unit_typed": "mm, 850 um"}).json()
+    assert "number" not in mixed, "values with units of their own stay as they were typed"
+    assert mixed["shown"].endswith(("2 mm", "0.85 mm", "850 µm"))
+    for number, unit in (("eighty", ""), ("85", "kg"), ("-3", "um"), ("", "um"), ("85", "furlong per fortnight per")):
+        told = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}).json()
+        assert set(told) == {"problem"}
+        assert "particle_diameter" not in told["problem"]
+    for odd in (
+        {},
+        {"kind": "length"},
+        {"kind": 3, "number": []},
+        LENGTH | {"lower": "x"},
+        LENGTH | {"units": [3, None, "kg"], "number": "1"},
+    ):
+        assert client.post("/api/read", json=odd).status_code < 500
+
+
+def test_a_page_speaks_of_labels_not_of_python_names(client: httpx.Client) -> None:
+    names = re.compile(r"[a-z]+_[a-z_]+|particles\.")
+    for language in ("en", "fr"):
+        for changed in (
+            {"particle_diameter": "-3 um"},
+            {"particle_diameter": "85 kg"},
+            {"particle_diameter": "eighty"},
+            {"particle_diameter": ""},
+        ):
+            answer = client.post("/api/calc/particles.terminal_velocity_stokes", json=SPHERE | changed, headers={"x-language": language})
+            assert not names.search(message(answer)), message(answer)
+        flagged = client.post(
+            "/api/calc/particles.terminal_velocity_stokes", json=SPHERE | {"particle_diameter": "5 mm"}, headers={"x-language": language}
+        )
+        assert flagged.json()["flags"]
+        assert not names.search(flagged.json()["flags"][0]["message"])
 
 
 def test_errors_come_in_french_too(client: httpx.Client) -> None:
@@ -291,6 +351,59 @@ def test_files_stay_inside_the_workspace(client: httpx.Client, workspace: Path) 
     assert message(client.put("/api/workspace/new.toml/../mine.toml/x.toml", json={"text": "x"}))
     for path in ("/..%2fserver.py", "/%2e%2e/server.py", "/vendor/..%2f..%2fserver.py"):
         assert client.get(path).status_code == 404
+
+
+def test_another_file_is_overwritten_only_when_that_is_said(client: httpx.Client, workspace: Path) -> None:
+    assert client.put("/api/workspace/kept.toml", json={"text": "a = 1"}).status_code == 200
+    refused = client.put("/api/workspace/kept.toml", json={"text": "a = 2"})
+    assert "exists already" in message(refused)
+    assert refused.json()["error"]["exists"] is True
+    assert (workspace / "kept.toml").read_text() == "a = 1"
+    assert client.put("/api/workspace/kept.toml", json={"text": "a = 2", "replace": True}).status_code == 200
+    assert (workspace / "kept.toml").read_text() == "a = 2"
+    (workspace / "kept.toml").unlink()
+
+
+def test_the_lab_to_plant_example_is_studied_from_its_place(client: httpx.Client) -> None:
+    place = "examples:lab-to-plant/line.toml"
+    case = client.get("/api/examples/lab-to-plant/line.toml").json()["text"].replace("steps = 16", "steps = 2")
+    choices = client.post("/api/studies/choices", json={"case": case, "place": place}).json()
+    assert [row["name"] for row in choices["declared"]] == ["sizes", "influence", "cheapest", "safe", "depth"]
+    area = next(f for f in choices["figures"] if f["name"] == "press.area")
+    assert area["quantity"]["units"][0]["unit"] == "m^2"
+    started = client.post("/api/studies", json={"case": case, "place": place, "declared": "depth"}).json()["id"]
+    for _wait in range(1200):
+        found = client.get(f"/api/studies/{started}").json()
+        if found["state"] == "done":
+            break
+        time.sleep(0.2)
+    assert found["outcome"]["counts"] == {**found["outcome"]["counts"], "run": 4, "failed": 0}
+
+
+def test_every_trial_of_a_lab_test_has_its_columns_and_conditions(client: httpx.Client) -> None:
+    tried = 0
+    for row in client.get("/api/cards?sort=lab test").json()["cards"]:
+        form = client.get(f"/api/cards/{row['card']}").json()
+        if not form["trial"]:
+            continue
+        tried += 1
+        names = {p["name"] for p in form["parameters"]}
+        heads = next(line for line in form["trial"]["table"].splitlines() if not line.startswith("#"))
+        assert set(form["trial"]["values"]) <= names
+        assert {re.sub(r" ?\[.*", "", head) for head in heads.split(",")} <= names
+        given = set(form["trial"]["values"])
+        assert not [p["name"] for p in form["parameters"] if p["required"] and not p.get("series") and p["name"] not in given]
+    assert tried >= 8
+
+
+def test_no_chart_in_a_file_offers_to_be_sent_away(client: httpx.Client) -> None:
+    case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
+    page = client.post("/api/report", json={"case": case}).text
+    drawn = page.count("Plotly.newPlot(")
+    assert drawn
+    assert page.count('"showSendToCloud": false') == drawn
+    others = [str(p) for p in APP.parent.rglob("*.py") if ".to_html(" in p.read_text(encoding="utf-8") and p.name != "charts.py"]
+    assert not others, "charts become HTML in core.charts.as_html only"
 
 
 def test_without_a_workspace_nothing_is_saved(serve: Any) -> None:

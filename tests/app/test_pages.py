@@ -54,7 +54,9 @@ class Page:
         size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
         self.browser.get(f"{self.address}/style.css")
-        self.browser.execute_script("localStorage.clear(); localStorage.setItem('granum-theme', arguments[0])", theme)
+        self.browser.execute_script(
+            "localStorage.clear(); sessionStorage.clear(); localStorage.setItem('granum-theme', arguments[0])", theme
+        )
         self.browser.get_log("browser")
         self.browser.get(f"{self.address}/?lang={language}#/{place}")
         self.settle()
@@ -82,6 +84,23 @@ class Page:
         field = self.one(selector)
         field.send_keys(Keys.CONTROL, "a")
         field.send_keys(text)
+
+    def type(self, selector: str, text: str, into: str = "") -> Any:
+        """Type as people do: the field emptied, then key by key."""
+        field = self.one(selector)
+        field.send_keys(Keys.CONTROL, "a")
+        field.send_keys(Keys.BACKSPACE)
+        for key in text:
+            field.send_keys(key)
+        assert field.get_attribute("value") == (into or text), "the text of a field belongs to whoever types"
+        return field
+
+    def leave(self, field: Any) -> tuple[str, str]:
+        """Number and unit of a field after it has been left."""
+        field.send_keys(Keys.TAB)
+        self.settle()
+        menu = field.find_elements(By.XPATH, "following-sibling::select")
+        return field.get_attribute("value"), menu[0].get_attribute("value") if menu else ""
 
     def check(self, refused: bool = False) -> None:
         """No word on the console (but for refusals where they are wanted), nothing wider than the page, no complaint of axe."""
@@ -131,15 +150,196 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     assert shown.text.startswith(f"5{point}28")  # Stokes by hand: 5.282 mm/s
     page.write("#field-particle_diameter", f"42{point}5")
     page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32"))  # a quarter of it
-    assert "42.5" in page.browser.current_url
+    page.one("#field-particle_diameter").send_keys(Keys.ENTER)
+    page.until(lambda: "42.5" in page.browser.current_url)
     page.write("#field-particle_diameter", "-3")
-    page.until(lambda: page.all("[aria-invalid=true]"))
-    assert page.one(".message.out").text
-    for _ in range(3):
-        page.button("Undo" if language == "en" else "Annuler").click()
+    page.until(lambda: page.all("[aria-invalid=true]") and page.one(".quantity .out").text)
+    assert page.all(".stale [data-output=terminal_velocity]"), "the result of other inputs is grey"
+    page.button("Undo" if language == "en" else "Annuler").click()  # what was typed in one go is one step
     page.until(lambda: not page.all("[aria-invalid=true]"))
+    assert page.one("#field-particle_diameter").get_attribute("value") == "85"
     page.settle()
     page.check(refused=True)
+
+
+DIAMETER, TEMPERATURE = "#field-particle_diameter", "#field-temperature"
+TYPED = [  # typed, understood, number and unit afterwards, Stokes velocity in mm/s by hand: (2630 - 1020) · 9.80665 · d² / (18 · 1.2e-3)
+    ("85 um", "85 µm", "85", "um", 5.281),
+    ("0.085 mm", "0.085 mm", "0.085", "mm", 5.281),
+    ("1e-1", "0.1 mm", "0.1", "mm", 7.310),
+    ("85 microns", "85 µm", "85", "um", 5.281),
+    ("0,0050 in", "0.005 in", "0.005", "inch", 11.79),
+    ("1200 um", "1200 µm", "1200", "um", 1052.6),
+    ("1,2e2", "120 µm", "120", "um", 10.526),
+]
+
+
+@pytest.mark.parametrize(("language", "point"), [("en", "."), ("fr", ",")])
+def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: str, point: str) -> None:
+    import json
+
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}", language)
+    for typed, echo, number, unit, velocity in TYPED:
+        field = page.type(DIAMETER, typed)
+        page.until(lambda echo=echo: [e.text for e in page.all("[data-echo]")] == ["= " + echo.replace(".", point)])
+        assert page.leave(field) == (number.replace(".", point), unit)
+        raw = "fetch('/api/calc/particles.terminal_velocity_stokes', {method: 'POST', headers: {'content-type': 'application/json'}, body: arguments[0]})"
+        values = dict(
+            part.split("=")
+            for part in page.browser.execute_script("return decodeURIComponent(location.hash)").split("?")[1].replace("+", " ").split("&")
+        )
+        body = page.browser.execute_async_script(f"{raw}.then((r) => r.json()).then((d) => arguments[1](d))", json.dumps(values))
+        assert body["outputs"]["terminal_velocity"]["value"] * 1e3 == pytest.approx(velocity, rel=1e-4)
+        assert page.one("[data-output=terminal_velocity]").text == body["shown"][0]["text"].replace(".", point)
+    for typed in ("439 cm2", "eighty", "-5", "12 kg"):  # nothing is made of these
+        page.type(DIAMETER, typed)
+        page.until(lambda: page.one(".quantity .out").text and page.all(".stale [data-output=terminal_velocity]"))
+        told = page.one(".quantity .out").text
+        assert "_" not in told, "a page speaks of labels"
+    page.check(refused=True)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_temperature_below_zero_is_typed(page: Page, language: str) -> None:
+    page.open("calculate/materials.ice_vapor_pressure", language)
+    for typed, number in (("-5", "-5"), ("-12,5", "-12.5"), ("\u221212.5", "-12.5")):
+        before = page.one("[data-output]").text
+        assert page.leave(page.type(TEMPERATURE, typed)) == (number.replace(".", "," if language == "fr" else "."), "degC")
+        assert (page.one("[data-output]").text == before) == (typed[0] != "-")
+
+
+def test_a_percentage_is_seen_as_long_as_it_is_in_force(page: Page) -> None:
+    page.open("calculate/particles.drag_coefficient_haider_levenspiel")
+    field = page.type("#field-sphericity", "80%")
+    page.until(lambda: [e.text for e in page.all("[data-echo]")] == ["= 80 %"])
+    assert page.leave(field) == ("80", "%")
+    page.type("#field-sphericity", "0.7")
+    page.until(lambda: [e.text for e in page.all("[data-echo]")] == ["= 0.7 %"])
+    menu = field.find_element(By.XPATH, "following-sibling::select")
+    assert Select(menu).first_selected_option.text == "%"
+    Select(menu).select_by_value("")
+    page.settle()
+    assert "sphericity=0.7&" in page.browser.current_url + "&"
+
+
+def test_a_unit_chosen_first_holds_for_the_number_that_follows(page: Page) -> None:
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
+    field = page.type(DIAMETER, "")
+    Select(field.find_element(By.XPATH, "following-sibling::select")).select_by_visible_text("mm")
+    for key in "0.085":
+        field.send_keys(key)
+    assert page.leave(field) == ("0.085", "mm")
+    assert page.one("[data-output=terminal_velocity]").text.startswith("5.281 mm/s")
+
+
+@pytest.mark.parametrize(
+    ("place", "selector", "typed", "left"),
+    [
+        ("lab/filtration.leaf_test", "#field-area", "439 cm2", ("439", "cm^2")),
+        ("charts/humid_gas.psychrometric_chart", TEMPERATURE, "-5 20 35 degC", ("-5 20 35", "degC")),
+        (f"lines/{quote(CASE, safe='')}", "#field-form-fresh-temperature", "-5", ("-5", "degC")),
+        (
+            f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{SPHERE}",
+            "[data-part=low] input",
+            "0.05 mm",
+            ("0.05", "mm"),
+        ),
+    ],
+)
+def test_every_page_reads_quantities_alike(page: Page, place: str, selector: str, typed: str, left: tuple[str, str]) -> None:
+    page.open(place)
+    page.until(lambda: page.all(selector))
+    page.browser.execute_script("document.querySelectorAll('[data-form]').forEach((d) => { d.open = true; })")
+    assert page.leave(page.type(selector, typed)) == left
+
+
+def test_the_limit_of_an_optimum_has_its_unit(page: Page) -> None:
+    page.open(PLACES["studies"], "fr")
+    page.one("[data-kind=optimize]").click()
+    page.button("Ajouter une limite").click()
+    assert page.leave(page.type("[data-limit=high] input", "4,5")) == ("4,5", "mm/s")
+    page.button("Lancer l'étude").click()
+    page.one("[data-study=optimize]")
+    assert "au plus 4,5 mm/s" in page.one("[data-question]").text
+    page.browser.refresh()  # set-up and outcome are still there
+    page.one("[data-study=optimize]")
+    assert page.one("[data-limit=high] input").get_attribute("value") == "4,5"
+    page.check()
+
+
+def test_a_study_takes_the_line_as_it_stands_on_the_screen(page: Page) -> None:
+    page.open(f"lines/{quote(CASE, safe='')}")
+    page.one(".diagram svg")
+    page.browser.execute_script("document.querySelector('[data-form=mill]').open = true")
+    field = page.type("[data-form=mill] input[id$=holdup_mass]", "2.4 tonne")
+    assert page.all(".stale .diagram"), "figures of the line before the change are grey"
+    page.leave(field)
+    page.until(lambda: "case=" in page.browser.current_url)
+    shared = page.browser.current_url
+    page.until(lambda: "case=" in next(a for a in page.all("a.button") if a.text == "Study").get_attribute("href"))
+    next(a for a in page.all("a.button") if a.text == "Study").click()
+    page.one("[data-changed]")
+    page.until(lambda: any("2.4 t" in e.text or "2400 kg" in e.text for e in page.all("option:checked, .varied .dim")))
+    page.browser.execute_script("localStorage.clear(); sessionStorage.clear()")
+    page.browser.get("about:blank")
+    page.browser.get(shared)  # as another person opens it
+    page.until(lambda: "2.4 tonne" in page.one("#case").get_attribute("value"))
+
+
+def test_conditions_of_an_example_never_meet_own_data(page: Page) -> None:
+    page.open("lab/filtration.leaf_test")
+    assert {e.get_attribute("value") for e in page.all(".field input")} == {""}
+    page.one("#table").send_keys("time [s],filtrate_volume [L]\n4.4,0.498\n9.5,1\n16.3,1.501\n24.6,2\n")
+    page.settle()
+    assert not page.all("[data-parameter]"), "the fit waits for its conditions"
+    page.button("Try with example data").click()
+    assert page.one("[data-parameter=cake_resistance]").text
+    assert "leaf_geankoplis.csv" in page.one("[data-trial]").text
+    page.button("Français").click()
+    page.one("[data-parameter=cake_resistance]")
+    assert "338" in [e.get_attribute("value") for e in page.all(".field input")], "nothing is lost with the language"
+    page.one("#table").send_keys("50,4\n")
+    page.until(lambda: not page.all("[data-parameter]"))
+    assert {e.get_attribute("value") for e in page.all(".field input")} == {""}
+
+
+def test_other_laws_follow_the_inputs(page: Page) -> None:
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
+    page.one("details summary").click()
+    before = page.until(lambda: page.all("[data-spread]:not(.stale)"))[0].text
+    page.type(DIAMETER, "42.5")
+    page.until(lambda: page.all("[data-spread]:not(.stale)") and page.one("[data-spread]").text != before)
+
+
+def test_no_chart_offers_to_be_sent_away(page: Page) -> None:
+    page.open("charts/particles.drag_chart")
+    page.one(".plot .modebar-btn")
+    titles = [b.get_attribute("data-title") or "" for b in page.all(".modebar-btn")]
+    assert titles
+    assert not [title for title in titles if "share" in title.lower() or "cloud" in title.lower()]
+
+
+def test_a_server_that_is_gone_is_said_once_and_found_again(page: Page) -> None:
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
+    page.browser.execute_cdp_cmd("Network.enable", {})
+    offline = {"offline": True, "latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
+    page.browser.execute_cdp_cmd("Network.emulateNetworkConditions", offline)
+    page.type(DIAMETER, "42.5")
+    assert "reconnects" in page.one(".gone").text
+    page.browser.execute_cdp_cmd("Network.emulateNetworkConditions", offline | {"offline": False})
+    page.until(lambda: not page.all(".gone") and page.one("[data-output=terminal_velocity]").text.startswith("1.32"))
+    assert page.one(DIAMETER).get_attribute("value") == "42.5"
+    page.browser.get_log("browser")
+
+
+def test_the_header_leads_back_to_where_one_was(page: Page) -> None:
+    page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
+    page.leave(page.type(DIAMETER, "60"))
+    next(a for a in page.all("nav a") if a.text == "Exercises").click()
+    page.settle()
+    next(a for a in page.all("nav a") if a.text == "Calculate").click()
+    page.settle()
+    assert page.one(DIAMETER).get_attribute("value") == "60"
 
 
 def test_choosing_another_unit_reads_the_same_number_in_it(page: Page) -> None:
@@ -273,7 +473,9 @@ def test_a_study_runs_with_progress(page: Page, language: str, run: str) -> None
     page.one(".plot .main-svg .scatterlayer .trace")
     page.settle()
     page.check()
-    page.browser.execute_script("document.querySelectorAll('input[type=radio]')[2].click()")
+    page.one("[data-kind=monte_carlo]").click()
+    assert page.one("[data-old]").text, "what stands there answers another question"
+    assert page.all(".stale [data-study=sweep]")
     page.button(run).click()
     page.one("[data-study=monte_carlo]")
     page.check()

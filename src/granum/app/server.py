@@ -273,9 +273,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         from granum.core.files import write_atomic
 
         place = _inside(workspace, path)
-        if place.exists() and not replace:
-            raise InputError(_("'{path}' exists already.").format(path=path), exists=True)
         try:
+            if place.exists() and not replace:
+                raise InputError(_("'{path}' exists already.").format(path=path), exists=True)
             place.parent.mkdir(parents=True, exist_ok=True)
             write_atomic(place, text)
         except (OSError, UnicodeError) as fault:

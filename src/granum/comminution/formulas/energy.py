@@ -32,6 +32,8 @@ def specific_energy_rittinger(feed_size: Length, product_size: Length, rittinger
 
     The constant holds the machine's factor and the material's. A product coarser than the feed gives no value.
 
+    >>> round(specific_energy_rittinger("1 mm", "0.1 mm", "10 kJ*mm/kg") / 1e3, 3)
+    90.0
     >>> round(specific_energy_rittinger("75 mm", "25 mm", "162.5 kJ*mm/kg") / 1e3, 3)
     4.333
     """

@@ -138,6 +138,9 @@ def elutriation_flux_wen_hashinger(
 
     The constant is that of Kunii and Levenspiel's example 7.5; some reprints have 1.7e-5.
 
+    >>> round(elutriation_flux_wen_hashinger(superficial_velocity=0.6, terminal_velocity=0.3, particle_diameter="60 um",
+    ...                                      particle_density=1500, fluid_density=1.2, dynamic_viscosity=1.8e-5), 3)
+    0.281
     >>> elutriation_flux_wen_hashinger(superficial_velocity=0.2, terminal_velocity=0.3, particle_diameter="60 um", particle_density=1500,
     ...                                fluid_density=1.2, dynamic_viscosity=1.8e-5)
     0.0

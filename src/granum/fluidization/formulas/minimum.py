@@ -31,9 +31,16 @@ def _two_constants(author: str, first: float, second: float, source: str, reynol
 
     name = law.__name__ = law.__qualname__ = f"minimum_fluidization_velocity_{author}"
     small = second / (2.0 * first)  # slope of the viscous limit
+    ordinary = (first**2 + second * 11798.9) ** 0.5 - first  # Ar of 0.5 mm sand in air: 11 798.9
     law.__doc__ = f"""{summary}
 
-    {remark}Fine particles tend to {small:.3g} d² g Δρ/η:
+    {remark}Sand of 0.5 mm in air has an Archimedes number of 11 800:
+
+    >>> u = {name}(particle_diameter="0.5 mm", particle_density=2600, fluid_density=1.2, dynamic_viscosity=1.8e-5)
+    >>> round(u * 1.2 * 0.5e-3 / 1.8e-5, 2) == {ordinary:.2f}
+    True
+
+    Fine particles tend to {small:.3g} d² g Δρ/η:
 
     >>> u = {name}(particle_diameter=1e-6, particle_density=2001.2, fluid_density=1.2, dynamic_viscosity=1.8e-5, gravity=10.0)
     >>> round(u / (1e-12 * 10.0 * 2000.0 / 1.8e-5), 6) == {small:.6f}

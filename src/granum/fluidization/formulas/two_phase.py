@@ -56,6 +56,11 @@ def two_phase_bed(
     saturated, the gas leaves with one minus the bypass of the possible load. With the thermal diffusivity in place of the diffusivity the
     same holds for heat.
 
+    Never more than the surplus gas passes by:
+
+    >>> 0.0 < two_phase_bed(superficial_velocity=0.2, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5).bypass_fraction < 0.75
+    True
+
     At minimum fluidization there are no bubbles: the bed is not expanded and all gas meets the solid.
 
     >>> bed = two_phase_bed(superficial_velocity=0.05, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5)

@@ -334,6 +334,9 @@ def combustion_gas(
     The dry flue gas is taken as air, within 1 % of its enthalpy from four times the air needed. Hydrogen burns to nine times its mass of
     water. Methane needs 17.2 kg of air per kg.
 
+    >>> gas = combustion_gas(fuel_fraction_carbon=0.749, fuel_fraction_hydrogen=0.251, lower_heating_value="50 MJ/kg", excess_air_ratio=5.0)
+    >>> round(gas.air_per_fuel)
+    86
     >>> gas = combustion_gas(fuel_fraction_carbon=0.749, fuel_fraction_hydrogen=0.251, lower_heating_value="50 MJ/kg", excess_air_ratio=1.0)
     >>> round(gas.air_per_fuel, 1)
     17.2

@@ -64,6 +64,8 @@ def settling_exponent_garside_al_dibouni(reynolds: PositiveNumber) -> PositiveNu
 def settling_exponent_rowe(reynolds: PositiveNumber) -> PositiveNumber:
     """Exponent n of the settling velocity (1 − φ)ⁿ by Rowe, one curve through Richardson and Zaki's pieces.
 
+    >>> round(settling_exponent_rowe(reynolds=1.0), 2)
+    4.35
     >>> settling_exponent_rowe(reynolds=1e-12)
     4.69...
     """

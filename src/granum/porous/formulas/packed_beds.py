@@ -181,6 +181,9 @@ def pressure_gradient_carman(
 
     Differs from the print: the course drops the factor 0.4 of the second term.
 
+    >>> round(pressure_gradient_carman(superficial_velocity="1 mm/s", particle_diameter="1 mm", void_fraction=0.4,
+    ...                                fluid_density=1000, dynamic_viscosity="1 cP"), 1)
+    1038.1
     >>> round(pressure_gradient_carman(superficial_velocity=1e-9, particle_diameter="100 um", void_fraction=0.4,
     ...                                fluid_density=1000, dynamic_viscosity="1 cP"), 5)
     0.10125

@@ -62,9 +62,9 @@ def pressure_gradient_erdim(
 ) -> PressureGradient:
     """Pressure gradient of a bed of spheres by Erdim, Akgiray and Demir, the best of 38 equations in their review.
 
-    >>> round(pressure_gradient_erdim(superficial_velocity=1e-3, particle_diameter="0.8 mm", void_fraction=0.4, fluid_density=1000,
+    >>> round(pressure_gradient_erdim(superficial_velocity=2e-3, particle_diameter="0.8 mm", void_fraction=0.4, fluid_density=1000,
     ...                               dynamic_viscosity="1 cP"), 1)
-    1438.3
+    2932.4
     """
     Re, viscous = bed_group(superficial_velocity, sphericity * particle_diameter, void_fraction, fluid_density, dynamic_viscosity)
     watch(reynolds_bed=Re)

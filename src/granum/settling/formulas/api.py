@@ -61,7 +61,7 @@ def turbulence_factor_api(velocity_ratio: Ratio) -> PositiveNumber:
 def basin_length_api(horizontal_velocity: Speed, rise_velocity: Speed, height: Length) -> Length:
     """Length of an API separator: the ideal basin's length times the turbulence factor.
 
-    >>> round(basin_length_api(54.86 / 3600, 5.3 / 3600, height="1.13 m"), 1)
+    >>> round(basin_length_api("54.86 m/hour", "5.3 m/hour", height="1.13 m"), 1)
     17.9
     """
     ratio = horizontal_velocity / rise_velocity
