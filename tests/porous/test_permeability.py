@@ -77,7 +77,7 @@ def test_other_structures():
     assert kozeny.permeability_rumpf_gupte(1e-4, 0.4) == pytest.approx(kozeny.permeability_carman(1e-4, 0.4), rel=0.2)
     # Davies at ε = 0.99: d²/(64 · 0.01^1.5)
     assert kozeny.permeability_davies(1e-5, 0.99) == pytest.approx(1e-10 / (64 * 1e-3 * (1 + 56e-6)))
-    assert kozeny.specific_surface_mixture([1e-4, 3e-4], [0.25, 0.25]) == pytest.approx(6 * (0.5 / 1e-4 + 0.5 / 3e-4))
+    assert kozeny.specific_surface_mixture([1e-4, 3e-4], [0.5, 0.5]) == pytest.approx(6 * (0.5 / 1e-4 + 0.5 / 3e-4))
 
 
 def test_porosity():

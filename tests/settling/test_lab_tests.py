@@ -185,6 +185,20 @@ def test_flocculent_column_of_davis_example_10_3():
     test = FlocculentColumn(time.ravel(), depth.ravel(), removed.ravel())
     assert float(test.removal(35 * 60.0, 2.0)) == pytest.approx(0.595, abs=0.02)
     assert float(test.removal(54 * 60.0, 2.0)) == pytest.approx(0.65, abs=0.02)
+    assert test.fit() is test.fit()  # fitted once, however often it is asked
+    assert float(test.duration(0.65, 2.0)) == pytest.approx(54 * 60.0, rel=0.08)
+    assert float(test.removal(test.duration(0.65, 2.0), 2.0)) == pytest.approx(0.65, abs=1e-9)
+    basin = FlocculentColumn(
+        time.ravel(), depth.ravel(), removed.ravel(), basin_depth="2 m", residence_time="35 min", removal_efficiency_wanted="65 %"
+    )
+    found = basin.fit()
+    assert found["removal_efficiency_basin"].value == pytest.approx(0.595, abs=0.02)
+    low, high = found["residence_time_wanted"].interval_95
+    assert low < 54 * 60.0 < high
+    assert found["overflow_rate_wanted"].value * 3600 == pytest.approx(2.0 / (54 / 60), rel=0.08)  # m/h
+    assert not found.flags
+    with pytest.raises(InputError, match="needs both its depth"):
+        FlocculentColumn(time.ravel(), depth.ravel(), removed.ravel(), basin_depth="2 m")
     lines = test.iso_removal(np.array([0.4, 0.6]), np.array([3600.0, 3600.0]))
     assert lines[0] > lines[1]
     assert len(test.chart().data) >= 5

@@ -7,6 +7,7 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import replace
 from typing import Any, get_type_hints
 
 import jax
@@ -328,7 +329,7 @@ class Formula:
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             raise InputError(_("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(key=self.key))
-        result = self._evaluate(values)
+        result = replace(self._evaluate(values), defaults=self._binder.left_out(args, kwargs))
         return result if batched else result.possible()
 
     def _evaluate(self, values: list[Any]) -> Result:

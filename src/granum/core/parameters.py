@@ -413,6 +413,11 @@ class Binder:
         """A binder for the card named ``owner``."""
         return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
 
+    def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
+        """Names that were not given and have a default other than nothing."""
+        rest = self.parameters[len(args) :]
+        return frozenset(p.name for p in rest if p.name not in kwargs and not p.required and p.default is not None)
+
     def arrange(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> list[Any]:
         """Raw values in the order of the parameters, defaults filled in; nothing converted yet."""
         if len(args) > len(self.parameters):

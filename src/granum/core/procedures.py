@@ -46,7 +46,8 @@ class Procedure:
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its card (a procedure reports problems by raising, so there are no flags)."""
         inputs = self._binder.bind(args, kwargs)
-        return Result(self.card, inputs, self.function(**inputs), np.zeros((), np.int32))
+        left = self._binder.left_out(args, kwargs)
+        return Result(self.card, inputs, self.function(**inputs), np.zeros((), np.int32), defaults=left)
 
 
 def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:

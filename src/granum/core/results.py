@@ -43,6 +43,7 @@ class Result:
     value: bare value, or a named tuple of values.
     flags: int32 bits in the shape of the result (see ``granum.core.flags``).
     notices: one record per raised flag: what, how many, worst value, range, sentence.
+    defaults: names of the inputs that were not given and took their default.
     """
 
     card: Card
@@ -50,6 +51,7 @@ class Result:
     value: Any
     flags: np.ndarray
     notices: list[dict[str, Any]] = field(default_factory=list)
+    defaults: frozenset[str] = frozenset()
 
     @property
     def outputs(self) -> dict[str, Any]:
@@ -88,7 +90,10 @@ class Result:
         """The stable ``calc`` shape."""
         return {
             "card": self.card.key,
-            "inputs": {p.name: quantity_json(self.inputs[p.name], p) for p in self.card.parameters},
+            "inputs": {
+                p.name: quantity_json(self.inputs[p.name], p) | ({"default": True} if p.name in self.defaults else {})
+                for p in self.card.parameters
+            },
             "outputs": {p.name: quantity_json(self.outputs[p.name], p) for p in self.card.outputs},
             "flags": self.notices,
             "source": self.card.source,

@@ -57,7 +57,8 @@ def print_result(result: Result) -> None:
     for p in result.card.parameters:
         if result.inputs[p.name] is None:
             continue  # not given
-        table.add_row(p.label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
+        label = f"{p.label} ({_('default')})" if p.name in result.defaults else p.label
+        table.add_row(label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
     for p in result.card.outputs:
         table.add_row(
             Text(p.label, style="bold"),

@@ -22,6 +22,7 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.msmpr import NO_GROWTH
 from granum.crystallization.kinds import ForwardGrowthRate
 from granum.numerics import find_root
+from granum.particles.formulas.means import Shares, shares
 
 
 @formula(
@@ -136,20 +137,19 @@ class GrownSeed(NamedTuple):
 )
 def grown_seed(
     class_sizes: Annotated[Length, Series("classes")],
-    class_fractions: Annotated[Fraction, Series("classes")],
+    class_fractions: Shares,
     seed_mass: Mass,
     product_mass: Mass,
 ) -> GrownSeed:
     """Size gained by all seed crystals alike, and the product's distribution by mass, after McCabe's ΔL law: no nuclei, growth the same at any size.
 
-    Fractions of the seed are by mass; they need not add up to one. The product must weigh no less than the seed.
+    Fractions of the seed are by mass. The product must weigh no less than the seed.
 
     >>> out = grown_seed(class_sizes=[100e-6, 200e-6], class_fractions=[0.5, 0.5], seed_mass=1.0, product_mass=17.5)
     >>> round(out.size_increase * 1e6, 6), [round(float(w), 4) for w in out.class_fractions_product]
     (200.0, [0.7714, 0.2286])
     """
-    L, raw = jnp.asarray(class_sizes), jnp.asarray(class_fractions)
-    w = raw / jnp.sum(raw, axis=-1, keepdims=True)
+    L, w = jnp.asarray(class_sizes), shares(class_fractions)
     R = jnp.asarray(product_mass / seed_mass)
     grows = R >= 1.0
     impossible(~grows, product_mass, "product_mass", seed_mass, jnp.inf)

@@ -34,7 +34,10 @@ class SplitFigures(NamedTuple):
 
 @equipment("hydrocyclone", source="castilho2000; svarovsky2001", title="Hydrocyclone")
 class Hydrocyclone(Unit):
-    """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the liquid by the water split."""
+    """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the liquid by the water split.
+
+    Solids lighter than the liquid are outside the model: they are divided like the liquid, and a check tells it.
+    """
 
     diameter: Length
     underflow_diameter: Length
@@ -46,11 +49,22 @@ class Hydrocyclone(Unit):
         return hydrocyclone_castilho_medronho(flow, self.diameter, self.underflow_diameter, jnp.minimum(feed.solids_volume_fraction, 0.999),
                                               density, feed.liquid_density, feed.liquid_viscosity)  # fmt: skip
 
+    def _sinking(self, feed: Stream) -> tuple[Any, Any]:
+        """Share by mass of the solids that is heavier than the liquid, and its mean density; that of the liquid where there is none."""
+        density = feed.mixture.densities("solids", feed.temperature)
+        flows = jnp.sum(feed.solid, axis=tuple(range(1, feed.solid.ndim)))
+        sinking = jnp.where(density > feed.liquid_density, flows, 0.0)
+        some = jnp.sum(sinking) > 0.0
+        mean = jnp.where(some, jnp.sum(sinking), 1.0) / jnp.where(some, jnp.sum(sinking / density), 1.0)
+        return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(some, mean, feed.solid_density)
+
     def __call__(self, feed: Stream) -> Split:
         m = feed.mixture
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
-        found = self.figures(feed, density)
+        heavy = density > feed.liquid_density
+        found = self.figures(feed, jnp.where(heavy, density, 2.0 * feed.liquid_density))
         share = hydrocyclone_efficiency(jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share)
+        share = jnp.where(heavy, share, found.underflow_share)
         share = share.reshape(share.shape + (1,) * len(m.axes))
         under = feed.part(solid=share, liquid=jnp.ravel(found.underflow_share)[0])
         over = feed.replace(solid=feed.solid - under.solid, liquid=feed.liquid - under.liquid)
@@ -59,12 +73,14 @@ class Hydrocyclone(Unit):
 
     def results(self, inlets: Mapping[str, Stream], outlets: Split) -> SplitFigures:
         feed = inlets["feed"]
-        return SplitFigures(*self.figures(feed, feed.solid_density), safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
+        return SplitFigures(*self.figures(feed, self._sinking(feed)[1]), safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
 
     def checks(self, inlets: Mapping[str, Stream], outlets: Split) -> tuple[Check, ...]:
         feed = inlets["feed"]
-        drop = self.figures(feed, feed.solid_density).pressure_drop
+        sinking, density = self._sinking(feed)
+        drop = self.figures(feed, density).pressure_drop
         return (
             Check("pressure drop", drop, 3e4, 4e5, "Pa", "svarovsky2001"),
             Check("solids by volume in the feed", feed.solids_volume_fraction, 0.0, 0.1, "dimensionless", "castilho2000"),
+            Check("share of the solids that is heavier than the liquid", sinking, 1.0 - 1e-3, 1.0, "dimensionless", "castilho2000"),
         )

@@ -10,13 +10,13 @@ from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Area, Density, DynamicViscosity, Fraction, Length, Series, Speed, VolumeFlow
 from granum.cyclones.formulas.efficiency import TYPICAL, heavier
-from granum.particles.formulas.means import Masses, weighted
+from granum.particles.formulas.means import Shares, shares
 
 BODY = {**TYPICAL, "area_inlet": (0.08, 0.12)}
 
 
-@formula(source="richardson2002, ch. 1", equation=r"E = \frac{\sum_i x_i E_i}{\sum_i x_i}", output="removal_efficiency")
-def removal_efficiency_grades(class_fractions: Masses, class_efficiencies: Annotated[Fraction, Series("classes")]) -> Fraction:
+@formula(source="richardson2002, ch. 1", equation=r"E = \sum_i x_i E_i", output="removal_efficiency")
+def removal_efficiency_grades(class_fractions: Shares, class_efficiencies: Annotated[Fraction, Series("classes")]) -> Fraction:
     """Total efficiency of a collector from its efficiency for each size class and the mass fractions of its feed.
 
     Coulson and Richardson's example, 73.5 % of a dust of six classes:
@@ -24,7 +24,7 @@ def removal_efficiency_grades(class_fractions: Masses, class_efficiencies: Annot
     >>> round(removal_efficiency_grades(class_fractions="10 15 35 20 10 10 %", class_efficiencies="20 40 80 90 95 100 %"), 4)
     0.735
     """
-    return weighted(jnp.asarray(class_fractions), jnp.asarray(class_efficiencies), "class_fractions")
+    return jnp.sum(shares(class_fractions) * jnp.asarray(class_efficiencies), axis=-1)
 
 
 @formula(source="richardson2002, ch. 1", equation=r"v_0 = \frac{0.2\,A_i^2 D_e\,g}{\pi H D Q}", output="terminal_velocity", typical=BODY)

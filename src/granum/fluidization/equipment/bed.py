@@ -9,7 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Area, Distance, Fraction, Law, Length, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
+from granum.core.kinds import Area, Distance, Fraction, Law, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.fluidization.formulas.two_phase import two_phase_bed
@@ -36,11 +36,11 @@ class BedFigures(NamedTuple):
     superficial_velocity: Speed
     minimum_fluidization_velocity: Speed
     pressure_drop: PressureDrop
-    bubble_diameter: Length
+    bubble_diameter: Distance
     bubble_fraction: Fraction
     height_expanded: Distance
     bypass_fraction: Fraction
-    disengaging_height: Length
+    disengaging_height: Distance
     entrained_share: Fraction
 
 

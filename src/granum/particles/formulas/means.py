@@ -12,12 +12,23 @@ import jax.numpy as jnp
 
 from granum.core import formula, impossible
 from granum.core.kinds import Amount, Density, Fraction, Length, Number, NumberPerMass, PositiveNumber, Ratio, Series, Within
-from granum.particles.distributions import order_of
+from granum.particles.distributions import SUM_TOLERANCE, order_of
 
 Sizes = Annotated[Length, Series("classes")]
 Amounts = Annotated[Ratio, Series("classes")]
 Masses = Annotated[Amount, Series("classes")]
+Shares = Annotated[Fraction, Series("classes")]
 NOTHING = "The amounts of all classes are zero: there is nothing to take a mean of."
+
+WRONG_SUM = "This is the sum of all classes, which must add up to 1: add the missing material (pan, oversize, losses)."
+
+
+def shares(fractions: Any, name: str = "class_fractions") -> Any:
+    """Class fractions divided by their sum, which must be one but for rounding; no value otherwise. Relative masses need no such sum."""
+    total = jnp.sum(jnp.asarray(fractions), axis=-1, keepdims=True)
+    wrong = ~(abs(total - 1.0) <= SUM_TOLERANCE)
+    impossible(wrong[..., 0], total[..., 0], name, 1.0 - SUM_TOLERANCE, 1.0 + SUM_TOLERANCE, WRONG_SUM)
+    return jnp.where(wrong, jnp.nan, fractions / jnp.where(wrong, 1.0, total))
 
 
 def weighted(amounts: Any, values: Any, name: str) -> Any:

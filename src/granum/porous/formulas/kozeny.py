@@ -8,7 +8,6 @@ import jax.numpy as jnp
 
 from granum.core import formula, unconverged
 from granum.core.kinds import (
-    Fraction,
     Length,
     Permeability,
     PositiveNumber,
@@ -20,6 +19,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.numerics import find_root
+from granum.particles.formulas.means import Shares, shares
 
 Tortuosity = Annotated[PositiveNumber, Within(1.0, 10.0)]
 
@@ -222,18 +222,17 @@ def void_fraction_kozeny_carman(
 @formula(source="carman1937; ergun1952", equation=r"a_g = \sum_i\frac{6 x_i}{\psi d_i},\quad \bar d = \frac{1}{\sum_i x_i/d_i}")
 def specific_surface_mixture(
     class_sizes: Annotated[Length, Series("classes")],
-    class_fractions: Annotated[Fraction, Series("classes")],
+    class_fractions: Shares,
     sphericity: Sphericity = 1.0,
 ) -> SpecificSurface:
     """Specific surface of a mixture of sizes from its mass fractions: that of its harmonic mean diameter.
 
-    Fractions are scaled to their sum. A bed of mixed sizes has the permeability of this surface at its own, lower porosity.
+    A bed of mixed sizes has the permeability of this surface at its own, lower porosity.
 
     >>> round(specific_surface_mixture(class_sizes=[100e-6, 200e-6], class_fractions=[0.5, 0.5]))
     45000
     """
-    share = class_fractions / jnp.sum(class_fractions)
-    return jnp.sum(6.0 * share / (sphericity * class_sizes))
+    return jnp.sum(6.0 * shares(class_fractions) / (sphericity * class_sizes))
 
 
 @formula(source="richardson2002, ch. 4", equation=r"f_w = \left(1 + \frac{2}{a_g\,D}\right)^2")

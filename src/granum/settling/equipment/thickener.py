@@ -57,18 +57,22 @@ class Thickener(Unit):
 
     def results(self, inlets: Mapping[str, Stream], outlets: Outlets) -> ThickenerFigures:
         feed = inlets["feed"]
-        applied, (limit, layer) = feed.solid_flow / self.area, self.limit(feed)
+        applied, found = feed.solid_flow / self.area, self.limit(feed)
+        limits = jnp.isfinite(found.limiting_flux)  # a feed as thick as the underflow is its own limiting layer: it passes as it is
+        limit, layer = jnp.where(limits, found.limiting_flux, applied), jnp.where(limits, found.limiting_concentration, concentration(feed))
         rate = outlets.overflow.slurry_volume_flow / self.area
         velocity = self.settling(concentration(feed))
         return ThickenerFigures(
-            applied, limit, applied / limit, rate / velocity, layer, rate,
+            applied, limit, jnp.where(limits, applied / limit, 1.0), rate / velocity, layer, rate,
             outlets.underflow.slurry_volume_flow, concentration(outlets.overflow),
         )  # fmt: skip
 
     def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
         figures = self.results(inlets, outlets)
         diameter = jnp.sqrt(4.0 * self.area / jnp.pi)
+        thinner = concentration(inlets["feed"]) / self.underflow_concentration
         return (
+            Check("feed thinner than the underflow", thinner, 0.0, 1.0, "dimensionless", "coe1916"),
             Check("loading of the thickening zone", figures.loading_ratio, 0.0, 1.0, "dimensionless", "yoshioka1957"),
             Check("loading of the clarification zone", figures.clarification_ratio, 0.0, 1.0, "dimensionless", "coe1916"),
             Check("diameter", diameter, 0.0, 60.0, "m", "degremont2007"),

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Area, Density, Fraction, Length, PositiveNumber, Series, Speed, VolumeFlow
-from granum.particles.formulas.means import Masses, weighted
+from granum.particles.formulas.means import Shares, shares
 
 
 @formula(source="hazen1904; camp1946", equation=r"v_0 = \frac{Q}{A}", family="overflow_rate")
@@ -77,16 +77,14 @@ def removal_efficiency_hazen(settling_velocity: Speed, overflow_rate: Speed, tan
 
 @formula(source="camp1946", equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)")
 def removal_efficiency_classes(
-    class_velocities: Annotated[Speed, Series("classes")], class_fractions: Masses, overflow_rate: Speed
+    class_velocities: Annotated[Speed, Series("classes")], class_fractions: Shares, overflow_rate: Speed
 ) -> Fraction:
     """Share of all solids that an ideal basin removes, from the settling velocities of the classes and their mass fractions.
-
-    The fractions are divided by their sum.
 
     >>> round(removal_efficiency_classes([1e-4, 4e-4, 1e-3], [0.2, 0.3, 0.5], overflow_rate=5e-4), 4)
     0.78
     """
-    return weighted(jnp.asarray(class_fractions), jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), "class_fractions")
+    return jnp.sum(shares(class_fractions) * jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), axis=-1)
 
 
 @formula(source="camp1946; metcalf2003, eq. 5-36", equation=r"v_H = \sqrt{\frac{8 k (\rho_p/\rho_l - 1) g d_p}{f}}")

@@ -1,0 +1,139 @@
+"""Settlers, fluidized beds and cyclones at random ordinary settings: balances close, streams hold nothing negative, figures keep their bounds."""
+
+from __future__ import annotations
+
+from typing import get_type_hints
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from granum.core.errors import ApplicabilityError
+from granum.core.kinds import kind_of
+from granum.cyclones.equipment.gas import GasCyclone
+from granum.cyclones.equipment.liquid import Hydrocyclone
+from granum.fluidization.equipment.bed import FluidizedBed
+from granum.fluidization.equipment.liquid import LiquidFluidizedBed
+from granum.settling.equipment.api_separator import ApiSeparator
+from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier, GritChamber, Lamella, RectangularClarifier
+from granum.settling.equipment.thickener import Thickener
+from granum.settling.velocities import Vesilind
+from granum.streams.audit import closure
+from granum.streams.mixture import Mixture, Species
+from granum.streams.stream import Stream, empty
+
+COUNT, CLASSES = 200, 12
+SAND = Species("sand", (("sand", 1.0),), (2650.0,), (800.0,))
+SLURRY = Mixture(
+    solids=(SAND, Species("oil", (("oil", 1.0),), (880.0,), (2000.0,))),
+    liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
+    gases=(),
+    size_edges=tuple(np.geomspace(2e-6, 5e-4, CLASSES + 1)),
+    liquid_viscosity=lambda w, T: 1e-3,
+)
+DUST = Mixture(
+    solids=(SAND,),
+    liquids=(),
+    gases=(Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896),),
+    size_edges=tuple(np.geomspace(5e-7, 1e-3, CLASSES + 1)),
+    gas_viscosity=lambda T: 1.8e-5,
+)
+
+
+def slurry(x, mean, spread) -> Stream:
+    """1 to 1000 kg/s of water with 0.01 to 300 g/kg of sand of any width, and a little oil."""
+    water, sand = 10.0 ** (3.0 * x[0]), 10.0 ** (-5.0 + 4.5 * x[1])
+    parts = jnp.exp(-0.5 * ((jnp.linspace(0.0, 1.0, CLASSES) - mean) / (0.02 + spread)) ** 2) + 1e-12
+    parts = parts / jnp.sum(parts)
+    return empty(SLURRY, 280.0 + 40.0 * x[2]).replace(
+        solid=water * jnp.stack([sand * parts, 1e-3 * x[3] * parts]), liquid=jnp.stack([water])
+    )
+
+
+def dusty(x, mean, spread) -> Stream:
+    """0.1 to 30 kg/s of gas with 1 g/kg to 3 kg/kg of dust."""
+    gas, dust = 10.0 ** (-1.0 + 2.5 * x[0]), 10.0 ** (-3.0 + 3.5 * x[1])
+    parts = jnp.exp(-0.5 * ((jnp.linspace(0.0, 1.0, CLASSES) - mean) / (0.02 + spread)) ** 2) + 1e-12
+    return empty(DUST, 280.0 + 300.0 * x[2]).replace(
+        solid=gas * dust * (parts / jnp.sum(parts))[None, :], gas=jnp.stack([gas]), pressure=jnp.asarray(1.0e5) + 2e5 * x[3]
+    )
+
+
+# each from a random stream and three numbers from 0 to 1; the section follows the flow over two or three decades of loading
+UNITS = {
+    "clarifier": (slurry, lambda f, a, b, c: Clarifier(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b)),
+    "circular": (slurry, lambda f, a, b, c: CircularClarifier(jnp.sqrt(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), 2.0 + 3.0 * c, 20.0 + 300.0 * b)),
+    "rectangular": (slurry, lambda f, a, b, c: RectangularClarifier(
+        jnp.sqrt(5.0 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), jnp.sqrt(0.2 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), 2.0 + 3.0 * c,
+        20.0 + 300.0 * b)),
+    **{
+        f"lamella {way}": (slurry, lambda f, a, b, c, way=way: Lamella(
+            f.slurry_volume_flow / 10.0 ** (-4.0 + 2.0 * a), 1.0 + 2.0 * b, 1.25, 0.03 + 0.07 * c, 20.0 + 300.0 * b, 0.8 + 0.5 * c, flow_direction=way))
+        for way in ("countercurrent", "cocurrent", "crosscurrent")
+    },
+    "grit": (slurry, lambda f, a, b, c: GritChamber(5.0 + 20.0 * a, 0.5 + 2.0 * b, f.slurry_volume_flow / (0.05 + 0.5 * c), 200.0 + 500.0 * a)),
+    "thickener": (slurry, lambda f, a, b, c: Thickener(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b, Vesilind(1e-3, 0.01 + 0.1 * c))),
+    "api": (slurry, lambda f, a, b, c: ApiSeparator(10.0 + 30.0 * a, 2.0 + 4.0 * b, f.slurry_volume_flow / 10.0 ** (-2.5 + c))),
+    "hydrocyclone": (slurry, lambda f, a, b, c: Hydrocyclone(0.05 + 0.4 * a, (0.05 + 0.4 * a) * (0.06 + 0.24 * b), jnp.maximum(f.slurry_volume_flow / (0.05 + 0.4 * a) ** 2 / (1.0 + 2.0 * c), 1.0))),
+    "gas cyclone": (dusty, lambda f, a, b, c: GasCyclone(jnp.sqrt(f.gas_volume_flow / (0.5 + 2.0 * a)))),
+    "fluidized bed": (dusty, lambda f, a, b, c: FluidizedBed(f.gas_volume_flow / 10.0 ** (-3.0 + 3.5 * a), 10.0 ** (1.0 + 3.0 * b), 0.4 + 0.15 * c)),
+    "liquid bed": (slurry, lambda f, a, b, c: LiquidFluidizedBed(f.slurry_volume_flow / 10.0 ** (-4.0 + 3.0 * a), 10.0 ** (4.0 * b), 10.0 ** (-4.0 + 1.5 * c), 2500.0)),
+}  # fmt: skip
+
+
+def within(figures) -> dict[str, jax.Array]:
+    """Which figures are finite and lie in the bounds of their kind."""
+    hints = get_type_hints(type(figures), include_extras=True)
+    return {n: kind_of(hints[n]).contains(jnp.asarray(v)) & jnp.isfinite(v) for n, v in figures._asdict().items()}
+
+
+@pytest.mark.parametrize("name", UNITS)
+def test_random_settings(name: str) -> None:
+    stream_of, build = UNITS[name]
+
+    def one(x):
+        feed = stream_of(x[:4], x[4], x[5])
+        unit = build(feed, x[6], x[7], x[8])
+        out = unit(feed)
+        closed = closure([feed], [s for s in out if isinstance(s, Stream)])
+        least = jnp.min(jnp.stack([jnp.min(part) for s in out for part in (s.solid, s.liquid, s.gas) if part.size]))
+        heavy = jnp.maximum(feed.solid_flow + feed.liquid_flow + feed.gas_flow, 1e-300)
+        return closed.mass, closed.energy, least / heavy, within(unit.results({"feed": feed}, out))
+
+    sets = np.random.default_rng(5).random((COUNT, 9))
+    mass, energy, least, kept = jax.jit(jax.vmap(one))(sets)
+    assert float(np.max(mass)) < 1e-9
+    assert float(np.max(energy)) < 1e-9
+    assert float(np.min(least)) >= -1e-15
+    wrong = {figure: sets[~np.asarray(ok)] for figure, ok in kept.items() if not np.all(ok)}
+    assert not wrong, {figure: (len(rows), rows[0]) for figure, rows in wrong.items()}
+
+
+def test_light_solids_in_a_hydrocyclone_go_with_the_liquid_and_are_told() -> None:
+    feed = slurry(np.array([0.3, 0.5, 0.3, 1.0]), 0.5, 0.3)
+    unit = Hydrocyclone(0.1, 0.015)
+    out = unit(feed)
+    share = out.underflow.solid / feed.solid
+    np.testing.assert_allclose(share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12)  # oil divides like the water
+    alone = unit(feed.replace(solid=feed.solid.at[1].set(0.0)))
+    assert float(jnp.max(alone.underflow.solid[0])) > 0.0
+    check = {c.name: c.ok for c in unit.checks({"feed": feed}, out)}
+    assert not check["share of the solids that is heavier than the liquid"]
+    assert np.isfinite(float(unit.results({"feed": feed}, out).cut_size))
+
+
+def test_a_feed_thicker_than_the_underflow_passes_and_is_told() -> None:
+    feed = slurry(np.array([0.3, 1.0, 0.3, 0.0]), 0.5, 0.3)
+    unit = Thickener(10.0, 20.0, Vesilind(1e-3, 0.01))
+
+    @jax.jit
+    def run(stream):
+        inlets, out = {"feed": stream}, unit(stream)
+        return unit.results(inlets, out), unit.checks(inlets, out)[0].value
+
+    figures, thinner = run(feed)
+    assert all(np.isfinite(float(x)) for x in figures)
+    assert float(thinner) > 1.0
+    with pytest.raises(ApplicabilityError, match="underflow concentration = 20 g/L is outside what is possible"):
+        unit(feed)
