@@ -65,9 +65,9 @@ class Problem:
         """Their derivatives with respect to the scaled parameters."""
         return np.asarray(self._functions[1](q, self.y if y is None else y)) / self.sigma[self.keep][:, None]
 
-    def reweighted(self, factor: np.ndarray) -> Problem:
-        """The same problem, its standard deviations multiplied; nothing is compiled again."""
-        other = replace(self, sigma=self.sigma * factor)
+    def variant(self, **changes: np.ndarray) -> Problem:
+        """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled again."""
+        other = replace(self, **changes)
         other.__dict__["_functions"] = self._functions
         return other
 
