@@ -170,9 +170,7 @@ def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
     """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among which it was chosen."""
     problem = found.problem
     diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, found.held)
-    flags = stray_note(diagnostics, found, rows) + no_relation_note(
-        diagnostics.probability, found.statistics["r_squared"], found.card, trials
-    )
+    flags = stray_note(diagnostics, found, rows) + no_relation_note(found, diagnostics.probability, trials)
     return replace(found, diagnostics=diagnostics, flags=found.flags + flags)
 
 
