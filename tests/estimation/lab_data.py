@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,8 @@ from granum.filtration.formulas.expression import consolidation_ratio_terzaghi
 from granum.filtration.formulas.washing import wash_effluent_concentration
 from granum.settling.kynch import kynch_height
 from granum.settling.velocities import Vesilind
+
+ROOT = Path(__file__).parents[2]
 
 
 class Data(NamedTuple):
@@ -59,7 +62,7 @@ def _grinding() -> Data:
 
 
 def _batch() -> Data:
-    rows = np.loadtxt("examples/seeded-crystallizer/batch_made.csv", delimiter=",", comments=["#", "time"])
+    rows = np.loadtxt(ROOT / "examples/seeded-crystallizer/batch_made.csv", delimiter=",", comments=["#", "time"])
     law = {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}
     return Data({"time": rows[:, 0] * 60, "temperature": rows[:, 1] + 273.15, "solute_per_solvent": rows[:, 2], "mean_diameter": rows[:, 3] * 1e-6},
                 {"crystal_density": 2110, "seed_mass_per_solvent": 0.0005, "seed_size": 100e-6, "seed_width": 20e-6, "solubility": law},
@@ -67,7 +70,7 @@ def _batch() -> Data:
 
 
 def _product() -> Data:
-    rows = np.loadtxt("tests/references/primary_drying_shivkumar2019.csv", delimiter=",", skiprows=1)[8:]
+    rows = np.loadtxt(ROOT / "tests/references/primary_drying_shivkumar2019.csv", delimiter=",", skiprows=1)[8:]
     return Data(
         {"time": rows[:, 0] * 3600, "temperature_product": rows[:, 2] + 273.15, "temperature_shelf": rows[:, 3] + 273.15},
         {"pressure_chamber": 19.998, "heat_transfer_coefficient": 12.0, "area_vial": 3.8e-4, "area_product": 3.14e-4, "volume_fill": 2e-6,

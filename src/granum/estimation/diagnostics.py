@@ -33,7 +33,7 @@ ROUND_OFF = 1e-8
 """Residuals below this part of the data are round-off, not scatter."""
 UNEVEN, LEAST_SET = 3.0, 5
 """Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this takes."""
-LITTLE, SCATTERED = 0.25, 0.3
+LITTLE, SCATTERED = 0.25, 0.15
 
 
 class Influence(NamedTuple):
@@ -120,7 +120,7 @@ def _evened(problem: Problem, q: np.ndarray) -> tuple[Problem, np.ndarray]:
         return problem, q
     factor = np.ones(int(group.max()) + 1)
     factor[sets] = widths / widths.max()
-    problem = problem.reweighted(factor[np.minimum(problem.group, group.max())])
+    problem = problem.variant(sigma=problem.sigma * factor[np.minimum(problem.group, group.max())])
     return problem, problem.solve(q)[0]
 
 
@@ -153,6 +153,8 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     sets: dict[tuple[int, ...], float] = {}
     for r, J in ((residual, jacobian), (beside, problem.jacobian(robust))):
         sets |= _peeled(r, J, most, p, floor)
+        if most > 1 and n <= ONE_BY_ONE:
+            sets |= _best_pair(r, J, p, floor)
     order = np.argsort(-np.abs(beside), kind="stable")
     for m in range(1, most + 1):
         key = tuple(sorted(order[:m].tolist()))
@@ -212,6 +214,23 @@ def _peeled(residual: np.ndarray, jacobian: np.ndarray, most: int, p: int, floor
         gone.append(int(rest[out]))
         rest = np.delete(rest, out)
     return found
+
+
+def _best_pair(residual: np.ndarray, jacobian: np.ndarray, p: int, floor: float) -> dict[tuple[int, ...], float]:
+    """The two points whose common removal lowers the sum of squares most; they may each look ordinary while the other is there."""
+    basis = _basis(jacobian)
+    left = residual - basis @ (basis.T @ residual)
+    room = np.eye(residual.size) - basis @ basis.T
+    own = np.diag(room)
+    determinant = np.outer(own, own) - room**2
+    lowered = left[:, None] ** 2 * own[None, :] - 2.0 * np.outer(left, left) * room + left[None, :] ** 2 * own[:, None]
+    usable = np.triu(determinant > 1e-9, 1)
+    if not usable.any():
+        return {}
+    lowered = np.where(usable, lowered / np.where(usable, determinant, 1.0), -1.0)
+    i, j = (int(k) for k in np.unravel_index(int(np.argmax(lowered)), lowered.shape))
+    squares = float(left @ left)
+    return {(i, j): _chance(squares, max(squares - float(lowered[i, j]), 0.0), residual.size, 2, p, floor)}
 
 
 def _chance(before: float, after: float, n: int, m: int, p: int, floor: float) -> float:

@@ -65,9 +65,9 @@ class Problem:
         """Their derivatives with respect to the scaled parameters."""
         return np.asarray(self._functions[1](q, self.y if y is None else y)) / self.sigma[self.keep][:, None]
 
-    def reweighted(self, factor: np.ndarray) -> Problem:
-        """The same problem, its standard deviations multiplied; nothing is compiled again."""
-        other = replace(self, sigma=self.sigma * factor)
+    def variant(self, **changes: np.ndarray) -> Problem:
+        """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled again."""
+        other = replace(self, **changes)
         other.__dict__["_functions"] = self._functions
         return other
 
@@ -170,9 +170,7 @@ def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
     """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among which it was chosen."""
     problem = found.problem
     diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, found.held)
-    flags = stray_note(diagnostics, found, rows) + no_relation_note(
-        diagnostics.probability, found.statistics["r_squared"], found.card, trials
-    )
+    flags = stray_note(diagnostics, found, rows) + no_relation_note(found, diagnostics.probability, trials)
     return replace(found, diagnostics=diagnostics, flags=found.flags + flags)
 
 

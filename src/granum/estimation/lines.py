@@ -41,4 +41,5 @@ def polynomial(x: Any, y: Any, degree: int) -> list[float]:
                 places=places, least=degree + 1
             )
         )
-    return [float(c) for c in np.polynomial.Polynomial.fit(x, y, degree).convert().coef]
+    found = np.polynomial.Polynomial.fit(x, y, degree).convert().coef
+    return [*map(float, found), *[0.0] * (degree + 1 - len(found))]

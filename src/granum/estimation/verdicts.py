@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 COLLINEAR = 100.0
 """Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
-CHANCE = 0.01
-"""Probability by chance above which data show no relation, for one model tried."""
+LEAST_CHANCE, CHANCE = 1e-3, {1: 0.02, 2: 0.005}
+"""Probability by chance above which data show no relation; with one or two points to spare not even a good line reaches one in a thousand."""
 LEAST_SHARE = 0.5
 """Part of the scatter that a law must explain to be called a relation."""
-LEAST_CHANGE = 0.005
+LEAST_EFFECT = 0.005
 """A stray point that moves no estimate by this part is not worth a sentence."""
 SHOWN = 2
 
@@ -71,7 +71,7 @@ def stray_note(found: Diagnostics, fit: Fit, rows: Rows) -> list[dict[str, Any]]
     values = {n: estimates[n].value for n in found.without}
     parameters = {n: Parameter(n, kind_of(fit.problem.kinds.get(n))) for n in values}
     change = {n: _change(values[n], found.without[n]) for n in values}
-    if not change or max(map(abs, change.values())) < LEAST_CHANGE:
+    if not change or max(map(abs, change.values())) < LEAST_EFFECT:
         return []
     told = sorted(change, key=lambda n: -abs(change[n]))[:SHOWN]
 
@@ -106,16 +106,17 @@ def _signed(percent: float) -> str:
     return ("+" if percent > 0 else "−") + format_number(abs(percent), 2 if abs(percent) < 1000 else 1)
 
 
-def no_relation_note(probability: float, r_squared: float, card: str, trials: int = 1) -> list[dict[str, Any]]:
+def no_relation_note(fit: Fit, probability: float, trials: int = 1) -> list[dict[str, Any]]:
     """Whether the data show the fitted relation at all; ``trials`` is the number of models from which this was chosen."""
-    if not np.isfinite(probability) or (min(trials * probability, 1.0) <= CHANCE and not r_squared < LEAST_SHARE):
+    r_squared, chance = fit.statistics["r_squared"], min(trials * probability, 1.0)
+    allowed = CHANCE.get(int(fit.statistics["degrees_of_freedom"]), LEAST_CHANCE)
+    if not np.isfinite(probability) or (chance <= allowed and not r_squared < LEAST_SHARE):
         return []
-    share = format_number(100.0 * r_squared if r_squared > 0.0 else 0.0, 2)
     sentence = _(
-        "These points hardly show the fitted relation: it explains {share} % of their scatter, and chance would often do as well. "
-        "Do not use the estimates without more or better data."
-    ).format(share=share)
-    return [note("no relation", sentence, card)]
+        "These points hardly show the fitted relation: it explains {share} % of their scatter, and points without any relation do as well "
+        "in {chance} % of cases. Do not use the estimates without more or better data."
+    ).format(share=format_number(100.0 * r_squared if r_squared > 0.0 else 0.0, 2), chance=format_number(100.0 * chance, 2))
+    return [note("no relation", sentence, fit.card)]
 
 
 def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,

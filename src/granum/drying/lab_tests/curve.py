@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 NEIGHBORS = 0.2  # share of the points in one local parabola of the rate curve
 LEAST_NEIGHBORS = 7
+MOST_SHOWN = 400  # points of the rate curve that are drawn
 
 
 class RateCurve(NamedTuple):
@@ -212,7 +213,7 @@ class DryingCurve(LabTest):
         """Krischer's plot: rate over moisture, with the fitted periods and the critical moisture."""
         from granum.core.charts import ACCENT, GRID, HEAT, add_band, add_label, add_line, add_points, axis_title, figure
 
-        found, rates = self.fit(), self.rate_curve()
+        found, rates = self.fit(), self.rate_curve(slice(None, None, -(-len(self.time) // MOST_SHOWN)))
         p = {"equilibrium_moisture": self.equilibrium_moisture or 0.0, "characteristic_exponent": 1.0} | found.values
         Xc, Xe, k = p["critical_moisture"], p["equilibrium_moisture"], p["rate_per_dry_mass"]
         top = float(max(self.moisture().max(), Xc))

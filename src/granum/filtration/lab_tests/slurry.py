@@ -39,6 +39,7 @@ class SlurryJar(LabTest):
 
     def fit(self) -> Fit:
         """Solids, with what the filtration equations need besides."""
+        self.above_zero("cake_volume")
         slurry, wet, dry, volume = (
             np.asarray(x, dtype=float) for x in (self.slurry_mass, self.wet_cake_mass, self.dry_cake_mass, self.cake_volume)
         )

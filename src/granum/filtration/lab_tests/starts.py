@@ -18,7 +18,7 @@ def bad_start(x: np.ndarray, y: np.ndarray) -> int:
     backwards, several bad points cannot hide each other.
     """
     most = min(len(x) // 3, len(x) - LEAST_LEFT)
-    if most < 1:
+    if most < 1 or not np.ptp(x[most:]) > 0.0:
         return 0
     # every line at once: sums from the end of the centered and scaled points, which are the sums of each rest
     middle, width, level = x[most:].mean(), np.ptp(x) or 1.0, y[most:].mean()

@@ -51,6 +51,8 @@ class PressureCurve(LabTest):
         U, dp = np.asarray(self.superficial_velocity, dtype=float), np.asarray(self.pressure_drop, dtype=float)
         flags: list[dict[str, Any]] = []
         keep = U > 0.0
+        if not keep.any():
+            raise InputError(_("The curve needs at least 2 points on the fixed bed and 2 on the plateau."))
         top = int(np.argmax(U))
         if len(U) - top >= LEAST_BRANCH and U[-1] < U[top]:
             keep &= np.arange(len(U)) >= top

@@ -42,7 +42,7 @@ def judged_by_class(test: SizeTest, found: Fit, curve: Callable[[Any, Any], Any]
         return found
     told = classes.diagnostics
     assert told is not None
-    flags = found.flags + no_relation_note(told.probability, classes.statistics["r_squared"], found.card)
+    flags = found.flags + no_relation_note(classes, told.probability)
     if told.stray:
         expected = np.asarray(model({**told.without}, sizes)) / told.without[SCALE]
         corrected = shares.copy()

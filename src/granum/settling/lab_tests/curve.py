@@ -15,7 +15,7 @@ from scipy.optimize import nnls
 from granum.core.errors import InputError
 from granum.core.i18n import _
 
-LEAST_POINTS = 5
+LEAST_POINTS, MOST_POINTS = 5, 300
 LEAST_NOISE = 0.002  # of the initial height: reading error below which nobody measures
 LAG_SLOPE = 0.7  # first slopes below this share of the steepest mean that the suspension had not come to rest
 
@@ -116,6 +116,11 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
         h = np.add.reduceat(h, first) / count
         t = unique
         said.append(("averaged", _("Points at equal times were averaged.")))
+    if t.size > MOST_POINTS:  # the convex curve takes a matrix of points by points
+        edges = np.linspace(0, t.size, MOST_POINTS + 1).astype(int)[:-1]
+        sizes = np.diff(np.append(edges, t.size))
+        said.append(("thinned", _("{count} points were averaged in groups to {most}.").format(count=t.size, most=MOST_POINTS)))
+        t, h = np.add.reduceat(t, edges) / sizes, np.add.reduceat(h, edges) / sizes
     smooth = falling(h)
     moved = np.abs(smooth - h)
     if np.any(moved > 1e-12 * h.max()):
@@ -127,7 +132,7 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
         ))  # fmt: skip
         h = smooth
     start = float(h[0] if initial_height is None else initial_height)
-    if h[0] - h[-1] < 0.02 * start:
+    if not h[0] - h[-1] > 0.02 * start:
         raise InputError(
             _("The interface hardly falls: from {first} to {last} m. Is this a settling curve?").format(first=h[0], last=h[-1])
         )
