@@ -14,6 +14,15 @@ SolubilitySlope = Annotated[Any, Kind("slope of a solubility", "1/kelvin", lower
 RateCoefficient = Annotated[
     Any, Kind("growth rate at a driving force of one", "m/s", lower=0.0, display=("m/s", "um/s", "um/min", "mm/hour"))
 ]
+IntegrationCoefficient = Annotated[
+    Any, Kind("mass flux at a driving force of 1 kg/m³", "kg/(m^2*s)", lower=0.0, open_lower=True, display=("kg/(m^2*s)",))
+]
+AgglomerationRate = Annotated[Any, Kind("collisions per pair and volume", "m^3/s", lower=0.0, display=("m^3/s", "cm^3/s"))]
+AgglomerationRatePerVolumes = Annotated[
+    Any, Kind("collisions per pair and product of volumes", "1/(m^3*s)", lower=0.0, display=("1/(m^3*s)",))
+]
+SizeParameter = Annotated[Any, Kind("reciprocal length", "1/m", lower=0.0, open_lower=True, display=("1/mm", "1/m"))]
+MolarEntropy = Annotated[Any, Kind("entropy per amount", "J/(mol*K)", display=("J/(mol*K)",))]
 ForwardGrowthRate = Annotated[GrowthRate, Within(0.0)]  # crystals that grow; laws may also dissolve
 SoluteShare = Annotated[PositiveNumber, Within(0.0, 1.0)]  # anhydrous solute in a crystal
 PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]

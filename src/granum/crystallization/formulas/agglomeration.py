@@ -17,11 +17,11 @@ from granum.core.kinds import (
     Frequency,
     KinematicViscosity,
     Length,
-    PositiveNumber,
     Ratio,
     SpecificPower,
     Temperature,
 )
+from granum.crystallization.kinds import AgglomerationRate, AgglomerationRatePerVolumes
 
 SMALL_EDDIES = (8.0 * math.pi / 15.0) ** 0.5  # Saffman and Turner, 1.2944
 
@@ -30,7 +30,7 @@ class AgglomerationKernel(eqx.Module):
     """Collisions that last, per pair and volume, m³/s."""
 
     @abstractmethod
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         """Kernel for two sizes."""
 
 
@@ -44,9 +44,9 @@ class AgglomerationKernel(eqx.Module):
 class ConstantKernel(AgglomerationKernel):
     """The same kernel for every pair, in m³/s."""
 
-    agglomeration_coefficient: Ratio
+    agglomeration_coefficient: AgglomerationRate
 
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         return self.agglomeration_coefficient + 0.0 * (crystal_size + crystal_size_other)
 
 
@@ -60,9 +60,9 @@ class ConstantKernel(AgglomerationKernel):
 class SumKernel(AgglomerationKernel):
     """Kernel proportional to the sum of the cubes of the sizes, the coefficient in 1/s."""
 
-    agglomeration_coefficient: Ratio
+    agglomeration_coefficient: Frequency
 
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         return self.agglomeration_coefficient * (crystal_size**3 + crystal_size_other**3)
 
 
@@ -70,9 +70,9 @@ class SumKernel(AgglomerationKernel):
 class ProductKernel(AgglomerationKernel):
     """Kernel proportional to the product of the cubes of the sizes; the coefficient is in 1/(m³ s) and everything gels at a finite time."""
 
-    agglomeration_coefficient: Ratio
+    agglomeration_coefficient: AgglomerationRatePerVolumes
 
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         return self.agglomeration_coefficient * crystal_size**3 * crystal_size_other**3
 
 
@@ -80,7 +80,7 @@ class ProductKernel(AgglomerationKernel):
          typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)})  # fmt: skip
 def agglomeration_coefficient_brownian(
     crystal_size: Length, crystal_size_other: Length, dynamic_viscosity: DynamicViscosity, temperature: Temperature = 298.15
-) -> Ratio:
+) -> AgglomerationRate:
     """Kernel of agglomeration by Brownian motion (perikinetic), m³/s, every collision lasting.
 
     For equal sizes it is 8kT/(3η), whatever the size.
@@ -98,7 +98,7 @@ def agglomeration_coefficient_brownian(
          typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)})  # fmt: skip
 def agglomeration_coefficient_turbulent(
     crystal_size: Length, crystal_size_other: Length, shear_rate: Frequency, capture_efficiency: Fraction = 1.0
-) -> Ratio:
+) -> AgglomerationRate:
     """Kernel of agglomeration in the small eddies of turbulence (orthokinetic) after Saffman and Turner, m³/s.
 
     The shear rate is ``sqrt(power per mass / kinematic viscosity)``; sizes below the smallest eddies. In laminar shear the factor is 4/3.
@@ -129,7 +129,7 @@ class BrownianKernel(AgglomerationKernel):
     temperature: Temperature = 298.15
     capture_efficiency: Fraction = 1.0
 
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         L, other = crystal_size, crystal_size_other
         return (
             self.capture_efficiency * 2.0 * BOLTZMANN * self.temperature / (3.0 * self.dynamic_viscosity) * (L + other) ** 2 / (L * other)
@@ -144,7 +144,7 @@ class TurbulentKernel(AgglomerationKernel):
     shear_rate: Frequency
     capture_efficiency: Fraction = 1.0
 
-    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> Ratio:
+    def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         return SMALL_EDDIES * self.capture_efficiency * self.shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
 
 
@@ -152,7 +152,7 @@ class Breakage(eqx.Module):
     """How often a crystal breaks and into what."""
 
     @abstractmethod
-    def __call__(self, crystal_size: Length) -> PositiveNumber:
+    def __call__(self, crystal_size: Length) -> Frequency:
         """Breakages per second of a crystal."""
 
     @abstractmethod
@@ -169,7 +169,7 @@ class PowerBreakage(Breakage):
     reference_size: Length
     breakage_exponent: Ratio = 3.0
 
-    def __call__(self, crystal_size: Length) -> PositiveNumber:
+    def __call__(self, crystal_size: Length) -> Frequency:
         return self.breakage_frequency * (crystal_size / self.reference_size) ** self.breakage_exponent
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
@@ -190,7 +190,7 @@ class Attrition(Breakage):
     breakage_exponent: Ratio = 3.0
     chip_fraction: Fraction = 0.01
 
-    def __call__(self, crystal_size: Length) -> PositiveNumber:
+    def __call__(self, crystal_size: Length) -> Frequency:
         return self.breakage_frequency * (crystal_size / self.reference_size) ** self.breakage_exponent
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:

@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Temperature,
 )
 from granum.crystallization.formulas.growth import GrowthLaw, arrhenius
+from granum.crystallization.kinds import IntegrationCoefficient
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide, safe_power
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
@@ -62,17 +63,20 @@ def _interface(C, C_star, kd, kr, r):
 
 @formula(
     source="mullin2001, ch. 6; garside1985",
-    equation=r"\Phi = k_d (C - C_i) = k_r (C_i - C^*)^r",
+    equation=r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r",
     title="Crystal growth by diffusion and integration in series",
 )
 def film_growth(
     solute_concentration: Concentration,
     solubility_concentration: Concentration,
     diffusion_coefficient: MassTransferCoefficient,
-    integration_coefficient: PositiveNumber,
+    integration_coefficient: IntegrationCoefficient,
     integration_order: PositiveNumber,
 ) -> FilmGrowth:
     """Mass flux to a crystal by diffusion through the film and integration at the surface in series.
+
+    The integration coefficient is the flux at a driving force of 1 kg/m³: Φ = k_r (Δc / 1 kg/m³)^r, so that its unit is the same at every order. Printed
+    coefficients in m/s (order 1) or m⁴/(kg s) (order 2) have the same number in SI.
 
     The effectiveness factor is the flux over the one that integration alone would allow: 1 means integration controls, 0
     diffusion. For order 1 the resistances add.
@@ -137,16 +141,16 @@ def diffusion_coefficient_sherwood(
 
 
 @law("growth_rate", name="film_growth_law", source="mullin2001, ch. 6", title="Growth by diffusion and integration in series",
-     equation=r"\Phi = k_d (C - C_i) = k_r (C_i - C^*)^r,\quad G = \frac{k_a \Phi}{3 k_v \rho_c}")  # fmt: skip
+     equation=r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r,\quad G = \frac{k_a \Phi}{3 k_v \rho_c}")  # fmt: skip
 class FilmGrowthLaw(GrowthLaw):
     """Growth by diffusion through the film and integration at the surface in series, both with activation energies.
 
     Concentrations are taken per volume of solution with a constant density of the solution. ``diffusion_coefficient`` and
-    ``integration_coefficient`` multiply ``exp(-E/RT)``.
+    ``integration_coefficient`` multiply ``exp(-E/RT)``; the latter is the flux at a driving force of 1 kg/m³, in kg/(m² s) at every order.
     """
 
     diffusion_coefficient: MassTransferCoefficient
-    integration_coefficient: PositiveNumber
+    integration_coefficient: IntegrationCoefficient
     integration_order: PositiveNumber
     crystal_density: Density
     liquid_density: Density = 1000.0
@@ -165,12 +169,16 @@ class FilmGrowthLaw(GrowthLaw):
         return self.surface_shape_factor * flux / (3.0 * self.volume_shape_factor * self.crystal_density)
 
 
-@formula(source="mullin2001, ch. 6", equation=r"\mathrm{Da} = \frac{k_r (C-C^*)^{r-1}}{k_d}", output="damkohler_growth")
+@formula(
+    source="mullin2001, ch. 6",
+    equation=r"\mathrm{Da} = \frac{k_r}{k_d\,c_0}\left(\frac{C-C^*}{c_0}\right)^{r-1},\ c_0 = 1\ \mathrm{kg/m^3}",
+    output="damkohler_growth",
+)
 def damkohler_growth(
     solute_concentration: Concentration,
     solubility_concentration: Concentration,
     diffusion_coefficient: MassTransferCoefficient,
-    integration_coefficient: PositiveNumber,
+    integration_coefficient: IntegrationCoefficient,
     integration_order: PositiveNumber,
 ) -> Ratio:
     """Damköhler number of crystal growth: integration rate over mass transfer rate at the full driving force.

@@ -17,7 +17,7 @@ from granum.core.kinds import (
     Ratio,
     Time,
 )
-from granum.crystallization.kinds import ForwardGrowthRate
+from granum.crystallization.kinds import ForwardGrowthRate, SizeParameter
 from granum.numerics.roots import find_root
 from granum.numerics.smooth import safe_divide
 
@@ -144,8 +144,8 @@ def gamma_share(x):
     equation=r"\varphi = (1 + \gamma L)^b",
     typical={"crystal_size": (1e-5, 1e-3)},
 )
-def size_factor(crystal_size: Distance, size_parameter: PositiveNumber, size_exponent: Ratio) -> Ratio:
-    """Growth rate of a crystal over that of a nucleus, after Abegg, Stevens and Larson; the parameter is in 1/m.
+def size_factor(crystal_size: Distance, size_parameter: SizeParameter, size_exponent: Ratio) -> Ratio:
+    """Growth rate of a crystal over that of a nucleus, after Abegg, Stevens and Larson.
 
     >>> round(size_factor(crystal_size=1e-4, size_parameter=1e4, size_exponent=0.5), 4)
     1.4142
@@ -163,7 +163,7 @@ def population_density_size_dependent(
     nuclei_population_density: PopulationDensity,
     growth_rate: ForwardGrowthRate,
     residence_time: Time,
-    size_parameter: PositiveNumber,
+    size_parameter: SizeParameter,
     size_exponent: Ratio,
 ) -> PopulationDensity:
     """Population density of a continuous crystallizer whose growth depends on size after Abegg, Stevens and Larson.

@@ -13,6 +13,7 @@ from granum.core.kinds import (
     Fraction,
     Length,
     Mass,
+    NumberPerMass,
     PositiveNumber,
     Ratio,
     Series,
@@ -78,7 +79,7 @@ class SeedChart(NamedTuple):
     """Ideal growth ratio and seed numbers."""
 
     growth_ratio: PositiveNumber
-    seeds_per_mass: PositiveNumber
+    seeds_per_mass: NumberPerMass
     seed_surface: SpecificSurfaceMass
 
 

@@ -14,6 +14,7 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.crystallization.kinds import MolarEntropy
 from granum.materials.library import solute as material_solute
 
 
@@ -78,7 +79,7 @@ class VantHoffSolubility(SolubilityLaw):
     """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of dissolution."""
 
     enthalpy_of_dissolution: MolarEnergy
-    entropy_of_dissolution: Number
+    entropy_of_dissolution: MolarEntropy
     molar_mass: MolarMass
     solvent_molar_mass: MolarMass = 0.0180153
 

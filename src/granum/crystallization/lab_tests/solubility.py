@@ -18,6 +18,7 @@ from granum.crystallization.formulas.solubility_laws import (
     PolynomialSolubility,
     VantHoffSolubility,
 )
+from granum.crystallization.kinds import MolarEntropy
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import polynomial, straight_line
 
@@ -88,7 +89,7 @@ class SolubilityVantHoff(_Solubility):
     molar_mass: MolarMass
     solvent_molar_mass: MolarMass = 0.0180153
 
-    estimates: ClassVar = {"enthalpy_of_dissolution": MolarEnergy, "entropy_of_dissolution": Number}
+    estimates: ClassVar = {"enthalpy_of_dissolution": MolarEnergy, "entropy_of_dissolution": MolarEntropy}
 
     def fit(self) -> Fit:
         """Enthalpy and entropy of dissolution with 95 % intervals."""

@@ -20,6 +20,7 @@ from granum.core.kinds import (
     Length,
     MassRatio,
     Number,
+    NumberPerMass,
     PositiveNumber,
     Ratio,
     Series,
@@ -51,7 +52,7 @@ class BatchCourse(NamedTuple):
     solubility_per_solvent: Annotated[MassRatio, Series("points")]
     relative_supersaturation: Annotated[Number, Series("points")]
     crystals_per_solvent: Annotated[MassRatio, Series("points")]
-    crystals_number: Annotated[Ratio, Series("points")]
+    crystals_number: Annotated[NumberPerMass, Series("points")]
     growth_rate: Annotated[GrowthRate, Series("points")]
     mean_diameter: Length
     mass_median_size: Length
@@ -183,7 +184,7 @@ class AgglomeratingCourse(NamedTuple):
     solute_per_solvent: Annotated[MassRatio, Series("points")]
     relative_supersaturation: Annotated[Number, Series("points")]
     crystals_per_solvent: Annotated[MassRatio, Series("points")]
-    crystals_number: Annotated[Ratio, Series("points")]
+    crystals_number: Annotated[NumberPerMass, Series("points")]
     class_edges: Annotated[Distance, Series("edges")]
     class_fractions: Annotated[Fraction, Series("classes")]
     mean_diameter: Length

@@ -15,6 +15,7 @@ from granum.core.kinds import (
     MassRatio,
     Molality,
     MolarMass,
+    NumberPerMass,
     PositiveNumber,
     Ratio,
     Series,
@@ -109,7 +110,7 @@ class PrecipitationCourse(NamedTuple):
     cation_molality: Annotated[Molality, Series("points")]
     anion_molality: Annotated[Molality, Series("points")]
     crystals_per_solvent: Annotated[MassRatio, Series("points")]
-    crystals_number: Annotated[Ratio, Series("points")]
+    crystals_number: Annotated[NumberPerMass, Series("points")]
     mean_diameter: Length
     yield_fraction: Ratio
     step_error: Ratio
