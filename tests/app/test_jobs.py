@@ -20,7 +20,7 @@ from granum.app.server import create_app
 from granum.app.telling import Cancelled, Tell, progress_text
 from granum.core.errors import InputError
 from granum.core.i18n import language
-from granum.studies import Study
+from granum.studies import Study, engine
 
 SPHERE = {"particle_diameter": "85 um", "particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
 STOKES = {"card": "particles.terminal_velocity_stokes", "inputs": SPHERE, "varied": ["particle_diameter"]}
@@ -126,6 +126,26 @@ def test_a_stopped_study_gives_what_it_has_computed() -> None:
     assert said[1:3] == ["preparing the model", "0 of 20\u202f000"]
     with pytest.raises(Cancelled):  # nothing computed yet: nothing to show
         tasks.TASKS["study"](SPREAD, Tell(lambda share, note: said.append(note), lambda: said[-1].startswith("0 of")))
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"kind": "sweep", "over": {"particle_diameter": {"from": "20 um", "to": "80 um", "steps": 40}}},
+        {"kind": "map", "over": {name: {"from": "1e-3", "to": "2e-3", "steps": 8} for name in ("particle_diameter", "dynamic_viscosity")}},
+        {"kind": "sobol", "samples": 16, "uncertain": SPREAD["table"]["uncertain"]},
+    ],
+    ids=lambda table: table["kind"],
+)  # fmt: skip
+def test_every_kind_of_study_shows_a_part_of_itself(table: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(engine.CHUNKS, "batched", 4)
+    said = [""]
+    wanted = STOKES | {"varied": list(table.get("over") or table["uncertain"]), "table": table}
+    found = tasks.TASKS["study"](wanted, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1]))
+    outcome = json.loads(found)
+    assert not outcome["complete"]
+    assert outcome["counts"]["run"] == 4
+    assert outcome["charts"]
 
 
 def test_what_a_killed_study_has_computed_is_collected(crew: Crew, tmp_path: Path) -> None:

@@ -108,9 +108,10 @@ def _telling(tell: Tell) -> Callable[[Any], None]:
     began: list[tuple[float, int]] = []
 
     def told(p: Any) -> None:
-        now = time.monotonic()
-        began.append((now, p.done)) if not began else None
-        (start, before), left = began[0], None
+        now, left = time.monotonic(), None
+        if not began:
+            began.append((now, p.done))
+        start, before = began[0]
         if before < p.done < p.total:
             left = (now - start) * (p.total - p.done) / (p.done - before)
         tell.say(p.done / max(p.total, 1), p.note or progress_text(p.done, p.total, p.failed, left))
