@@ -145,7 +145,7 @@ def test_every_kind_of_study_shows_a_part_of_itself(table: dict[str, Any], monke
     outcome = json.loads(found)
     assert not outcome["complete"]
     assert outcome["counts"]["run"] == 4
-    assert outcome["charts"]
+    assert outcome["charts"] or table["kind"] == "sobol"  # shares of the variance need every case
 
 
 def test_what_a_killed_study_has_computed_is_collected(crew: Crew, tmp_path: Path) -> None:
