@@ -84,7 +84,7 @@ function Form({ place, head, subject, choices }) {
       : html`<div class="scroll watched" tabindex="0" role="group" aria-label=${t('What is watched')}>${choices.figures.map((f) => html`<label class="choice"><input type="checkbox" checked=${watched.includes(f.name)} onChange=${(e) => set({ watched: e.target.checked ? [...watched, f.name] : watched.filter((n) => n !== f.name) })} /> ${f.label}</label>`)}</div>`}
     ${doubtful(kind) && html`<div class="row"><label>${t('Samples')} <input class="short" inputmode="numeric" value=${samples} onInput=${(e) => set({ samples: e.target.value })} /></label></div>`}`}
     <div class="row"><button class="button main" disabled=${job.running || (!setup.declared && (!rows.length || !watched.length))} onClick=${() => job.start(asked, question(setup, choices))}>${t('Run the study')}</button></div></section>
-    <section aria-label=${t('Believe')}><${Working} busy=${job.running} cancel=${job.cancel} share=${job.share} text=${t('Working…')} />
+    <section aria-label=${t('Believe')}><${Working} busy=${job.running} cancel=${job.cancel} share=${job.share} text=${job.note || t('Working…')} />
       ${job.error && html`<p class="message out" role="alert">${job.error}</p>`}
       ${!job.outcome && !job.running && !job.error && html`<p class="dim">${t('Choose what varies and what is watched, then run the study. Charts and tables appear here.')}</p>`}
       ${job.outcome && html`${old && html`<p class="message caution" data-old>▲ ${t('What follows answers an earlier question. Run the study to answer the one on the left.')}</p>`}
