@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from granum import costs
-from granum.core.errors import InputError
+from granum.core.errors import ApplicabilityError, InputError
 from granum.costs.tables import correlations, plant_cost_index
 
 YEAR = 365.25 * 86400.0
@@ -107,7 +107,8 @@ def test_energy_material_payback() -> None:
         30.0
     )
     assert costs.payback_time(capital_cost=2e6, annual_gain=0.5e6 / YEAR) / YEAR == pytest.approx(4.0)
-    assert costs.payback_time(capital_cost=2e6, annual_gain=0.0) == np.inf
+    with pytest.raises(ApplicabilityError, match="Without a gain nothing is paid back"):
+        costs.payback_time(capital_cost=2e6, annual_gain=0.0)
     assert costs.capital_cost_lang(purchased_cost=1e6, plant_type="fluids") == pytest.approx(4.74e6)
 
 

@@ -14,6 +14,7 @@ from granum.core.errors import ApplicabilityError
 from granum.core.parameters import Parameter
 
 ROUNDING = 1e-12  # by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
+SOLVED = 1e-6  # of the largest figure of a series that was solved for step by step
 CONTRADICTION = "The values given contradict one another, or lie beyond what this holds for."
 
 
@@ -71,10 +72,18 @@ def without_impossible(outputs: Iterable[Parameter], out: Any, records: Iterable
 
 
 def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
-    """Raise where a result of concrete numbers lies outside the bounds of its own kind."""
+    """Raise where a result of concrete numbers, solved to within ``SOLVED``, lies outside the bounds of its own kind."""
     if not isinstance(out, (tuple, float, np.ndarray, jax.Array)):
         return
-    with flags.collect(flags.OUTSIDE_DOMAIN) as records:
-        record_outside(outputs, out, card, "", 0)
-    for row in flags.describe(records)[:1]:
-        raise ApplicabilityError(row["message"], name=row["name"])
+    for p, value in figures(outputs, out):
+        array = np.asarray(value, dtype=float)
+        found = array[np.isfinite(array)]
+        slack = SOLVED * np.max(np.abs(found), initial=0.0)
+        low, high = limits(p)
+        beyond = found[(found < low - slack) | (found > high + slack)]
+        if beyond.size:
+            assert p.kind is not None
+            record = flags.Record(
+                np.asarray(True), beyond[0], flags.OUTSIDE_DOMAIN, p.name, card, p.kind.lower, p.kind.upper, "", CONTRADICTION
+            )
+            raise ApplicabilityError(flags.describe([record])[0]["message"], name=p.name)

@@ -99,7 +99,8 @@ def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
     if collector is not None and collector.only in (0, bit) and collector.accepts():
-        mask = jnp.asarray(mask)
+        # of plain numbers, as in an inner call with constants, "~(a < b)" is the integer -1 or -2, whose last bit is what was meant
+        mask = jnp.asarray(bool(mask & 1) if type(mask) is int else mask)
         if computed is not None:
             computed = (jnp.broadcast_to(computed[0], mask.shape), jnp.broadcast_to(computed[1], mask.shape))
         collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed))

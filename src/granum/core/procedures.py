@@ -8,6 +8,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
+from granum.core import bounds
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.parameters import Binder, outputs_of, parameters_of
 from granum.core.registry import register
@@ -41,13 +42,19 @@ class Procedure:
         return f"<{self._sort} {self.key}>"
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        return self.function(**self._binder.bind(args, kwargs))
+        return self._run(self._binder.bind(args, kwargs))
+
+    def _run(self, inputs: dict[str, Any]) -> Any:
+        """What the function gives; a figure outside the bounds of its own kind is none."""
+        out = self.function(**inputs)
+        bounds.refuse_outside(self.card.outputs, out, self.key)
+        return out
 
     def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its card (a procedure reports problems by raising, so there are no flags)."""
         inputs = self._binder.bind(args, kwargs)
         left = self._binder.left_out(args, kwargs)
-        return Result(self.card, inputs, self.function(**inputs), np.zeros((), np.int32), defaults=left)
+        return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left)
 
 
 def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:
