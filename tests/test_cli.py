@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from granum import __version__
 from granum.cli import app
+from granum.particles import terminal_velocity
 
 TERMINAL = ["calc", "particles.terminal_velocity"]
 GOOD = ["particle_diameter=85um", "particle_density=2630kg/m3", "fluid_density=1020kg/m3", "dynamic_viscosity=1.2cP"]
@@ -21,6 +23,43 @@ ROOT = Path(__file__).parents[1]
 def granum(*words: str) -> tuple[int, str, str]:
     outcome = contextvars.copy_context().run(CliRunner().invoke, app, list(words))  # the language ends with the command
     return outcome.exit_code, outcome.stdout, outcome.stderr
+
+
+def test_version() -> None:
+    assert granum("--version")[:2] == (0, f"granum {__version__}\n")
+
+
+@pytest.mark.parametrize(
+    "words", [["--lang", "fr", "show", "particles.terminal_velocity"], ["show", "particles.terminal_velocity", "--lang", "fr"]]
+)
+def test_the_language_stands_before_or_after_the_command(words: list[str]) -> None:
+    code, out, _err = granum(*words)
+    assert code == 0
+    assert "Vitesse terminale" in out
+
+
+def test_units_and_bad_languages_after_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GRANUM_UNITS", "si")
+    assert "ft" in granum(*TERMINAL, *GOOD, "--units", "field")[1]
+    assert granum("list", "settling", "--lang", "de")[0] == 2
+
+
+def test_bounds_of_counts_are_shown() -> None:
+    assert "2 … 100000" in granum("show", "crystallization.batch")[1]
+
+
+def test_a_result_prints_in_a_few_lines() -> None:
+    fall = terminal_velocity.evaluate(particle_diameter="85 um", particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP")
+    assert str(fall) == "particles.terminal_velocity\nterminal velocity = 4.917 mm/s"
+    assert repr(fall) == "<particles.terminal_velocity; terminal velocity = 4.917 mm/s>"
+    beyond = str(
+        terminal_velocity.evaluate(
+            particle_diameter=["1 mm", "20 cm"], particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP"
+        )
+    )
+    assert "! " in beyond
+    assert "extrapolated" in beyond
+    assert len(beyond) < 700
 
 
 def test_terminal_velocity_with_source() -> None:

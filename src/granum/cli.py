@@ -7,16 +7,68 @@ import json
 import os
 import sys
 from collections.abc import Callable
+from copy import copy
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import typer
+from typer.core import TyperGroup
 
+from granum import __version__
 from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.core.i18n import _, set_language
 
+
+def _language(lang: str) -> None:
+    if lang:
+        if lang not in ("en", "fr"):
+            raise typer.BadParameter("choose en or fr", param_hint="--lang")
+        set_language(lang)
+
+
+def _unit_system(units: str) -> None:
+    if units:
+        if units not in ("si", "field"):
+            raise typer.BadParameter("choose si or field", param_hint="--units")
+        os.environ["GRANUM_UNITS"] = units
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"granum {__version__}")
+        raise typer.Exit
+
+
+SHARED: dict[str, tuple[Callable[[str], None], str]] = {
+    "--lang": (_language, "Language of messages: en or fr."),
+    "--units": (_unit_system, "Units of what is shown: si or field (customary of the United States)."),
+}
+"""Options of the program that stand before or after the command, with what they do and their help."""
+
+
+def _heeded(act: Callable[[str], None], _context: Any, _option: Any, value: str) -> str:
+    act(value)
+    return value
+
+
+class _Commands(TyperGroup):
+    """The commands, each of which takes the options of the program too: ``granum run case.toml --lang fr``."""
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        command = super().get_command(ctx, cmd_name)
+        words = {word for option in command.params for word in option.opts} if command else set(SHARED)
+        for option in self.params:
+            heed = SHARED.get(option.opts[0])
+            if command and heed and option.opts[0] not in words:
+                own = copy(option)
+                own.expose_value, own.envvar, own.callback = False, None, functools.partial(_heeded, heed[0])
+                command.params.append(own)
+        return command
+
+
 app = typer.Typer(
     name="granum",
+    cls=_Commands,
     help="Fluid–solid unit operations: calculate, fit lab data, run process lines.",
     no_args_is_help=True,
     add_completion=False,
@@ -31,16 +83,11 @@ CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).")]
 
 
 @app.callback()
-def _options(lang: Annotated[str, typer.Option("--lang", help="Language of messages: en or fr.", envvar="GRANUM_LANG")] = "",
-             units: Annotated[str, typer.Option("--units", help="Units of what is shown: si or field (customary of the United States).", envvar="GRANUM_UNITS")] = "") -> None:  # fmt: skip
-    if units:
-        if units not in ("si", "field"):
-            raise typer.BadParameter("choose si or field", param_hint="--units")
-        os.environ["GRANUM_UNITS"] = units
-    if lang:
-        if lang not in ("en", "fr"):
-            raise typer.BadParameter("choose en or fr", param_hint="--lang")
-        set_language(lang)
+def _options(lang: Annotated[str, typer.Option("--lang", help=SHARED["--lang"][1], envvar="GRANUM_LANG")] = "",
+             units: Annotated[str, typer.Option("--units", help=SHARED["--units"][1], envvar="GRANUM_UNITS")] = "",
+             version: Annotated[bool, typer.Option("--version", help="Show the version and end.", callback=_version, is_eager=True)] = False) -> None:  # fmt: skip
+    _unit_system(units)
+    _language(lang)
 
 
 class Unexpected(GranumError):

@@ -111,7 +111,7 @@ def test_tanks_in_series_run_from_the_mixed_mill_to_plug_flow() -> None:
         operator = np.asarray(law.operator(matrix(), tau))
         np.testing.assert_allclose(operator.sum(axis=0), 1.0, atol=1e-12)
         assert operator.min() >= -1e-15
-    with pytest.raises(InputError, match="one tank"):
+    with pytest.raises(InputError, match="whole number from 1 to"):
         population.TanksInSeries(0)
 
 

@@ -13,7 +13,7 @@ import pytest
 from annotated_types import Ge, Le
 
 from granum.cases import schema
-from granum.core import registry
+from granum.core import registry, units
 from granum.core.errors import GranumError, InputError
 from granum.core.parameters import Parameter, convert
 
@@ -110,6 +110,24 @@ def test_every_count_of_a_card_has_bounds() -> None:
             with pytest.raises(InputError, match=f"'{p.name}'"):
                 convert(bad, p, f" for {key}")
         assert convert(str(int(p.within.upper)), p) == convert(float(p.within.upper), p) == p.within.upper
+
+
+def test_a_word_that_has_a_unit_is_declared_in_it() -> None:
+    wrong = [
+        (key, p.name, p.term.unit, p.kind.unit)
+        for key, card in CARDS.items()
+        for p in (*card.parameters, *card.outputs)
+        if p.term and p.term.unit and p.kind and not units.same_dimension(p.term.unit, p.kind.unit)
+    ]
+    assert not wrong
+
+
+def test_a_temperature_difference_takes_kelvins() -> None:
+    """Conduction through the dry layer alone: λ ρ ε L²/(2 k ΔT), with a film that does not resist."""
+    front: Any = registry.find("drying.drying_time_receding_front")
+    inputs = {"thickness": "4 cm", "void_fraction": 0.36, "heat_transfer_coefficient": 1e12, "thermal_conductivity": 0.2}
+    time = front(**inputs, temperature_difference="44 K", liquid_density=998.0, heat_of_vaporization=2.4e6)
+    assert time == pytest.approx(2.4e6 * 998.0 * 0.36 * 0.04**2 / (2 * 0.2 * 44.0), rel=1e-9)
 
 
 def test_every_count_of_a_case_file_has_bounds() -> None:

@@ -129,7 +129,7 @@ def _typed(text: str, before: Any) -> Any:
     if text.lstrip().startswith("{"):
         try:
             table = json.loads(text)
-        except (json.JSONDecodeError, RecursionError):
+        except (ValueError, RecursionError):
             raise InputError(_("'{name}' is not valid JSON.").format(name=text[:40])) from None
         made = tomlkit.inline_table()
         made.update(table)

@@ -190,6 +190,8 @@ def _edge(value: float, kind: Kind) -> str:
 def bounds_text(p: Parameter) -> str:
     """The allowed range of a parameter as people read it."""
     kind = p.kind
+    if p.within:
+        return f"{p.within.lower:.0f} … {p.within.upper:.0f}"
     if kind is None or (kind.lower == -math.inf and kind.upper == math.inf):
         return ""
     if kind.upper == math.inf:

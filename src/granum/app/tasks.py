@@ -57,7 +57,7 @@ def _law(name: str, text: str) -> Any:
     """A law with its parameters, written as JSON in a form or a link."""
     try:
         return json.loads(text)
-    except (json.JSONDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         raise InputError(_("'{name}' is not valid JSON.").format(name=name), name=name) from None
 
 
@@ -106,7 +106,7 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
     test_type = evaluable(payload["key"], ("lab test",))
     try:
         conditions = json.loads(payload["conditions"])
-    except (json.JSONDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         conditions = None
     if not isinstance(conditions, dict):
         raise InputError(_("'{name}' is not valid JSON.").format(name="conditions"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +14,7 @@ from granum.cases.fitted import fits_of, fitted_values
 from granum.cases.line import Line
 from granum.cases.schema import Case, FeedTable, MixtureTable, SizeTable, StreamTable
 from granum.core import registry
+from granum.core.documents import read_toml
 from granum.core.errors import CaseError, GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -60,8 +60,8 @@ def read_text(text: str, folder: Path | None = None, name: str = "case") -> Line
 def parsed(text: str, name: str) -> dict[str, Any]:
     """The tables of a TOML text."""
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+        return read_toml(text)
+    except InputError as problem:
         raise CaseError(_("{name} is not valid TOML: {problem}.").format(name=name, problem=problem)) from None
 
 

@@ -21,8 +21,6 @@ import jax.scipy.linalg as linalg
 import numpy as np
 
 from granum.core import law
-from granum.core.errors import InputError
-from granum.core.i18n import _
 from granum.core.kinds import OpenFraction, Ratio, Time, Within
 
 Convention = Literal["continuous", "root_two"]
@@ -153,10 +151,6 @@ class TanksInSeries(ResidenceTimeLaw):
     """Equal stirred tanks in a row; one is a fully mixed mill, many approach plug flow."""
 
     tank_count: Annotated[int, Within(1, 1000)] = 1
-
-    def __check_init__(self) -> None:
-        if self.tank_count < 1:
-            raise InputError(_("A row of tanks has at least one tank."), name="tank_count", value=self.tank_count)
 
     def __call__(self, residence_time: Time, time: Time) -> Ratio:
         """Part of the material that leaves later than a time."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import sys
-import tomllib
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -14,6 +13,7 @@ import numpy as np
 
 from granum.core import given, units
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
 from granum.core.glossary import Term, ending, glossary
 from granum.core.i18n import _
@@ -368,8 +368,8 @@ def _whole(value: Any, parameter: Parameter, where: str) -> int:
 def _table(text: str, parameter: Parameter, where: str) -> Any:
     """A law with its options as typed on a command line: ``{law = "power_law", exponent = 2}``."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except (ValueError, RecursionError):  # no TOML, a whole number of thousands of digits, tables in tables without end
+        return read_toml(f"value = {text}")["value"]
+    except InputError:
         raise InputError(
             _("'{name}' is not a table such as {{law = \"…\", option = 1}}{where}.").format(name=parameter.name, where=where),
             name=parameter.name,

@@ -11,9 +11,10 @@ import numpy as np
 from granum.core.cards import Card
 from granum.core.errors import ApplicabilityError
 from granum.core.flags import OUTSIDE_DOMAIN, WORDS
+from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, default_as_json
-from granum.core.units import show
+from granum.core.units import format_number, from_si, pretty_unit, show
 
 
 def plain(value: Any) -> Any:
@@ -32,7 +33,19 @@ def quantity_json(value: Any, parameter: Parameter) -> Any:
     return {"value": plain(value), "unit": unit}
 
 
-@dataclass(frozen=True)
+def _shown(value: Any, parameter: Parameter) -> str:
+    """A value with its unit in one line; of a column the first few."""
+    if parameter.kind is None or value is None:
+        return shown(str(default_as_json(value)))
+    if np.ndim(value) == 0:
+        return show(float(value), parameter.kind, parameter.display_unit(value))
+    unit, items = parameter.display_unit(value), np.ravel(np.asarray(value, dtype=float))
+    row = " ".join(format_number(float(x)) for x in np.ravel(from_si(items[:8], unit, parameter.kind)))
+    more = " …" * (items.size > 8)
+    return f"[{row}{more}] {pretty_unit(unit)}".strip()
+
+
+@dataclass(frozen=True, repr=False)
 class Result:
     """What a card gave for one set of inputs.
 
@@ -59,6 +72,13 @@ class Result:
         if len(self.card.outputs) == 1 and not hasattr(self.value, "_fields"):
             return {self.card.outputs[0].name: self.value}
         return dict(zip((p.name for p in self.card.outputs), self.value, strict=True))
+
+    def __str__(self) -> str:
+        rows = [f"{p.label} = {_shown(self.outputs[p.name], p)}" for p in self.card.outputs]
+        return "\n".join([self.card.key, *rows, *(f"! {notice['message']}" for notice in self.notices)])
+
+    def __repr__(self) -> str:
+        return f"<{'; '.join(str(self).splitlines())}>"
 
     def possible(self) -> Result:
         """The result itself; raises, with the first cause alone, when no element of it has a value."""

@@ -23,9 +23,9 @@ from granum.core.kinds import (
     MassTransferCoefficient,
     MoistureDryBasis,
     MolarEnergy,
-    Number,
     Ratio,
     Series,
+    SignedMassFlux,
     Temperature,
     ThermalConductivity,
     Time,
@@ -53,7 +53,7 @@ class BodyDrying(NamedTuple):
     moisture_dry_basis_surface: Annotated[MoistureDryBasis, Series("points")]
     temperature_center: Annotated[Temperature, Series("points")]
     surface_temperature: Annotated[Temperature, Series("points")]
-    drying_flux: Annotated[Number, Series("points")]
+    drying_flux: Annotated[SignedMassFlux, Series("points")]
     half_thickness: Annotated[Length, Series("points")]
 
 

@@ -6,6 +6,7 @@ import csv
 import io
 import re
 from collections.abc import Iterable
+from itertools import islice
 from pathlib import Path
 from typing import IO, Any
 
@@ -19,6 +20,8 @@ from granum.core.units import to_si
 from granum.core.written import read_number
 
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:[\[(]\s*(.*?)\s*[\])]|\s/\s*(.+?))?\s*$")
+MOST_ROWS = 20_000  # of a workbook, which is read cell by cell
+LARGEST_UNPACKED = 30_000_000  # bytes
 Row = tuple[int, list[Any]]
 Source = str | Path | IO[Any]
 
@@ -34,6 +37,8 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     if not rows:
         raise InputError(_("There is no header line{where}.").format(where=where))
     (_line, header), body = rows[0], rows[1:]
+    if not body:
+        raise InputError(_("There is no row of values under the header{where}.").format(where=where))
     units: dict[str, str | None] = {}
     places: dict[str, int] = {}
     for place, cell in enumerate(header):
@@ -106,6 +111,8 @@ def _column(p: Parameter, unit: str | None, cells: list[tuple[int, Any]], where:
             name=p.name,
             allowed=list(p.units),
         )
+    if all(cell is None or cell == "" for _line, cell in cells):
+        raise InputError(_("Column '{name}' is empty{where}.").format(name=p.name, where=where), name=p.name)
     values = []
     for line, cell in cells:
         value = _number(cell)
@@ -183,6 +190,19 @@ def _bytes(source: Source, where: str) -> bytes:
         raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)) from None
 
 
+def _not_swollen(raw: bytes, where: str) -> None:
+    """A workbook is packed: one that unpacks to very much is refused before it is read."""
+    from zipfile import ZipFile
+
+    with ZipFile(io.BytesIO(raw)) as packed:
+        if sum(part.file_size for part in packed.infolist()) > LARGEST_UNPACKED:
+            raise InputError(
+                _("The workbook is larger than {count} MB when unpacked{where}: save the columns it needs as CSV.").format(
+                    count=LARGEST_UNPACKED // 1_000_000, where=where
+                )
+            )
+
+
 def _sheet(raw: bytes, where: str) -> Iterable[Row]:
     import zlib
     from zipfile import BadZipFile
@@ -190,10 +210,18 @@ def _sheet(raw: bytes, where: str) -> Iterable[Row]:
     import openpyxl
 
     try:
-        rows = list(openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True).worksheets[0].iter_rows(values_only=True))
+        _not_swollen(raw, where)
+        sheet = openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True).worksheets[0]
+        rows = list(islice(sheet.iter_rows(values_only=True), MOST_ROWS + 1))
     except (BadZipFile, zlib.error, EOFError, OSError, KeyError, IndexError, ValueError, TypeError, AttributeError, SyntaxError) as problem:
         # what openpyxl raises on files that are no workbooks; broken XML is a SyntaxError
         raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
+    if len(rows) > MOST_ROWS:
+        raise InputError(
+            _("The workbook has more than {count} rows{where}: save it as CSV, or keep what the test needs.").format(
+                count=MOST_ROWS, where=where
+            )
+        )
     for i, cells in enumerate(rows, 1):
         if any(cell is not None for cell in cells) and not str(cells[0]).startswith("#"):
             yield i, list(cells)

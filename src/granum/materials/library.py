@@ -24,6 +24,7 @@ import numpy as np
 
 from granum.core import flags, registry, units
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
 from granum.core.formulas import Formula
 from granum.core.i18n import _
@@ -169,10 +170,10 @@ def load(path: str | Path) -> list[str]:
         text = path.read_text(encoding="utf-8")
         if text in _TEXTS:  # a second case of the session that uses the same file
             return _TEXTS[text]
-        content = tomllib.loads(text)
+        content = read_toml(text)
     except OSError as problem:
         raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+    except (InputError, UnicodeDecodeError) as problem:
         raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)) from problem
     together = {sort: {**_shipped()[sort], **_LOADED[sort]} for sort in _LOADED}
     before = {sort: set(known) for sort, known in together.items()}

@@ -140,6 +140,8 @@ def print_card(card: Card) -> None:
 
 
 def _bounds(p: Parameter) -> str:
+    if p.within:
+        return f"{p.within.lower:.0f} … {p.within.upper:.0f}"
     if p.kind is None:
         return ""
     low = "−∞" if p.kind.lower == -np.inf else show(p.kind.lower, p.kind)

@@ -17,6 +17,7 @@ from granum.core.kinds import (
     Law,
     Length,
     MassRatio,
+    NucleationRate,
     PositiveNumber,
     Ratio,
     Series,
@@ -27,6 +28,7 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import PowerCooling
+from granum.crystallization.kinds import RateCoefficient
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
@@ -76,9 +78,9 @@ def _information(kinetics: Any, setting: tuple[Any, ...], seed: Any, duration: A
 
 @procedure(source="atkinson2007, ch. 11 and 17; miller1994", title="Next seeded batch for the kinetics")
 def next_batch(
-    growth_coefficient: PositiveNumber,
+    growth_coefficient: RateCoefficient,
     growth_order: PositiveNumber,
-    nucleation_coefficient: PositiveNumber,
+    nucleation_coefficient: Annotated[NucleationRate, Within(1e-300)],
     nucleation_order: PositiveNumber,
     solubility: Annotated[Any, Law("solubility_law")],
     temperature_start: Temperature,

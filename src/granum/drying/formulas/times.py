@@ -24,14 +24,15 @@ from granum.core.kinds import (
     MassTransferCoefficient,
     MoistureDryBasis,
     MolarEnergy,
-    Number,
     PositiveNumber,
     SignedMassFlux,
     SpecificEnergy,
     Temperature,
+    TemperatureDifference,
     ThermalConductivity,
     Time,
     VoidFraction,
+    Within,
 )  # fmt: skip
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.drying.quantities import AddedHeatTransferCoefficient
@@ -279,7 +280,7 @@ def drying_flux_receding_front(
 def drying_time_receding_front(
     thickness: Length,
     void_fraction: VoidFraction,
-    temperature_difference: Number,
+    temperature_difference: Annotated[TemperatureDifference, Within(0.0)],
     heat_transfer_coefficient: HeatTransferCoefficient,
     thermal_conductivity: ThermalConductivity,
     liquid_density: Density = 998.0,

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.kinds import Number, PositiveNumber, Ratio, Time
+from granum.core.kinds import Length, Number, PositiveNumber, Ratio, Time
 from granum.drying.thin_layers.base import AbstractThinLayer, power
 
 INF = float("inf")
@@ -228,7 +228,7 @@ class FickSimplified(_Called):
     bounds: ClassVar = {"rate_area": POSITIVE}
     model_factor: Number
     rate_area: PositiveNumber
-    thickness: PositiveNumber = 1.0
+    thickness: Length = 1.0
 
     def ratio(self, t: Any) -> Any:
         return self.model_factor * jnp.exp(-self.rate_area * t / self.thickness**2)
