@@ -169,7 +169,7 @@ TYPED = [  # typed, understood, number and unit afterwards, Stokes velocity in m
     ("1e-1", "0.1 mm", "0.1", "mm", 7.310),
     ("85 microns", "85 µm", "85", "um", 5.281),
     ("0,0050 in", "0.005 in", "0.005", "inch", 11.79),
-    ("1200 um", "1200 µm", "1200", "um", 1052.6),
+    ("1 200 um", "1200 µm", "1200", "um", 1052.6),
     ("1,2e2", "120 µm", "120", "um", 10.526),
 ]
 
