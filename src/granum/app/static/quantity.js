@@ -33,7 +33,7 @@ function useReading(p, text) {
     const timer = setTimeout(() => read(p, text, stop.signal).then(setFound, () => {}), 60);
     return () => { stop.abort(); clearTimeout(timer); };
   }, [text]);
-  return found.text === text ? found : null;
+  return text && found.text === text ? found : null;
 }
 
 async function read(p, text, signal) {
@@ -66,6 +66,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
     setTyped(null);
     if (text) setUnit(given.unit);
   }, [text]);
+  useEffect(() => { if (reading?.number !== undefined) send(joined(reading)); }, [reading]); // the value as it was understood; the text stays as it was typed
   const type = (next) => { setUnit(menu); setTyped(next); send(kept(next, menu)); };
   const settle = async () => {
     const before = raw.current;
