@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from granum.core import formula, limit_active
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, Distance, DynamicViscosity, Length, MassFlux, SpecificSurface, Speed
+from granum.numerics import safe_power
 
 SURFACE = {"bubble_diameter": (0.03, 0.3), "superficial_velocity": (0.2, 1.0), "minimum_fluidization_velocity": (0.01, 0.1)}
 ESCAPE = {"particle_diameter": (2e-5, 1e-4), "superficial_velocity": (0.6, 2.0), "terminal_velocity": (0.02, 0.4),
@@ -67,14 +68,16 @@ def disengaging_height_fournol(superficial_velocity: Speed, gravity: Acceleratio
 
 
 @formula(source="smolders2001", equation=r"\mathrm{TDH} = 6\,[(U-U_{mf})\,d_b]^{0.6}", typical=SURFACE)
-def disengaging_height_smolders(superficial_velocity: Speed, minimum_fluidization_velocity: Speed, bubble_diameter: Length) -> Length:
+def disengaging_height_smolders(superficial_velocity: Speed, minimum_fluidization_velocity: Speed, bubble_diameter: Distance) -> Distance:
     """Transport disengaging height by Smolders and Baeyens, from bubbles and excess gas.
+
+    No bubbles throw nothing up: the height is then zero.
 
     >>> round(disengaging_height_smolders(superficial_velocity=1.1, minimum_fluidization_velocity=0.1, bubble_diameter=1.0), 6)
     6.0
     """
     extra = jnp.maximum(superficial_velocity - minimum_fluidization_velocity, 1e-12)
-    return 6.0 * (extra * bubble_diameter) ** 0.6
+    return 6.0 * safe_power(extra * bubble_diameter, 0.6)
 
 
 @formula(source="geldart1979", equation=r"K^*_\infty = 23.7\,\rho_g U\,e^{-5.4\,v_t/U}", typical=ESCAPE)
