@@ -118,6 +118,8 @@ Frequency = Annotated[Any, _nonnegative("frequency", "1/s", "1/min", "1/hour")]
 RotationSpeed = Annotated[Any, _nonnegative("rotation speed", "radian/s", "rpm")]
 SpecificSurface = Annotated[Any, _positive("surface per volume", "1/m", "m^2/cm^3", "1/mm")]
 SpecificSurfaceMass = Annotated[Any, _positive("surface per mass", "m^2/kg", "m^2/g", "cm^2/g")]
+ReciprocalLength = Annotated[Any, _nonnegative("reciprocal length", "1/m", "1/m", "1/mm")]
+NumberPerArea = Annotated[Any, _nonnegative("number per area", "1/m^2", "1/m^2", "1/cm^2")]
 # mass, amount, flow
 Mass = Annotated[Any, _nonnegative("mass", "kg", "kg", "g", "mg", "tonne", "lb")]
 MassFlow = Annotated[Any, _nonnegative("mass flow", "kg/s", "kg/hour", "tonne/hour", "lb/hour")]

@@ -16,3 +16,4 @@ VolumetricHeatTransfer = Annotated[
     Any, Kind("heat transfer coefficient per volume", "W/(m^3*K)", 0.0, display=("W/(m^3*K)", "kW/(m^3*K)", "Btu/(ft^3*hour*delta_degF)"))
 ]
 MassPerArea = Annotated[Any, Kind("mass per area", "kg/m^2", 0.0, open_lower=True, display=("kg/m^2", "g/m^2"))]
+GasDrift = Annotated[Any, Kind("slope per velocity of the gas", "s/m", display=("s/m",))]

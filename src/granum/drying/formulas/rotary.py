@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.kinds import Fraction, Length, MassFlux, Number, PositiveNumber, RotationSpeed, Speed, Time
-from granum.drying.quantities import VolumetricHeatTransfer
+from granum.drying.quantities import GasDrift, VolumetricHeatTransfer
 
 RPM = 2.0 * pi / 60.0
 MINUTE, MICRON = 60.0, 1e-6
@@ -63,7 +63,7 @@ def residence_time_saeman_mitchell(
     gas_velocity: Speed = 0.0,
     against_gas: Number = 1.0,
     cascade_factor: PositiveNumber = 2.0,
-    gas_drift: Number = 0.0,
+    gas_drift: GasDrift = 0.0,
 ) -> Time:
     """Time of passage from the advance of each cascade; the cascade factor grows from 2 for a lightly loaded drum to π for a full one.
 

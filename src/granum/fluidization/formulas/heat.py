@@ -15,6 +15,7 @@ from granum.core.kinds import (
     HeatCapacity,
     HeatTransferCoefficient,
     Length,
+    NumberPerArea,
     PositiveNumber,
     PressureDrop,
     Ratio,
@@ -118,7 +119,7 @@ class Distributor(NamedTuple):
     distributor_pressure_drop: PressureDrop
     orifice_velocity: Speed
     open_area_fraction: Ratio
-    orifices_per_area: PositiveNumber
+    orifices_per_area: NumberPerArea
 
 
 @formula(source="kunii1991, ch. 4",

@@ -18,6 +18,7 @@ from granum.core.kinds import (
     PressureDifference,
     PressureDrop,
     Ratio,
+    ReciprocalLength,
     Velocity,
     Within,
 )
@@ -100,7 +101,7 @@ def permeability_from_conductivity(
 def pressure_drop_forchheimer(
     superficial_velocity: Velocity,
     permeability: Permeability,
-    inertial_coefficient: Ratio,
+    inertial_coefficient: ReciprocalLength,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
     length: Length,
@@ -122,7 +123,7 @@ def pressure_drop_forchheimer(
 def superficial_velocity_forchheimer(
     pressure_drop: PressureDifference,
     permeability: Permeability,
-    inertial_coefficient: Ratio,
+    inertial_coefficient: ReciprocalLength,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
     length: Length,
@@ -142,7 +143,7 @@ def superficial_velocity_forchheimer(
 def forchheimer_number(
     superficial_velocity: Velocity,
     permeability: Permeability,
-    inertial_coefficient: Ratio,
+    inertial_coefficient: ReciprocalLength,
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> Ratio:

@@ -17,7 +17,7 @@ from granum.core.kinds import (
     Permeability,
     PositiveNumber,
     PressureDrop,
-    Ratio,
+    ReciprocalLength,
     Series,
     SpecificSurface,
     Speed,
@@ -53,7 +53,7 @@ class Permeametry(LabTest):
     kozeny_coefficient: PositiveNumber = 5.0
     creeping: bool = False
 
-    estimates: ClassVar = {"permeability": Permeability, "inertial_coefficient": Ratio}
+    estimates: ClassVar = {"permeability": Permeability, "inertial_coefficient": ReciprocalLength}
     axes: ClassVar = {"superficial_velocity": Speed, "pressure_drop": PressureDrop}
 
     def fit(self) -> Fit:
