@@ -150,6 +150,7 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     most = min(MOST, n - p - 1)
     robust = _robust(problem, q, floor)
     beside = problem.residual(robust)
+    whole = float(residual @ residual)
     sets: dict[tuple[int, ...], float] = {}
     for r, J in ((residual, jacobian), (beside, problem.jacobian(robust))):
         sets |= _peeled(r, J, most, p, floor)
@@ -159,13 +160,13 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     for m in range(1, most + 1):
         key = tuple(sorted(order[:m].tolist()))
         rest = np.setdiff1d(np.arange(n), key)
-        sets.setdefault(key, _chance(residual @ residual, beside[rest] @ beside[rest], n, m, p, floor))
+        sets.setdefault(key, _chance(whole, float(beside[rest] @ beside[rest]), n, m, p, floor))
     nothing = ((), (), q, robust)
 
     def refitted(key: tuple[int, ...]) -> tuple[float, tuple[int, ...], np.ndarray]:
         at = _without(problem, (q, robust), key)
         left = np.delete(problem.residual(at), key)
-        return _chance(residual @ residual, left @ left, n, len(key), p, floor), key, at
+        return _chance(whole, float(left @ left), n, len(key), p, floor), key, at
 
     tried = [refitted(key) for key, guess in sets.items() if guess < PROMISING]
     if not any(chance < ERROR for chance, _key, _at in tried):

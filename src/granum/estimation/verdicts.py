@@ -63,7 +63,7 @@ def _shown(value: float, p: Parameter, values: Any) -> str:
     return f"{format_number(float(from_si(value, unit, p.kind)))} {pretty_unit(unit)}".strip()
 
 
-def stray_note(found: Diagnostics, fit: Fit, rows: Rows) -> list[dict[str, Any]]:
+def stray_note(found: Diagnostics, fit: Fit, rows: Rows, least: float = LEAST_EFFECT) -> list[dict[str, Any]]:
     """Which points do not fit with the others, what they do to the estimates, and what to do."""
     if not found.stray:
         return []
@@ -71,7 +71,7 @@ def stray_note(found: Diagnostics, fit: Fit, rows: Rows) -> list[dict[str, Any]]
     values = {n: estimates[n].value for n in found.without}
     parameters = {n: Parameter(n, kind_of(fit.problem.kinds.get(n))) for n in values}
     change = {n: _change(values[n], found.without[n]) for n in values}
-    if not change or max(map(abs, change.values())) < LEAST_EFFECT:
+    if not change or max(map(abs, change.values())) < least:
         return []
     told = sorted(change, key=lambda n: -abs(change[n]))[:SHOWN]
 

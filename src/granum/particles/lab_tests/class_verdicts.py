@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 SCALE = "scale"
 IMPROBABLE = 0.002
+MISFIT = 0.05
+"""No law of sizes holds better than this: what moves an estimate less is the misfit of the law, not a wild class."""
 
 
 def judged_by_class(test: SizeTest, found: Fit, curve: Callable[[Any, Any], Any], rows: np.ndarray) -> Fit:
@@ -53,7 +55,7 @@ def judged_by_class(test: SizeTest, found: Fit, curve: Callable[[Any, Any], Any]
         told = replace(told, without=dict(zip(found.values, (q * found.problem.scale).tolist(), strict=True)),
                        robust={n: v for n, v in told.robust.items() if n != SCALE})  # fmt: skip
         named = replace(test.rows(sizes, shares, rows), elsewhere=_("What passed the finest sieve"))
-        flags += stray_note(told, found, named)
+        flags += stray_note(told, found, named, MISFIT)
     return replace(found, flags=flags, diagnostics=told)
 
 

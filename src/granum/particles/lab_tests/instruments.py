@@ -52,6 +52,10 @@ class LaserDiffraction(SizeTest):
             below = np.concatenate([[0.0], below])
         return SizeDistribution.from_amounts(sizes, np.diff(below), self.basis, self.in_class)
 
+    def class_rows(self) -> np.ndarray:
+        """The row that ends each class, and nothing above the last."""
+        return np.concatenate([np.arange(len(np.asarray(self.particle_diameter))), [-1]])
+
     def points(self) -> tuple[Any, Any]:
         """The curve as measured."""
         return np.asarray(self.particle_diameter), np.asarray(self.cumulative_fraction)
