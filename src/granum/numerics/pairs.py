@@ -38,7 +38,7 @@ def crossing_pair(
     The first residual must rise with the first unknown and fall with the second, the second residual rise with both. Their zero lines
     then cross once, and wherever they are known both signs put the root on one side of one of the unknowns: residuals of one sign bound
     the first unknown, residuals of different signs the second. A Newton step that leaves the box so found, or that neither halves the step before
-    nor lowers the residual, gives way to the middle of the box, so that the work is bounded and no start is bad.
+    nor lowers the residual, gives way to the middle of the box. The number of steps is bounded; ``converged`` judges the residual alone.
 
     Args:
         function: returns two residuals, scaled to about one; the next ``help``, with which its inner searches may start and which must

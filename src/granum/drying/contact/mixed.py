@@ -1,7 +1,7 @@
 """Solid of many classes in a gas that is mixed with it: a well-mixed bed with all its ages, or tanks in series, each with fresh gas.
 
 Whatever the gas in a bed is like, the moisture and temperature of each class follow from it one by one; and the gas has but two unknowns,
-humidity and temperature, between bounds that no dryer can leave. Each search here is for a root that cannot be lost:
+humidity and temperature, between bounds that no dryer can leave. Each search here is for the one root of something that rises or falls:
 
 * of a class in a stretch of its life: the more it dries, the drier and colder it is, the slower it dries;
 * of the gas: the more humid it is, the less goes into it; the hotter, the more water and the less heat is left over for it.
