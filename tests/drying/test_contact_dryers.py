@@ -195,7 +195,7 @@ SIZED = {  # how each type is sized, feed, gas
     "flash": (lambda f, g: FlashDryer.size(0.1, f, g, 20.0, KINETICS, cells=20), wet(0.5, 0.4), air(4.0, 0.01, 450.0)),
     "fluidized bed": (lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS, cells=4), wet(0.5, 0.4), air(8.0, 0.01, 400.0)),
     "fluidized bed, mixed": (
-        lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS, ages=3, age_cells=6),
+        lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS),
         wet(0.5, 0.4),
         air(8.0, 0.01, 400.0),
     ),

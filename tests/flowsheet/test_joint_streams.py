@@ -97,7 +97,7 @@ GAS = {
     "drying.belt_dryer": {"area": 10.0, "layer_depth": 0.05, "bulk_density_dry": 640.0, "kinetics": SURFACE, "layers": 8, "steps": 20},
     "drying.convective_dryer": {"temperature_inlet": "120 degC", "moisture_outlet": 0.02},
     "drying.flash_dryer": {"length": 20.0, "diameter": 0.6, "kinetics": SURFACE},
-    "drying.fluidized_bed_dryer": {"area": 2.0, "mass": 300.0, "kinetics": SURFACE, "ages": 4, "age_cells": 8},
+    "drying.fluidized_bed_dryer": {"area": 2.0, "mass": 300.0, "kinetics": SURFACE},
     "drying.rotary_dryer": {"length": 10.0, "diameter": 1.5, "kinetics": SURFACE, "cells": 10},
     "drying.silo_dryer": {"volume": 20.0, "layer_depth": 0.3, "bulk_density_dry": 640.0, "kinetics": SURFACE, "layers": 8, "steps": 20},
     "drying.tray_dryer": {"temperature_inlet": "120 degC", "gas_velocity": 2.0, "dry_mass_per_area": 30.0, "moisture_outlet": 0.05, "critical_moisture": 0.1},

@@ -21,6 +21,8 @@ import jax.scipy.linalg as linalg
 import numpy as np
 
 from granum.core import law
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import OpenFraction, Ratio, Time, Within
 
 Convention = Literal["continuous", "root_two"]

@@ -20,6 +20,7 @@ _HOME = {
     "cumulative_trapezoid": "quadrature", "cumulative_simpson": "quadrature",
     "interpolate_linear": "interpolation", "MonotoneCubic": "interpolation",
     "slopes_pchip": "interpolation", "slopes_steffen": "interpolation",
+    "crossing_pair": "pairs", "Pair": "pairs",
     "solve_chain": "chains", "advance_chain": "chains", "ChainSolution": "chains", "Cells": "chains", "Rates": "chains", "History": "chains",
     "safe_where": "smooth", "safe_divide": "smooth", "safe_log": "smooth", "safe_sqrt": "smooth", "safe_power": "smooth",
     "positive_part": "smooth", "blend": "smooth",

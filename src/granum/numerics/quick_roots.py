@@ -21,9 +21,11 @@ MOST = 120
 
 
 def falling_root(
-    balance: Callable[..., Any], lower: Any, upper: Any, *arguments: Any, start: Any = None, rough_slope: Callable[[Any], Any] | None = None
-) -> Any:
-    """The root of an elementwise function that is positive at ``lower`` and negative at ``upper``, both greater than zero.
+    balance: Callable[..., Any], lower: Any, upper: Any, *arguments: Any, start: Any = None, rough_slope: Callable[[Any], Any] | None = None,
+    size: Any = 0.0,
+) -> Any:  # fmt: skip
+    """The root of an elementwise function that is positive at ``lower`` and negative at ``upper``, both greater than zero unless ``size``
+    gives the size of an unknown near zero.
 
     Newton's step where it stays inside the shrinking bracket and at least halves the one before, bisection otherwise. Derivatives are
     exact (implicit function theorem). With ``rough_slope``, a cheap approximate derivative, secants take the place of tangents: better for
@@ -32,6 +34,7 @@ def falling_root(
     lower, upper = (lax.stop_gradient(jnp.asarray(x, dtype=float)) for x in (lower, upper))
     shape = jnp.broadcast_shapes(lower.shape, upper.shape, *(jnp.shape(a) for a in arguments))
     lower, upper = jnp.broadcast_to(lower, shape), jnp.broadcast_to(upper, shape)
+    least = lax.stop_gradient(TOLERANCE * jnp.asarray(size, dtype=float))
     guess = 0.5 * (lower + upper)
     if start is not None:
         start = lax.stop_gradient(jnp.broadcast_to(start, shape))
@@ -50,12 +53,12 @@ def falling_root(
             following = jnp.where(fits, ahead, 0.5 * (low + high))
             # bisection leaves its whole interval, so it has to go on until that is a thousand times smaller
             next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
-            moving = jnp.abs(size) > TOLERANCE * x
+            moving = jnp.abs(size) > TOLERANCE * jnp.abs(x) + least
             return jnp.where(moving, following, x), low, high, jnp.where(moving, next_size, size), count + 1
 
         def unfinished(carry: tuple) -> Any:
             x, _low, _high, size, count = carry
-            return jnp.any(jnp.abs(size) > TOLERANCE * x) & (count < MOST)
+            return jnp.any(jnp.abs(size) > TOLERANCE * jnp.abs(x) + least) & (count < MOST)
 
         return lax.while_loop(unfinished, advance, (first, lower, upper, 4.0 * (upper - lower), 0))[0]
 

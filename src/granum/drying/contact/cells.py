@@ -97,6 +97,13 @@ class Profile(NamedTuple):
     gas_enthalpy: Any
     heat_duty: Any  # taken up from walls less lost
     converged: Any
+    leaves: Any  # whether solid leaves the dryer from a place
+
+    @property
+    def wettest(self) -> Any:
+        """Moisture of the wettest class that leaves the dryer."""
+        there = self.leaves[:, None] & (self.shares > 1e-9)
+        return jnp.max(jnp.where(there, self.moisture, 0.0))
 
 
 class CellRow(NamedTuple):
@@ -267,7 +274,8 @@ class Contact(eqx.Module):
         place = (jnp.arange(n) + 0.5) / n
         wall = self.wall_exchange * (self.wall_temperature - Ts)
         duty = jnp.sum(self.solid * wall) - jnp.sum(self.heat_loss * jnp.ones(n))
-        return Profile(shares, place, X, Ts, Y, Tg, out[:m], ENTHALPY * out[m : 2 * m], out[-2], ENTHALPY * out[-1], duty, converged)
+        water, heat = out[:m], ENTHALPY * out[m : 2 * m]
+        return Profile(shares, place, X, Ts, Y, Tg, water, heat, out[-2], ENTHALPY * out[-1], duty, converged, jnp.arange(n) == n - 1)
 
     def dynamic(self, start: Cells, inlets: Inlet, step: Any) -> tuple[Profile, Any]:
         """States over time from a state, inlets having a leading axis of steps; and the water and heat (10⁵ J) that left up to each."""

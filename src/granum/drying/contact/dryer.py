@@ -136,7 +136,7 @@ class Dryer(Unit):
         return DryerFigures(
             evaporation_rate=evaporated,
             moisture_dry_basis=outlets.product.moisture_dry_basis,
-            moisture_dry_basis_highest=jnp.max(jnp.where(some, found.moisture[-1], 0.0)),
+            moisture_dry_basis_highest=found.wettest,
             temperature_product=outlets.product.temperature,
             temperature_product_highest=jnp.max(jnp.where(some, found.temperature, 0.0)),
             temperature_exhaust=exhaust.temperature,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -36,6 +36,7 @@ class Meeting(NamedTuple):
     humidity: Any
     exchange: Any  # heat transfer coefficient times area per dry solid, W/(K kg)
     matter: Matter
+    known_wet_bulb: Any = None
 
     @property
     def conductance(self) -> Any:
@@ -61,6 +62,8 @@ class Meeting(NamedTuple):
     @property
     def wet_bulb(self) -> Any:
         """Surface temperature at which heat through the film just feeds evaporation."""
+        if self.known_wet_bulb is not None:
+            return self.known_wet_bulb
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
         q = jnp.minimum(vapor_pressure(T) / m.pressure, NEAR_BOILING)  # gas beyond saturation is its own wet bulb
@@ -75,7 +78,9 @@ class Meeting(NamedTuple):
 
 
 class AbstractKinetics(eqx.Module):
-    """A rate of drying. Negative where the gas wets the solid."""
+    """A rate of drying. Negative where the gas wets the solid. ``asks_wet_bulb``: whether it needs that of the gas."""
+
+    asks_wet_bulb: ClassVar[bool] = False
 
     @abstractmethod
     def rate(self, at: Meeting) -> Any:
@@ -137,6 +142,8 @@ class VanMeelKinetics(_Curved):
     >>> float(VanMeelKinetics(critical_moisture=0.2)())
     0.2
     """
+
+    asks_wet_bulb: ClassVar[bool] = True
 
     def rate(self, at: Meeting) -> Any:
         m, Tw = at.matter, at.wet_bulb

@@ -74,5 +74,5 @@ def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_entha
     heat = jnp.array([flow * product_enthalpy(like, last)])
     return Profile(
         jnp.full(n, 1.0 / n), time / time[-1], X, T, Y, Tg, water, heat, flow * vapor, flow * gas_enthalpy, jnp.zeros(()),
-        jnp.all(jnp.stack([jnp.all(p.layers.converged) for p in found])),
+        jnp.all(jnp.stack([jnp.all(p.layers.converged) for p in found])), jnp.arange(len(time)) == len(time) - 1,
     )  # fmt: skip

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 import jax.numpy as jnp
-import numpy as np
 
 from granum.core import equipment
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
-from granum.drying.contact.cells import Contact, Inlet, Network, Profile
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, sized
+from granum.drying.contact.cells import Contact, Network, Profile
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
+from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
+from granum.drying.contact.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
 from granum.fluidization.formulas.bubbles import (
     bubble_diameter_darton,
     bubble_exchange_rate_cloud,
@@ -31,9 +33,9 @@ DIFFUSIVITY = 2.6e-5  # m²/s of vapor in air at 25 °C, for the exchange betwee
 class FluidBedDryer(ContactDryer):
     """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in bubbles.
 
-    With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed times, represented by ages at the
-    points of a Gauss–Laguerre rule. With more cells solid flows along the bed through that many tanks in series, each with fresh gas. The
-    bypass is the bubble gas that has not been exchanged on its way up, unless it is given.
+    With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed times, so that some leave as they
+    came. With more cells solid flows along the bed through that many tanks in series, each with fresh gas. The bypass is the bubble
+    gas that has not been exchanged on its way up, unless it is given.
     """
 
     area: Area
@@ -44,8 +46,6 @@ class FluidBedDryer(ContactDryer):
     void_fraction: VoidFraction = 0.45
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
-    ages: Annotated[int, Within(1, 200)] = 8
-    age_cells: Annotated[int, Within(1, 2000)] = 24
 
     def extent(self) -> Any:
         return self.area
@@ -80,36 +80,24 @@ class FluidBedDryer(ContactDryer):
         nusselt = nusselt_number_gunn.function(Re, gas.gas_heat_capacity * gas.gas_viscosity / conductivity, self.void_fraction)
         return nusselt * conductivity / sizes * 6.0 / (sizes * feed.solid_density)
 
-    def _ages(self) -> tuple[np.ndarray, np.ndarray]:
-        if self.cells > 1:
-            return np.ones(1), np.ones(1)
-        nodes, weights = np.polynomial.laguerre.laggauss(self.ages)
-        return nodes / np.sum(nodes * weights), weights / weights.sum()
-
     def contact(self, feed: Stream, gas: Stream) -> Contact:
-        nodes, weights = self._ages()
-        n = self.cells if self.cells > 1 else self.age_cells
-        F = jnp.repeat(feed.solid_by_size, len(nodes)) * jnp.tile(weights, len(feed.mixture.sizes))
-        time = self.mass / jnp.maximum(feed.solid_flow, 1e-12) * jnp.tile(nodes, len(feed.mixture.sizes))
-        exchange = jnp.repeat(self._specific(feed, gas), len(nodes))
-        matter = Matter.of(feed, gas)
-        matter = Matter(
-            matter.mixture, matter.vapor, jnp.repeat(matter.solid_shares, len(nodes), axis=1), matter.gas_shares, matter.pressure
-        )
-        solid = jnp.broadcast_to(F * time / n, (n, F.shape[0]))
-        dry = (gas.gas_flow - gas.gas[matter.vapor]) * (1.0 - self.bypass(feed, gas))
-        network = Network.cross_current(n) if self.cells > 1 else Network.mixed(n)
+        """Tanks in series; one tank has no ages, for which ``profile`` is there."""
+        n, bed = self.cells, self.bed(feed, gas)
+        time, solid = bed.time / n, jnp.broadcast_to(bed.flow * bed.time / n, (n, bed.flow.shape[0]))
         return Contact(
-            matter, self.kinetics, solid, jnp.broadcast_to(n / time, solid.shape), dry, network, lambda X, Ts, Tg, Y: exchange,
-            heat_loss=self.heat_loss / n,
+            bed.matter, self.kinetics, solid, jnp.full_like(solid, 1.0) / time, bed.gas_flow, Network.cross_current(n),
+            lambda X, Ts, Tg, Y: bed.exchange, heat_loss=self.heat_loss / n,
         )  # fmt: skip
 
-    def inlet(self, feed: Stream, gas: Stream) -> Inlet:
-        X = jnp.full(len(feed.mixture.sizes) * len(self._ages()[0]), 1.0) * feed.moisture_dry_basis
-        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+    def bed(self, feed: Stream, gas: Stream) -> Bed:
+        """The whole bed, the feed ``counted`` as dry matter and water."""
+        matter = Matter.of(feed, gas)
+        dry = (gas.gas_flow - gas.gas[matter.vapor]) * (1.0 - self.bypass(feed, gas))
+        time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
+        return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss)
 
     def profile(self, feed: Stream, gas: Stream) -> Profile:
-        found, share = super().profile(feed, gas), self.bypass(feed, gas)
+        found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
         vapor = gas.gas[feed.mixture.index("gases", "water")]
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
         return found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
@@ -139,3 +127,15 @@ class FluidBedDryer(ContactDryer):
             Check("residence time of the solid", figures.residence_time, 120.0, 3600.0, "s", table),
             Check("water evaporated per area and hour", self.hourly(figures), 30.0, 200.0, "kg/(hour*m^2)", table),
         )
+
+
+@recalled
+def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
+    dry, n = counted(feed), dryer.cells
+    bed = dryer.bed(dry, gas)
+    bed = replace(bed, matter=replace(bed.matter, dissolved=composition(feed)))
+    X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
+    before, fresh = Solid(X, jnp.full_like(X, 1.0) * feed.temperature), Gas(humidity_of(gas), jnp.asarray(gas.temperature, dtype=float))
+    if n == 1:
+        return steady_bed(bed, before, fresh)
+    return steady_tanks(replace(bed, time=bed.time / n, gas_flow=bed.gas_flow / n, heat_loss=bed.heat_loss / n), before, fresh, n)
