@@ -89,13 +89,13 @@ def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | Non
 def _pair(name: str, value: str, mark: str) -> tuple[str, str]:
     """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has none."""
     first, _mark, second = value.partition(mark)
-    found = [read_number(part) for part in (first, second)]
-    if found[0] is None or found[1] is None:
+    low, high = read_number(first), read_number(second)
+    if low is None or high is None:
         raise InputError(
             _("'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um.").format(name=name, value=value),
             name=name,
         )
-    (one, unit), (_two, last) = found
+    (one, unit), (_two, last) = low, high
     return (f"{repr(one).removesuffix('.0')} {unit or last}".strip() if mark == ".." or last != "%" else first.strip()), second.strip()
 
 

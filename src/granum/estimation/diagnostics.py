@@ -234,7 +234,7 @@ def _best_pair(residual: np.ndarray, jacobian: np.ndarray, p: int, floor: float)
     return {(i, j): _chance(squares, max(squares - float(lowered[i, j]), 0.0), residual.size, 2, p, floor)}
 
 
-def _chance(before: float, after: float, n: int, m: int, p: int, floor: float) -> float:
+def _chance(before: Any, after: Any, n: int, m: int, p: int, floor: float) -> float:
     """Probability that leaving out the best m of n points lowers the sum of squares as much by chance (Bonferroni over all sets)."""
     dof = n - m - p
     after = max(after, dof * floor**2, 1e-300)
