@@ -15,6 +15,8 @@ from annotated_types import Ge, Le
 from granum.cases import schema
 from granum.core import registry, units
 from granum.core.errors import GranumError, InputError
+from granum.core.glossary import endings, parsed_ending, quantity_in
+from granum.core.i18n import catalog
 from granum.core.parameters import Parameter, convert
 
 CARDS = {key: thing.card for key, thing in registry.everything().items()}
@@ -160,3 +162,21 @@ def test_what_is_refused_by_a_card_is_refused_when_it_is_called() -> None:
     with pytest.raises(InputError, match="beside its series"):
         backwash(bed_expansion=np.full(7, 0.3), class_sizes=[1e-3, 8e-4, 6e-4], class_fractions=[0.3, 0.4, 0.3], particle_density=2650.0,
                  fluid_density=1000.0, dynamic_viscosity=1e-3, void_fraction_settled=0.42)  # fmt: skip
+
+
+def test_titles_name_no_author_who_does_not_exist() -> None:
+    """Every word of a derived title's ending is a known author or a qualifier with both languages."""
+    known = set(endings()["authors"].values())
+    unknown = []
+    for key, card in CARDS.items():
+        word = quantity_in(card.name)
+        rest = card.name[len(word or "") :].strip("_")
+        french = catalog("fr").get(rest.replace("_", " "), "")
+        if card.given_title or not word or not rest or french[:1].islower() or french.isupper():
+            continue
+        authors, qualifiers = parsed_ending(rest)
+        unknown += [(key, name) for name in authors if name not in known]
+        assert all(found["en"] and found["fr"] for found in qualifiers)
+    assert not unknown
+    assert CARDS["particles.wall_factor_di_felice"].title.endswith("(Di Felice)")
+    assert not any("Retained" in card.title or "–Power" in card.title or "Mean–" in card.title for card in CARDS.values())

@@ -6,6 +6,7 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from granum.core.errors import unknown_name
 from granum.core.i18n import _, catalog, current_language
@@ -75,10 +76,39 @@ def quantity_in(name: str) -> str | None:
     return None
 
 
+@cache
+def endings() -> dict[str, dict[str, Any]]:
+    """Authors by the words of keys, and qualifiers in both languages, read from ``granum/core/endings.toml``."""
+    return tomllib.loads((files("granum") / "core" / "endings.toml").read_text(encoding="utf-8"))
+
+
 def ending(rest: str) -> str:
-    """What follows the glossary word in a name: the authors of a correlation, or words, which are those that have a translation."""
+    """What follows the glossary word in a name: words that have a translation, or the authors of a correlation and what qualifies it.
+
+    >>> ending("di_felice"), ending("retained_stairmand"), ending("turbulent")
+    ('Di Felice', 'Stairmand, retained', 'turbulent')
+    """
     phrase = rest.replace("_", " ")
     french = catalog("fr").get(phrase, "")
     if french.isupper():
         return french
-    return _(phrase) if french[:1].islower() else "–".join(part.capitalize() for part in rest.split("_"))
+    if french[:1].islower():
+        return _(phrase)
+    authors, qualifiers = parsed_ending(rest)
+    language = "fr" if current_language() == "fr" else "en"
+    return ", ".join(filter(None, ("–".join(authors), *(found[language] for found in qualifiers))))
+
+
+def parsed_ending(rest: str) -> tuple[list[str], list[dict[str, str]]]:
+    """Authors and qualifiers of an ending; a word that is neither stands as it is among the authors."""
+    known, words = endings(), rest.split("_")
+    authors: list[str] = []
+    qualifiers: list[dict[str, str]] = []
+    while words:
+        count = next((n for n in (2, 1) if any("_".join(words[:n]) in table for table in known.values())), 1)
+        word, words = "_".join(words[:count]), words[count:]
+        if word in known["qualifiers"]:
+            qualifiers.append(known["qualifiers"][word])
+        else:
+            authors.append(known["authors"].get(word, word))
+    return authors, qualifiers
