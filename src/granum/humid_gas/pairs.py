@@ -31,7 +31,7 @@ class AbstractPair(eqx.Module):
     lowest_temperature: ClassVar[float]
     highest_temperature: ClassVar[float]
     highest_condensation: ClassVar[float] = float("inf")  # no liquid above, so that a wet bulb there is an extrapolation
-    highest_pressure: ClassVar[float] = float("inf")  # beyond it the substances are no longer what the pair takes them for
+    highest_pressure: ClassVar[float] = 1e7  # beyond it the substances are no longer what the pair takes them for
     heavy_vapor: ClassVar[bool] = False  # whether evaporation can shrink the gas, so that two states share a volume
 
     @abstractmethod

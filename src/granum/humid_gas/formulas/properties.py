@@ -98,7 +98,7 @@ def relative_humidity(
     return gas.y / rel.saturated_fraction(pair, gas.T, pressure)
 
 
-@formula(source=_SOURCE, equation=r"p_s(T_r) = p_v", fitted={"pressure": RANGE["pressure"]}, typical=_WARM, title="Dew or frost point")
+@formula(source=_SOURCE, equation=r"p_s(T_r) = p_v", typical=_WARM, title="Dew or frost point")
 def dew_point_temperature(
     humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
 ) -> Temperature:

@@ -34,7 +34,8 @@ GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
 NO_DEW_POINT = "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given instead."
 IDEAL = "Both gases are taken as ideal there: give the pair air_water_real, which is the real mixture."
 NO_SATURATION = "Above the boiling point no gas is saturated and percentage humidity has no meaning: give the humidity ratio."
-RANGE = {"temperature": (213.0, 623.2), "pressure": (1e3, 1e7)}
+RANGE = {"temperature": (213.0, 623.2)}  # that of the pressure is the pair's
+LEAST_PRESSURE, MOST_PRESSURE = 1e3, 1e7
 
 
 class HumidGasState(NamedTuple):
@@ -59,9 +60,10 @@ class HumidGasState(NamedTuple):
 
 def within_pair(pair: Any, pressure: Any) -> None:
     """Inside a formula body: flag pressures at which the substances of a pair are no longer what it takes them for."""
-    highest = pair.highest_pressure
-    if highest < jnp.inf:
-        flags.extrapolated(jnp.asarray(pressure) > highest, pressure, "pressure", high=highest, reason=IDEAL)
+    P, highest = jnp.asarray(pressure), pair.highest_pressure
+    flags.extrapolated(
+        (P < LEAST_PRESSURE) | (highest < P), P, "pressure", LEAST_PRESSURE, highest, IDEAL if highest < MOST_PRESSURE else ""
+    )
 
 
 @formula(
