@@ -125,8 +125,8 @@ def solubility(temperature: Temperature, system: str = "potassium nitrate") -> S
     Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per mass of anhydrous solute.
     The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
 
-    >>> round(solubility("10 degC").solubility_per_solvent, 2)
-    0.21
+    >>> round(solubility("20 degC").solubility_per_solvent, 2)
+    0.32
     """
     from granum.materials.library import solute
 
