@@ -197,7 +197,7 @@ def glass_transition_temperature(
 ) -> Temperature:
     """Temperature above which an amorphous product softens, sticks and cakes; water lowers it.
 
-    >>> round(glass_transition_temperature(0.05, "101 degC", 6.7, "-135 degC") - 273.15, 0)
+    >>> round(glass_transition_temperature(0.05, "101 degC", 6.7) - 273.15, 0)
     42.0
     """
     k = gordon_taylor_constant * moisture_dry_basis
