@@ -62,7 +62,8 @@ class Parameter:
         """The temperature below which a number has forgotten its unit; None for other kinds."""
         if self.kind is None or self.kind.name != "temperature":
             return None
-        return COLDEST if self.fitted is None else min(COLDEST, self.fitted[0])
+        known = [COLDEST, *(self.fitted or ())[:1], *([self.default] if isinstance(self.default, float) else [])]
+        return min(known)
 
     @property
     def term(self) -> Term | None:

@@ -241,7 +241,8 @@ class Bed(eqx.Module):
             guess = self.solved(before, fresh, False).gas
         start = 0.5 * (low + high) if guess is None else jnp.stack([guess.humidity, guess.temperature])
         found = crossing_pair(lacks, low, high, start, nothing, self.cleared)
-        return Found(Gas(found.value[0], found.value[1]), *found.made, found.converged)
+        moisture, enthalpy, lived = found.made
+        return Found(Gas(found.value[0], found.value[1]), moisture, enthalpy, lived, found.converged)
 
 
 def steady_bed(bed: Bed, before: Solid, fresh: Gas) -> Profile:
@@ -254,7 +255,7 @@ def steady_bed(bed: Bed, before: Solid, fresh: Gas) -> Profile:
     older = stretches.older * np.exp(-0.5 * stretches.length)
     like = jnp.ones(STRETCHES + 1)
     return Profile(
-        _shares(bed.flow), jnp.append(0.0, 1.0 - older), *entered, found.gas.humidity * like, found.gas.temperature * like,
+        _shares(bed.flow), jnp.append(0.0, 1.0 - older), entered.moisture, entered.temperature, found.gas.humidity * like, found.gas.temperature * like,
         bed.flow * found.moisture, bed.flow * found.enthalpy, bed.gas_flow * found.gas.humidity,
         bed.gas_flow * bed.matter.moist_gas(found.gas.temperature, found.gas.humidity), -bed.heat_loss * jnp.ones(()), found.converged, like > 0,
     )  # fmt: skip
