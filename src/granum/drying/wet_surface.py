@@ -25,7 +25,8 @@ def require_water(mixture: Mixture, *, carried: bool = False) -> None:
             _("This dryer evaporates water only: the first liquid of the mixture must be water (it is {liquid}), with water among the gases ({gases}).").format(
                 liquid=first, gases=", ".join(gases) or "–")
         )  # fmt: skip
-    if carried and (len(gases) != 2 or gases[1] != "water"):
+    burnt = [gas.name for gas in mixture.gases if gas.composition != ((gas.name, 1.0),)]  # fuels, of which nothing is left in a dryer
+    if carried and (len(gases) - len(burnt) != 2 or gases[1] != "water"):
         raise ApplicabilityError(
             _('This dryer knows one carrier gas and its water vapor, in that order, such as gases = ["dry air", "water"]; the mixture has {gases}.').format(
                 gases=", ".join(gases))
