@@ -66,7 +66,8 @@ class VibratingScreen(Unit):
             h, 1.0 - below, fraction_below(feed, 0.5 * h), near, self.deck, self.wetting, self.bulk_density, self.open_area_fraction
         )
         flux = feed.solid_flow * below / self.screen_area
-        cut = jnp.minimum(karra.cut_size_karra(h, flux, capacity), self.aperture)
+        light = jnp.maximum(flux, 1e-9 * capacity)  # an idle screen cuts at its aperture as well
+        cut = jnp.minimum(karra.cut_size_karra(h, light, capacity), self.aperture)
         return _Load(h, capacity, flux / capacity, cut)
 
     def _screen(self, feed: Stream) -> Screen:

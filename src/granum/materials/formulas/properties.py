@@ -163,8 +163,8 @@ def saturated_solution(temperature: Temperature, system: str = "potassium nitrat
     Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per mass of anhydrous solute.
     The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
 
-    >>> round(saturated_solution("20 degC").liquid_density)
-    1163
+    >>> round(saturated_solution("20 degC").liquid_density / 1e3, 2)
+    1.16
     """
     from granum.materials.library import solute
 
