@@ -285,7 +285,7 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
         if bad.any():
             first = int(np.argmax(bad.ravel()))
             raise out_of_bounds(array.ravel()[first], parameter, where + _(" (item {index})").format(index=first + 1))
-    elif not several:
+    elif not several and not (hasattr(value, "at") and _inside_a_formula()):
         raise InputError(
             _("'{name}' takes one value{where}; {count} were given. Call it once for each, or vary it with 'granum study'.").format(
                 name=parameter.name, where=where, count=np.size(value)
@@ -293,6 +293,13 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
             name=parameter.name,
         )
     return value
+
+
+def _inside_a_formula() -> bool:
+    """Whether a body is running: what it hands to a law is an array wherever its own inputs are."""
+    from granum.core import flags
+
+    return flags.nested()
 
 
 def _items(values: Any, parameter: Parameter, where: str) -> Any:

@@ -26,7 +26,7 @@ def _reader(name: str, annotation: Any) -> Callable[[Any], Any]:
     kind = kind_of(annotation)
     assert isinstance(kind, Kind)
     parameter = Parameter(name, kind)
-    return lambda value: convert(value, parameter)
+    return lambda value: convert(value, parameter, several=True)
 
 
 as_temperature = _reader("temperature", _Temperature)
