@@ -154,7 +154,7 @@ class Bed(eqx.Module):
             return jnp.sum(s.weights * rates(s.points, temperature(loss)), axis=0) - loss
 
         # colder than cold nothing dries; what is drier than its equilibrium does not dry either
-        low, high = lax.stop_gradient(rates(X0, jnp.stack([COLD + 0.0 * T0, jnp.maximum(T0, warm)])))
+        low, high = lax.stop_gradient(rates(jnp.stack([X0, X0]), jnp.stack([COLD + 0.0 * T0, jnp.maximum(T0, warm)])))
         high = jnp.where(rest < X0, jnp.minimum(jnp.maximum(high, 0.0), most), 0.0)
         size = jnp.max(abs(X0)) + jnp.max(abs(rest))
         slack = 1e-9 * size
@@ -264,7 +264,7 @@ class Bed(eqx.Module):
             water = gas.humidity - fresh.humidity - jnp.sum(F * (before.moisture - X))
             heat = m.moist_gas(gas.temperature, gas.humidity) - Hg0 - jnp.sum(F * (H0 - H)) + self.heat_loss / self.gas_flow
             # with the water balance so much of it, evaporation cancels where all solid has one temperature: what is left is smooth
-            weights = F * shares * (abs(lived.loss) + LEAST)
+            weights = F * shares * (abs(before.moisture - lived.moisture) + LEAST)
             reference = m.liquid_enthalpy(jnp.sum(weights * lived.temperature) / jnp.sum(weights))
             return jnp.stack([water / (1e-3 + most), (heat - reference * water) / ENTHALPY]), lived.loss, (X, H, lived)
 
