@@ -121,7 +121,7 @@ def _crossing(function: Any, allowed: Any, most: int, given: Any, allowing: Any,
 def _turned(function: Any, allowed: Any, most: int, primals: tuple, tangents: tuple) -> tuple:
     """Implicit function theorem."""
     found = _crossing(function, allowed, most, *primals)
-    x, made, residual, number, known = found
+    x, _made, residual, number, known = found
     given, turned = primals[0], tangents[0]
 
     def outcome(x: jax.Array, given: Any) -> tuple[jax.Array, Any]:

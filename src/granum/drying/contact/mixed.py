@@ -31,6 +31,7 @@ FIRST, LAST, STRETCHES = 0.002, 10.0, 20  # ages in residence times: the first s
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
 COOLER, WARMER = 100.0, 5.0  # K that the gas may be below the coldest and above the hottest inlet
+CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its vapor goes into the solid
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
 NEARLY, GUESSES = 0.9, 8  # relative humidity of the guess; its halvings
@@ -254,7 +255,7 @@ class Bed(eqx.Module):
         shares = jnp.asarray(life().share)[:, None] if ages else 1.0
         most = fresh.humidity + jnp.sum(F * before.moisture)
         low = jnp.stack([-1e-9, jnp.maximum(jnp.min(inlets) - COOLER, COLD)])
-        high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER])
+        high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER + CONDENSING * fresh.humidity])
 
         def lacks(x: Any, start: Any) -> tuple[Any, Any, Any]:
             gas = Gas(x[0], x[1])
