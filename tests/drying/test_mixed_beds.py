@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import granum as gr
+from granum.core.errors import InputError
 from granum.drying.contact.dryer import PLAIN, ready
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting, SurfaceKinetics
 from granum.drying.contact.matter import Matter
@@ -93,6 +94,15 @@ def test_deep_beds_of_coarse_grains() -> None:
     assert left.max() < 1e-9
     assert (np.diff(moisture) < 0).all()
     assert 0.0 < moisture[-1] < moisture[0] < 0.2
+
+
+def test_a_well_mixed_bed_in_time_is_refused() -> None:
+    """One cell has ages in the steady state, which the run in time does not follow."""
+    feed = empty(MIXTURE, 293.15).replace(solid=jnp.array([[1.0]]), liquid=jnp.array([0.2]))
+    gas = empty(MIXTURE, 423.15).replace(gas=jnp.array([9.9, 0.1]))
+    bed = FluidBedDryer(area=8.0, mass=600.0, kinetics=SurfaceKinetics(0.1))
+    with pytest.raises(InputError, match="'cells' = 2 or more"):
+        bed.dynamic(feed, gas, 10.0, bed.inlet(feed, gas))
 
 
 def random_bed(x):
