@@ -200,7 +200,7 @@ class ContactDryer(Dryer):
         """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets that change from step to step."""
         core = self.core(feed, gas)
         if start is None:
-            found = core.steady(self.inlet(counted(feed), gas))
+            found = self.profile(feed, gas)
             start = core.state(found.moisture, found.temperature, found.humidity, found.gas_temperature)
         return core.dynamic(start, inlets, step)
 

@@ -23,7 +23,7 @@ from jax import lax
 
 from granum.drying.contact.cells import Profile
 from granum.drying.contact.kinetics import LEAST, AbstractKinetics, Meeting
-from granum.drying.contact.matter import Matter, slope, vapor_pressure
+from granum.drying.contact.matter import Matter, slope, temperature_at, vapor_pressure
 from granum.numerics import crossing_pair
 from granum.numerics.quick_roots import falling_root
 
@@ -31,8 +31,10 @@ FIRST, LAST, STRETCHES = 0.002, 10.0, 20  # ages in residence times: the first s
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
 COOLER, WARMER = 100.0, 5.0  # K that the gas may be below the coldest and above the hottest inlet
+CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its vapor goes into the solid
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
+NEARLY, GUESSES = 0.9, 8  # relative humidity of the guess; its halvings
 _NODES, _WEIGHTS = (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)), (0.5, 0.5)  # of Gauss and Legendre between 0 and 1
 
 
@@ -55,6 +57,11 @@ class Life(NamedTuple):
 
     length: Any
     older: Any  # at the beginning
+
+    @property
+    def share(self) -> Any:
+        """Of all solid, on each."""
+        return -self.older * np.expm1(-self.length)
 
 
 class Spread(NamedTuple):
@@ -148,7 +155,7 @@ class Bed(eqx.Module):
             return jnp.sum(s.weights * rates(s.points, temperature(loss)), axis=0) - loss
 
         # colder than cold nothing dries; what is drier than its equilibrium does not dry either
-        low, high = lax.stop_gradient((rates(X0, COLD + 0.0 * T0), rates(X0, jnp.maximum(T0, warm))))
+        low, high = lax.stop_gradient(rates(jnp.stack([X0, X0]), jnp.stack([COLD + 0.0 * T0, jnp.maximum(T0, warm)])))
         high = jnp.where(rest < X0, jnp.minimum(jnp.maximum(high, 0.0), most), 0.0)
         size = jnp.max(abs(X0)) + jnp.max(abs(rest))
         slack = 1e-9 * size
@@ -217,15 +224,38 @@ class Bed(eqx.Module):
         bulb = self.meeting(before.moisture, before.temperature, gas, None).wet_bulb if self.kinetics.asks_wet_bulb else None
         return self.kinetics.equilibrium(self.meeting(before.moisture, before.temperature, gas, bulb)), bulb
 
+    def likely(self, before: Solid, fresh: Gas, enthalpy: Any) -> Gas:
+        """Gas and solid of one temperature, most of the water evaporated or the gas nearly saturated; so much enthalpy per kg of dry gas."""
+        m, F = self.matter, self.flow / self.gas_flow
+        water = jnp.sum(F * before.moisture)
+
+        def met(share: Any) -> Gas:
+            def held(T: Any) -> Any:
+                return m.moist_gas(T, Y) + jnp.sum(F * m.moist_solid(T * jnp.ones_like(F), before.moisture * (1.0 - share)))
+
+            Y = fresh.humidity + share * water
+            T = temperature_at(held, enthalpy, fresh.temperature)
+            return Gas(Y, jnp.clip(T, COLD, HOT))
+
+        def halve(_step: int, carry: tuple[Any, Any, Gas]) -> tuple[Any, Any, Gas]:
+            low, high, _last = carry
+            middle = 0.5 * (low + high)
+            gas = met(middle)
+            wet = m.relative_humidity(gas.temperature, gas.humidity) > NEARLY
+            return jnp.where(wet, low, middle), jnp.where(wet, middle, high), gas
+
+        zero = 0.0 * (enthalpy + water + fresh.humidity + fresh.temperature)
+        return lax.fori_loop(0, GUESSES, halve, (zero, zero + 1.0, Gas(zero, zero)))[2]
+
     def solved(self, before: Solid, fresh: Gas, ages: bool, guess: Gas | None = None) -> Found:
         """The gas that leaves what enters it, and the solid in it."""
         m, F = self.matter, self.flow / self.gas_flow
         H0, Hg0 = m.moist_solid(before.temperature, before.moisture), m.moist_gas(fresh.temperature, fresh.humidity)
         inlets = jnp.append(before.temperature, fresh.temperature)
-        reference = m.liquid_enthalpy(self.meeting(before.moisture, before.temperature, fresh, None).wet_bulb)
+        shares = jnp.asarray(life().share)[:, None] if ages else 1.0
         most = fresh.humidity + jnp.sum(F * before.moisture)
         low = jnp.stack([-1e-9, jnp.maximum(jnp.min(inlets) - COOLER, COLD)])
-        high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER])
+        high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER + CONDENSING * fresh.humidity])
 
         def lacks(x: Any, start: Any) -> tuple[Any, Any, Any]:
             gas = Gas(x[0], x[1])
@@ -234,12 +264,16 @@ class Bed(eqx.Module):
             X, H = (jnp.sum(v, axis=0) if ages else v for v in (lived.water, lived.enthalpy))
             water = gas.humidity - fresh.humidity - jnp.sum(F * (before.moisture - X))
             heat = m.moist_gas(gas.temperature, gas.humidity) - Hg0 - jnp.sum(F * (H0 - H)) + self.heat_loss / self.gas_flow
+            # with the water balance so much of it, evaporation cancels where all solid has one temperature: what is left is smooth
+            weights = F * shares * (abs(before.moisture - lived.moisture) + LEAST)
+            reference = m.liquid_enthalpy(jnp.sum(weights * lived.temperature) / jnp.sum(weights))
             return jnp.stack([water / (1e-3 + most), (heat - reference * water) / ENTHALPY]), lived.loss, (X, H, lived)
 
         nothing = jnp.full(((STRETCHES,) if ages else ()) + before.moisture.shape, jnp.nan)
-        if guess is None and ages:  # a tank of the same size costs a twentieth
-            guess = self.solved(before, fresh, False).gas
-        start = 0.5 * (low + high) if guess is None else jnp.stack([guess.humidity, guess.temperature])
+        likely = lax.stop_gradient(self.likely(before, fresh, Hg0 + jnp.sum(F * H0) - self.heat_loss / self.gas_flow))
+        if guess is not None:
+            likely = jax.tree.map(lambda known, made: jnp.where(jnp.isfinite(known), known, made), guess, likely)
+        start = jnp.stack(likely)
         found = crossing_pair(lacks, low, high, start, nothing, self.cleared)
         moisture, enthalpy, lived = found.made
         return Found(Gas(found.value[0], found.value[1]), moisture, enthalpy, lived, found.converged)

@@ -8,8 +8,10 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
-from granum.drying.contact.cells import Contact, Network, Profile
+from granum.drying.contact.cells import Contact, Inlet, Network, Profile
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, recalled, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
@@ -101,6 +103,14 @@ class FluidBedDryer(ContactDryer):
         vapor = gas.gas[feed.mixture.index("gases", "water")]
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
         return found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
+
+    def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
+        """In time, of a bed with tanks in series."""
+        if self.cells == 1:
+            raise InputError(
+                _("A well-mixed bed in time would need the ages of its particles: give 'cells' = 2 or more for a bed in time.")
+            )
+        return super().dynamic(feed, gas, step, inlets, start)
 
     @classmethod
     def size(
