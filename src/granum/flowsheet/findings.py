@@ -159,7 +159,9 @@ def _of_stream(line: Flowsheet, solution: Solution, found: Findings, name: str) 
         return
     text = _("{what} is not a finite number: check the inputs of that unit.")
     if unit and bool(jnp.isfinite(solution.streams[name].mass_flow)):
-        text = _("{what} has no temperature at which it carries the heat that is left for it: check the heat that goes in and out of that unit.")
+        text = _(
+            "{what} has no temperature at which it carries the heat that is left for it: check the heat that goes in and out of that unit."
+        )
     yield Fault("no value", unit, name, text.format(what=_what(line, name)))
 
 
