@@ -87,7 +87,7 @@ def test_continuous_dryers_of_the_textbooks():
                             temperature_product_inlet="26.7 degC", temperature_product_outlet="62.8 degC", specific_heat_capacity_solid=1465.0)  # fmt: skip
     assert counter.dry_gas_flow * 3600 == pytest.approx(1166, rel=3e-3)
     assert counter.humidity_ratio_outlet == pytest.approx(0.0248, abs=1e-4)
-    assert counter.energy_per_water == 0.0  # the air comes hot
+    assert np.isnan(counter.energy_per_water)  # where the hot air comes from is not said
     rotary = dryer_balance(dry_solid_flow=0.35, moisture_dry_basis_inlet=0.15, moisture_dry_basis_outlet=0.005, temperature_inlet=400.0,
                            humidity_ratio_inlet=0.01, temperature_outlet=331.5, temperature_product_inlet=300.0, temperature_product_outlet=325.0,
                            specific_heat_capacity_solid=2180.0)  # fmt: skip
@@ -151,6 +151,24 @@ def test_wrong_sets_are_named(given, words):
 def test_impossible_dryers_say_why(more, words):
     with pytest.raises(ApplicabilityError, match=words):
         dryer_balance.evaluate(**{**MAIZE, **more})
+
+
+def test_without_fresh_air_nothing_is_said_of_heater_and_indices():
+    """Geankoplis, example 9.10-1: the balance of the dryer stands, the heater is not known. With 'heat_duty' said to be zero the air comes hot."""
+    given = {"dry_solid_flow": "453.6 kg/hour", "moisture_dry_basis_inlet": 0.04, "moisture_dry_basis_outlet": 0.002,
+             "temperature_product_inlet": "26.7 degC", "temperature_product_outlet": "62.8 degC", "temperature_inlet": "93.3 degC",
+             "temperature_outlet": "37.8 degC", "humidity_ratio_inlet": 0.01, "heat_loss": 0.0, "specific_heat_capacity_solid": 1465.0}  # fmt: skip
+    found = dryer_balance.evaluate(**given)
+    unknown = ("heat_duty", "energy_per_water", "energy_consumption_ratio", "drying_efficiency", "moisture_extraction_rate", "temperature_fresh",
+               "relative_humidity_fresh", "enthalpy_fresh")  # fmt: skip
+    assert [name for name, value in found.outputs.items() if np.isnan(value)] == [n for n in found.outputs if n in unknown]
+    (notice,) = found.notices
+    assert notice["flag"] == "limit active"
+    assert "state of the fresh air is missing" in notice["message"]
+    assert found.check().dry_gas_flow == pytest.approx(1166 / 3600.0, rel=3e-3)
+    hot = dryer_balance.evaluate(**given, heat_duty=0.0)
+    assert not hot.notices
+    assert float(hot.value.temperature_fresh) == pytest.approx(273.15 + 93.3)
 
 
 def test_hot_air_known_by_relative_humidity_and_enthalpy():

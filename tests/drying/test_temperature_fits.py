@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from granum.core.errors import InputError
-from granum.drying.formulas.diffusion import moisture_ratio_plate, moisture_ratio_sphere
+from granum.drying.bodies import body_drying
+from granum.drying.contact.kinetics import DiffusionKinetics
+from granum.drying.formulas.diffusion import diffusivity_arrhenius, moisture_ratio_plate, moisture_ratio_sphere
 from granum.drying.isotherms import grains
 from granum.drying.lab_tests.diffusivity import EffectiveDiffusivity
 from granum.drying.lab_tests.isotherm_temperatures import MODELS, IsothermTemperatures
@@ -80,7 +82,28 @@ def test_diffusivity_and_activation_energy() -> None:
     at = 2e-10 * np.exp(-28e3 / R * (1.0 / test.reference_temperature - 1.0 / 333.15))  # type: ignore[operator]
     assert abs(fit["diffusivity"].value - at) < 3.0 * fit["diffusivity"].standard_error
     assert abs(fit["diffusion_activation_energy"].value - 28e3) < 3.0 * fit["diffusion_activation_energy"].standard_error
+    # the line of Arrhenius through the three temperatures meets 1/T = 0 at 2e-10 exp(28000 / (8.314463 · 333.15)) = 4.910e-6 m²/s
+    factor = fit["diffusivity_preexponential"]
+    assert abs(np.log(factor.value / 4.910e-6)) < 3.0 * factor.standard_error / factor.value
+    again = diffusivity_arrhenius(test.reference_temperature, factor.value, fit["diffusion_activation_energy"].value)
+    assert float(again) == pytest.approx(fit["diffusivity"].value, rel=1e-9)
     assert len(test.chart().data) == 6
+
+
+def test_the_factor_of_arrhenius_is_not_a_diffusivity_at_some_temperature() -> None:
+    """By hand: E/RT = 30000 / (8.314463 · 333.15) = 10.8305, e^-10.8305 = 1.9787e-5. The name that could be taken for either is gone."""
+    found = diffusivity_arrhenius(temperature="60 degC", diffusivity_preexponential="1e-4 m^2/s", diffusion_activation_energy="30 kJ/mol")
+    assert float(found) == pytest.approx(1.9787e-9, rel=1e-4)
+    told = r"diffusivity_reference.*Did you mean 'diffusivity_preexponential'"
+    with pytest.raises(InputError, match=told):
+        diffusivity_arrhenius.evaluate(temperature="60 degC", diffusivity_reference="1e-9 m^2/s", diffusion_activation_energy="30 kJ/mol")
+    with pytest.raises(InputError, match=told):
+        body_drying(
+            time=[0.0, 3600.0], half_thickness="5 mm", initial_moisture=4.0, temperature="60 degC", humidity_ratio=0.01,
+            heat_transfer_coefficient=30.0, diffusivity_reference=5e-10,
+        )  # fmt: skip
+    with pytest.raises(InputError, match=told):
+        DiffusionKinetics(diffusivity_reference=1e-9, radius=1e-3)  # type: ignore[call-arg]
 
 
 def test_half_times_of_crank() -> None:

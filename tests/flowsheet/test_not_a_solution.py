@@ -74,7 +74,7 @@ def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
 @pytest.mark.parametrize(("unit", "words"), [
     (Leak(), "'middle' does not conserve water"),
     (Warmer(), "energy balance of unit 'middle'"),
-    (Nowhere(), "from unit 'middle' is not a finite number"),
+    (Nowhere(), "from unit 'middle' has no temperature"),
     (Unsettled(), "Unit 'middle' has no solution"),
 ])  # fmt: skip
 def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:

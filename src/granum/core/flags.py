@@ -45,6 +45,7 @@ class Record:
     source: str = field(metadata={"static": True})
     reason: str = field(default="", metadata={"static": True})
     computed: tuple[Any, Any] | None = None  # limits that depend on the other inputs, in place of low and high
+    without: tuple[str, ...] = field(default=(), metadata={"static": True})  # outputs that have no value for this reason
 
 
 class _Collector:
@@ -95,7 +96,7 @@ def inside(formula: Any) -> Iterator[None]:
 
 
 def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "",
-           reason: str = "", computed: tuple[Any, Any] | None = None) -> None:  # fmt: skip
+           reason: str = "", computed: tuple[Any, Any] | None = None, without: tuple[str, ...] = ()) -> None:  # fmt: skip
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
     if collector is not None and collector.only in (0, bit) and collector.accepts():
@@ -103,7 +104,7 @@ def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -
         mask = jnp.asarray(bool(mask & 1) if type(mask) is int else mask)
         if computed is not None:
             computed = (jnp.broadcast_to(computed[0], mask.shape), jnp.broadcast_to(computed[1], mask.shape))
-        collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed))
+        collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed, without))
 
 
 def nested() -> bool:
@@ -155,15 +156,15 @@ def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any =
         record(OUTSIDE_DOMAIN, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
 
 
-def limit_active(mask: Any, value: Any, name: str, reason: str) -> None:
+def limit_active(mask: Any, value: Any, name: str, reason: str, without: tuple[str, ...] = ()) -> None:
     """Inside a formula body: record where a physical limit cut the result.
 
     ``reason`` is an English sentence with a French translation: which limit, why, and what is given in place. The elements
-    concerned are told after it.
+    concerned are told after it. ``without`` names outputs that are not a number there, for this reason, while the others stand.
     """
     formula = _current.get()
     if formula is not None:
-        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source, reason=reason)
+        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source, reason=reason, without=without)
 
 
 def within(mask: Any, shape: tuple[int, ...]) -> Any:

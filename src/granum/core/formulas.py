@@ -223,11 +223,11 @@ class Formula:
     def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
         with flags.collect() as records:
             out = self._body(self._guard(values))
-            # where the body itself has said that a state is impossible, its outputs need not be reported one by one
-            outside = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN]
+            # where the body itself has said why there is no number, its outputs need not be reported one by one
+            told = [found for found in records if found.bit == flags.OUTSIDE_DOMAIN or found.without]
             for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
                 lost = ~jnp.isfinite(jnp.asarray(value, dtype=float))
-                for mask in outside:
+                for mask in (found.mask for found in told if not found.without or p.name in found.without):
                     lost = lost & ~bounds.concerned(mask, lost, self._along)
                 flags.record(flags.NOT_FINITE, lost, jnp.zeros(()), p.name, self.key)
         return self._possible(out, records), list(records)

@@ -141,7 +141,7 @@ def body_drying(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
     heat_transfer_coefficient: HeatTransferCoefficient,
-    diffusivity_reference: Diffusivity,
+    diffusivity_preexponential: Diffusivity,
     diffusion_activation_energy: MolarEnergy = 0.0,
     isotherm: IsothermLaw = POTATO,
     shape: Literal["plate", "cylinder", "sphere"] = "plate",
@@ -155,13 +155,14 @@ def body_drying(
 ) -> BodyDrying:
     """Moisture and temperature inside a body that dries in gas of constant temperature and humidity, from center to surface.
 
-    Moisture moves by diffusion with an Arrhenius diffusivity, the surface is in sorption equilibrium with the film, evaporation takes its
+    Moisture moves by diffusion with an Arrhenius diffusivity (its pre-exponential factor is the diffusivity itself when no activation energy
+    is given), the surface is in sorption equilibrium with the film, evaporation takes its
     latent and sorption heat there. The grid rides on the dry solid, so that shrinkage loses none of it. The mass transfer coefficient
     follows from the heat transfer coefficient by Chilton and Colburn unless given. ``dry_density`` is mass of dry solid over volume at
     zero moisture; with a shrinkage coefficient of dry density over 1000 kg/m³ the body shrinks by the volume of its water.
 
     >>> body_drying(time=[0.0, 3600.0], half_thickness="5 mm", initial_moisture=4.0, temperature="60 degC", humidity_ratio=0.01,
-    ...             heat_transfer_coefficient=30.0, diffusivity_reference=5e-10).moisture_dry_basis[0]
+    ...             heat_transfer_coefficient=30.0, diffusivity_preexponential=5e-10).moisture_dry_basis[0]
     4.0
     """
     times = np.asarray(time, dtype=float)
@@ -179,7 +180,7 @@ def body_drying(
     solid = dry_density / (1.0 + shrinkage_coefficient * initial_moisture) * half_thickness**n / n
     body = Body(
         shares=jnp.asarray(solid * np.diff(edge**n)), geometry=n - 1, dry_density=dry_density, shrinkage=shrinkage_coefficient,
-        diffusivity=diffusivity_reference, activation=diffusion_activation_energy, conductivity=thermal_conductivity,
+        diffusivity=diffusivity_preexponential, activation=diffusion_activation_energy, conductivity=thermal_conductivity,
         solid_heat=specific_heat_capacity, isotherm=isotherm, gas_temperature=temperature,
 gas_density=(1 - y) * STANDARD_ATMOSPHERE * AIR_WATER.gas_molar_mass / (GAS_CONSTANT * temperature), humidity=humidity_ratio, h=heat_transfer_coefficient, hm=hm,
     )  # fmt: skip

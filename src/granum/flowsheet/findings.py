@@ -102,7 +102,10 @@ def known_temperatures(found: Findings) -> Any:
 def faults(line: Flowsheet, solution: Solution, found: Findings) -> list[Fault]:
     """What is wrong with a solution, in the order in which the units are calculated: the first is the cause."""
     fed = [fault for k in line.links if not k.origin for fault in _of_stream(line, solution, found, k.name)]
-    return fed + [fault for block in line.blocks for unit in block.units for fault in _of_unit(line, solution, found, unit)]
+    units = [unit for block in line.blocks for unit in block.units]
+    starved = [unit for unit in units if _unknown(line, found, unit)]  # what they say of themselves may be said because of what came in
+    own = [fault for unit in units for fault in _of_unit(line, solution, found, unit, unit not in starved)]
+    return fed + own + [fault for unit in starved for fault in _own_words(solution, unit)]
 
 
 def _lowest(s: Stream) -> Any:
@@ -127,9 +130,18 @@ def _place(line: Flowsheet, name: str) -> int:
     return [k.name for k in line.links].index(name)
 
 
-def _of_unit(line: Flowsheet, solution: Solution, found: Findings, unit: str) -> Iterator[Fault]:
+def _unknown(line: Flowsheet, found: Findings, unit: str) -> bool:
+    return any(k.target_unit == unit and not bool(found.finite[_place(line, k.name)]) for k in line.links)
+
+
+def _own_words(solution: Solution, unit: str) -> Iterator[Fault]:
     for row in flags.describe([r for r in solution.records[unit] if r.bit & WRONG]):
         yield Fault("no value", unit, "", _("Unit '{unit}' has no solution: {cause}").format(unit=unit, cause=row["message"]))
+
+
+def _of_unit(line: Flowsheet, solution: Solution, found: Findings, unit: str, speaks: bool) -> Iterator[Fault]:
+    if speaks:
+        yield from _own_words(solution, unit)
     for k in line.links:
         if k.source_unit == unit:
             yield from _of_stream(line, solution, found, k.name)
@@ -143,11 +155,14 @@ def _of_stream(line: Flowsheet, solution: Solution, found: Findings, name: str) 
     if bool(found.finite[i]):
         yield from impossible(line, name, solution.streams[name], *(float(x[i]) for x in found[1:4]))
         return
-    before = [k.name for k in line.links if unit and k.target_unit == unit and not bool(found.finite[_place(line, k.name)])]
-    if not before:  # a unit that is given no number gives none: the fault lies before it
-        yield Fault(
-            "no value", unit, name, _("{what} is not a finite number: check the inputs of that unit.").format(what=_what(line, name))
+    if unit and _unknown(line, found, unit):  # a unit that is given no number gives none: the fault lies before it
+        return
+    text = _("{what} is not a finite number: check the inputs of that unit.")
+    if unit and bool(jnp.isfinite(solution.streams[name].mass_flow)):
+        text = _(
+            "{what} has no temperature at which it carries the heat that is left for it: check the heat that goes in and out of that unit."
         )
+    yield Fault("no value", unit, name, text.format(what=_what(line, name)))
 
 
 def _what(line: Flowsheet, name: str) -> str:

@@ -75,4 +75,6 @@ class HumidMixture:
         root = find_root(
             lambda T: (self.at_temperature(stream, T).enthalpy_flow - enthalpy) / scale, COLDEST, HOTTEST, start=stream.temperature
         )
-        return self.at_temperature(stream, jnp.where(stream.mass_flow > 0, root.value, stream.temperature))
+        return self.at_temperature(
+            stream, jnp.where(stream.mass_flow > 0, jnp.where(root.converged, root.value, jnp.nan), stream.temperature)
+        )

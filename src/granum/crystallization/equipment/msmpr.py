@@ -11,6 +11,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.errors import CaseError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Concentration,
@@ -38,6 +39,7 @@ _CROWDED = "solids in the suspension by volume"
 _LONG = "residence time"
 _PRESENT = "steady crystals (1 when present)"
 _DRYING = "solvent evaporated"
+_UNSOLVED = "No supersaturation was found at which the crystals made are those that the solute balance leaves: check feed, kinetics and evaporation."
 
 
 class CrystallizerFigures(NamedTuple):
@@ -92,6 +94,7 @@ class _Continuous(Unit):
 
     def __call__(self, feed: Stream) -> Crystallized:
         state, found = self._steady(feed)
+        unsolved(state.converged, type(self).card, reason=_UNSOLVED)
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
             solid=with_crystals(feed, found, state.crystals), liquid=liquid, gas=0.0 * feed.gas,

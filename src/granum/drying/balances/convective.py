@@ -195,6 +195,19 @@ def _finished(v: Values, activity: Any) -> DryerBalance:
     return DryerBalance(*(jnp.where(possible, values[name], jnp.nan) for name in DryerBalance._fields))
 
 
+def _without_heater(found: DryerBalance) -> DryerBalance:
+    """The balance of the dryer alone: where its air comes from, and what it costs to heat it, was not said."""
+    none = jnp.full_like(found.evaporation_rate, jnp.nan)
+    flags.limit_active(jnp.isfinite(found.evaporation_rate), none, "heat_duty", NO_FRESH, without=_HEATER)
+    return found._replace(**dict.fromkeys(_HEATER, none))
+
+
+NO_FRESH = (
+    "The state of the fresh air is missing: heat duty, energy per water and thermal efficiency have no value. Give its temperature and humidity, "
+    "or 'heat_duty' as zero when the air comes hot."
+)
+_HEATER = ("temperature_fresh", "relative_humidity_fresh", "enthalpy_fresh", "heat_duty", "energy_per_water", "energy_consumption_ratio",
+           "drying_efficiency", "moisture_extraction_rate")  # fmt: skip
 LEAST_WATER = 1e-8  # kg/s: without evaporation there is no dryer, and knowns that say the same thing twice end there
 # The first that fails tells why: a dryer that wets, air that must leave beyond saturation, air too cold to carry the water, and so on.
 _LIMITS = (
@@ -308,7 +321,8 @@ def dryer_balance(
     ``quantity_sought``. Without temperatures of the product the dryer is isenthalpic as in the course notes: the product's enthalpy is
     left out. With both of them it is a real dryer.
 
-    When nothing is said of fresh air and heater, the air comes as it enters the dryer, and the energy indices are zero.
+    When nothing is said of fresh air and heater, the air is followed from where it enters the dryer; what the heater takes, and the indices
+    of energy that count it, then have no value. Give ``heat_duty`` as zero when the air does come hot.
 
     ``water_activity`` is that of the leaving product, with which the air could at best be in equilibrium; it only serves the mass efficiency.
     The energy indices count heater, fan and heat given inside. Saturated outlet air, air too cold for the water, or a negative flow: flagged.
@@ -328,11 +342,13 @@ def dryer_balance(
     constants |= {name: given.pop(name) for name in temperatures}
     if len(temperatures) == 1:
         raise InputError(_("Give the product's temperature at both ends, or at neither for an isenthalpic dryer."), given=temperatures)
-    if not any(name.endswith("_fresh") for name in given) and "heat_duty" not in given:
+    bought = any(name.endswith("_fresh") for name in given) or "heat_duty" in given
+    if not bought:
         given["heat_duty"] = jnp.zeros(())  # the air comes hot
     equations = system(bool(temperatures))
     if quantity_sought in given:
         raise InputError(_("'{name}' is given; it cannot be sought.").format(name=quantity_sought), name=quantity_sought)
     whole = equations.completed(frozenset(given), quantity_sought)
     values = {name: given.get(name, jnp.zeros(())) for name in whole}
-    return _finished(equations.solve(values, constants), activity)
+    found = _finished(equations.solve(values, constants), activity)
+    return found if bought else _without_heater(found)

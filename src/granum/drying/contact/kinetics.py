@@ -223,11 +223,13 @@ class ThinLayerKinetics(AbstractKinetics):
 class DiffusionKinetics(AbstractKinetics):
     """First term of Crank's series for a sphere as a driving force, in series with the film; a plate of half thickness L has R = 2 L.
 
+    Without an activation energy the pre-exponential factor is the diffusivity itself.
+
     >>> float(DiffusionKinetics(1e-10, 1e-3)())
     0.001
     """
 
-    diffusivity_reference: Diffusivity
+    diffusivity_preexponential: Diffusivity
     radius: Length
     diffusion_activation_energy: MolarEnergy = 0.0
     isotherm: Isotherm | None = None
@@ -239,7 +241,7 @@ class DiffusionKinetics(AbstractKinetics):
         return at.equilibrium(self.isotherm)
 
     def rate(self, at: Meeting) -> Any:
-        D = self.diffusivity_reference * jnp.exp(-self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature))
+        D = self.diffusivity_preexponential * jnp.exp(-self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature))
         inner = jnp.pi**2 * D / self.radius**2 * (at.moisture - self.equilibrium(at))
         film = at.film_rate()
         share = jnp.maximum(inner, 0.0) / jnp.maximum(jnp.maximum(inner, 0.0) + jnp.abs(film), 1e-30)

@@ -10,6 +10,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment, law
+from granum.core.flags import unsolved
 from granum.core.kinds import (
     Fraction,
     Law,
@@ -39,6 +40,7 @@ from granum.streams.units import Check, Unit
 _MET, _LIMIT = "moisture of the product against the specification", "product temperature over its limit"
 _WARM = "temperature at which heat is given off above that of the heated gas"
 _DRY = "outlet temperature of the steam above boiling"
+_UNSOLVED = "No temperature of the outlet air was found between coil and hot air at which heat and evaporation agree: take hotter air, a colder coil or a smaller heat loss."
 _COIL = "humidity of the outlet air above saturation at the coil"
 
 
@@ -71,6 +73,7 @@ class Circuit(NamedTuple):
     circulating: Any
     temperature_outlet: Any
     margins: tuple[tuple[str, Any], ...]  # what must not be negative, K or kg/kg
+    converged: Any = True
 
 
 class AbstractCircuit(eqx.Module):
@@ -126,7 +129,8 @@ class HeatPumpCircuit(AbstractCircuit):
             return h(duty.temperature_inlet, w1) - h(T, w2) - (w2 - w1) * (need - carried) / jnp.maximum(duty.water, 1e-300)
 
         top = jnp.minimum(duty.temperature_inlet, PAIR.boiling_temperature(P) * (1.0 - 1e-9))
-        T2 = find_root(surplus, jnp.maximum(self.coil_temperature, COLDEST), top, tolerance=1e-14).value
+        outlet = find_root(surplus, jnp.maximum(self.coil_temperature, COLDEST), top, tolerance=1e-14)
+        T2 = outlet.value
         w1, w2 = humidities(T2)
         product, vapor, _need = duty.parted(T2, T2)
         air = duty.water / (w2 - w1)
@@ -137,7 +141,7 @@ class HeatPumpCircuit(AbstractCircuit):
         power = taken / (self(duty.temperature_inlet) - 1.0)
         heater = air * (h(duty.temperature_inlet, w1) - cold) - duty.fan_power - taken - power
         stray = vapor.replace(gas=duty.feed.gas)
-        return Circuit(product, stray, condensate, heater, power, air, T2, ((_COIL, w2 - coil),))
+        return Circuit(product, stray, condensate, heater, power, air, T2, ((_COIL, w2 - coil),), outlet.converged)
 
 
 @law("drying_circuit", name="circuit_steam", source="mujumdar2014", title="Closed circuit of superheated steam",
@@ -233,6 +237,7 @@ class ClosedDryer(Unit):
 
     def __call__(self, feed: Stream) -> ClosedOutlets:
         c = self._run(feed)
+        unsolved(c.converged, type(self).card, reason=_UNSOLVED)
         return ClosedOutlets(c.product, c.vapor, c.condensate, c.heater - self.heat_loss, c.power + self.fan_power)
 
     def results(self, inlets: Mapping[str, Stream], outlets: ClosedOutlets) -> ClosedFigures:

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Fraction,
@@ -40,6 +41,7 @@ _SATURATED = "relative humidity of the exhaust"
 _PRODUCT = "moisture of the product above equilibrium with the hot air"
 _LIMIT = "product temperature over its limit"
 _ENERGY = "energy per water evaporated"
+_UNSOLVED = "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the heater and the heat loss against the flow of gas, and what is asked of the outlet."
 _MET = "moisture of the product against the specification"
 
 
@@ -83,6 +85,7 @@ class Inside(NamedTuple):
     recovered: Any
     exhaust: Stream
     condensate: Stream
+    converged: Any
 
 
 @equipment("convective_dryer", source="keey1978; mujumdar2014; bonazzi2003", title="Convective dryer (balance)")
@@ -123,6 +126,7 @@ class ConvectiveDryer(Unit):
 
     def __call__(self, feed: Stream, gas: Stream) -> ConvectiveOutlets:
         found = self.inside(feed, gas)
+        unsolved(found.converged, type(self).card, reason=_UNSOLVED)
         return ConvectiveOutlets(found.product, found.exhaust, found.condensate, found.heater - self.heat_loss, jnp.asarray(self.fan_power))
 
     @shared
@@ -164,6 +168,7 @@ class ConvectiveDryer(Unit):
             none, all_ = heat_missing(wet, T), heat_missing(dry, T)
             return water * none / jnp.where(none == all_, jnp.nan, none - all_)
 
+        known = jnp.asarray(True)
         if self.temperature_outlet is not None:
             W = water_at(self.temperature_outlet)
         elif self.moisture_outlet is not None:
@@ -174,8 +179,8 @@ class ConvectiveDryer(Unit):
                 y = PAIR.fraction(humidity(moved(jnp.clip(water_at(T), 0.0, water))))
                 return y - self.relative_humidity_outlet * saturated_fraction(PAIR, T, gas.pressure)
 
-            T = find_root(missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet).value
-            W = water_at(T)
+            asked = find_root(missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet)
+            known, W = asked.converged, water_at(asked.value)
         W = jnp.clip(W, 0.0, water)
         guess = jnp.minimum(gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0)
         both = moved(W)
@@ -191,7 +196,7 @@ class ConvectiveDryer(Unit):
             inlet = mixed.replace(temperature=jnp.asarray(self.temperature_inlet))
             duty = inlet.enthalpy_flow - gas.enthalpy_flow - back * out.enthalpy_flow - self.fan_power
         recovered, exhaust, condensate = self._recover(gas, out, duty)
-        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate)
+        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate, known & root.converged)
 
     def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream]:
         """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point."""

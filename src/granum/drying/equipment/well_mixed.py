@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
 from granum.drying.contact.dryer import Dried
 from granum.drying.wet_surface import crystallized, require_water
@@ -21,6 +22,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 COLDEST_FILM = 230.0  # K
+UNSOLVED = "No temperature of the bed was found at which heat and evaporation agree: give hotter gas or more of it, less wet solid, or a smaller heat loss."
 
 
 class WellMixedFigures(NamedTuple):
@@ -92,6 +94,7 @@ class WellMixedDryer(Unit):
             return (available - by_kinetics(T, available)) / jnp.maximum(water, 1e-300)
 
         root = find_root(surplus, coldest, gas.temperature)
+        unsolved(root.converged | (water <= 0), type(self).card, reason=UNSOLVED)
         T = jnp.where(water > 0, root.value, wet.temperature)
         bed = after(jnp.clip(by_energy(T), 0.0, water), T)
         nothing = jnp.zeros_like(bed.gas)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, unconverged
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Area,
@@ -69,7 +69,9 @@ def drying_rate_assisted(
         return h * (T - Ts) + radiated_heat + emissivity * 5.670374419e-8 * (radiator_temperature**4 - Ts**4)
 
     top = PAIR.boiling_temperature(P) * (1.0 - 1e-7)
-    Ts = find_root(lambda Ts: need(Ts) - given(Ts), COLDEST + 45.0, top, start=jnp.minimum(T, top) - 20.0, tolerance=1e-13).value
+    root = find_root(lambda Ts: need(Ts) - given(Ts), COLDEST + 45.0, top, start=jnp.minimum(T, top) - 20.0, tolerance=1e-13)
+    unconverged(root.converged)
+    Ts = root.value
     return AssistedDrying(Ts, given(Ts) / water_heat_of_vaporization.function(Ts))
 
 

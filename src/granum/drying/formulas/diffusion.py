@@ -100,17 +100,19 @@ def moisture_ratio_product(moisture_ratio_first: Ratio, moisture_ratio_second: R
 
 
 @formula(source="crank1975", equation=r"D = D_0\,e^{-E_a/RT}",
-         typical={"diffusivity_reference": (1e-6, 1e-3), "diffusion_activation_energy": (2e4, 4e4), "temperature": (310.0, 360.0)},
+         typical={"diffusivity_preexponential": (1e-6, 1e-3), "diffusion_activation_energy": (2e4, 4e4), "temperature": (310.0, 360.0)},
          title="Moisture diffusivity over temperature (Arrhenius)", output="diffusivity")  # fmt: skip
 def diffusivity_arrhenius(
-    temperature: Temperature, diffusivity_reference: Diffusivity, diffusion_activation_energy: MolarEnergy
+    temperature: Temperature, diffusivity_preexponential: Diffusivity, diffusion_activation_energy: MolarEnergy
 ) -> Diffusivity:
     """Effective diffusivity of moisture in a solid; activation energies of foods lie between 12 and 50 kJ/mol.
+
+    The pre-exponential factor is the limit of infinite temperature, not the diffusivity at a reference temperature.
 
     >>> round(diffusivity_arrhenius(350.0, 1e-4, "30 kJ/mol") * 1e9, 2)
     3.33
     """
-    return diffusivity_reference * jnp.exp(-diffusion_activation_energy / (GAS_CONSTANT * temperature))
+    return diffusivity_preexponential * jnp.exp(-diffusion_activation_energy / (GAS_CONSTANT * temperature))
 
 
 @formula(source="mayor2004", equation=r"\frac{V}{V_0} = \frac{1+\beta X}{1+\beta X_0}",

@@ -29,7 +29,8 @@ class EffectiveDiffusivity(LabTest):
     """Diffusivity in a plate, long cylinder or sphere from moisture ratios over time, by the whole series solution.
 
     The length is the half thickness of a plate dried from both sides (the thickness when from one) or the radius. With a column of
-    temperatures the activation energy is estimated too, and the diffusivity is that of the mean temperature of the points.
+    temperatures the activation energy is estimated too, and the diffusivity is that of the mean temperature of the points; the laws of
+    drying ask for the pre-exponential factor, which is given with it.
     The surface is taken at equilibrium from the start: where outer transfer matters the diffusivity comes out too small.
     """
 
@@ -78,7 +79,11 @@ class EffectiveDiffusivity(LabTest):
         def model(p: dict[str, Any], x: Any) -> Any:
             return body(p["diffusivity"] * jnp.exp(-p["diffusion_activation_energy"] * inverse) * x / length**2)
 
-        return self.fitted(model, start, t, MR, bounds=bounds)
+        mean = GAS_CONSTANT * self.reference_temperature  # type: ignore[operator]
+        return self.fitted(
+            model, start, t, MR, bounds=bounds, kinds={"diffusivity_preexponential": Diffusivity},
+            derived=lambda p: {"diffusivity_preexponential": p["diffusivity"] * jnp.exp(p["diffusion_activation_energy"] / mean)},
+        )  # fmt: skip
 
     def chart(self) -> go.Figure:
         """Measured and fitted moisture ratios, one color a temperature."""

@@ -9,7 +9,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import equipment, unconverged
+from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import Law, Length, Mass, Time, Volume
 from granum.numerics import settle
 from granum.numerics.smooth import safe_divide
@@ -20,6 +21,7 @@ from granum.streams.turnover import Turnover
 from granum.streams.units import Dynamic, Unit
 
 RANK = 6  # products of functions of one size that a kernel is tried as a sum of
+_RUNAWAY = "The steady sizes in the agglomerator were not found: the particles join faster than fresh ones come. Take a smaller holdup or a weaker kernel."
 EVEN = 0.01  # of a class: how far its boundaries may be off for classes to count as equally wide in volume
 
 
@@ -152,7 +154,7 @@ class Agglomerator(Unit, Dynamic):
 
     def __call__(self, feed: Stream) -> Single:
         held, good = self._steady(feed)
-        unconverged(good)
+        unsolved(good, type(self).card, reason=_RUNAWAY)
         some = feed.solid_flow > 0
         return Single(feed.replace(solid=jnp.where(some, held * feed.solid_flow / self.holdup_mass, feed.solid)))
 

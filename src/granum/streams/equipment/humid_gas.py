@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.flags import unsolved
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, Power, RelativeHumidity, Temperature
 from granum.numerics import find_root
 from granum.streams.equilibrium import HumidMixture
@@ -17,6 +18,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
 FREEZING, COLDEST = 273.15, 200.0
+UNSOLVED = "No temperature was found at which gas and liquid are in equilibrium with the heat they bring: check the temperatures and flows that enter."
 
 
 def _drained(stream: Stream) -> tuple[Stream, Stream]:
@@ -53,7 +55,9 @@ class HumidMixer(Unit):
 
     def __call__(self, **inlets: Stream) -> Mixed:
         mixed = reduce(add, inlets.values())
-        return Mixed(HumidMixture(mixed.mixture).at_own_enthalpy(mixed))
+        product = HumidMixture(mixed.mixture).at_own_enthalpy(mixed)
+        unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
+        return Mixed(product)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Mixed) -> HumidFigures:
         gas = outlets.product
@@ -120,6 +124,7 @@ class DehumidifyingCoil(Unit):
         cold, condensate = _drained(humid.at_temperature(gas.part(share, share, share), self.coil_temperature))
         b = self.coil_bypass_fraction
         product = humid.at_own_enthalpy(cold + gas.part(b, b, b))
+        unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
         duty = product.enthalpy_flow + condensate.enthalpy_flow - gas.enthalpy_flow
         return Cooled(product, condensate, duty)
 
@@ -178,7 +183,9 @@ class AdiabaticHumidifier(Unit):
         full = jnp.where(root.converged, humid.saturated_vapor(gas, wet) - gas.gas[humid.vapor], 0.0)
         evaporated = jnp.clip(self.saturation_effectiveness * full, 0.0, available)
         drain = water.replace(liquid=water.liquid.at[0].add(-evaporated))
-        return Humidified(wetted(evaporated), drain)
+        product = wetted(evaporated)
+        unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
+        return Humidified(product, drain)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Humidified) -> HumidifierFigures:
         gas = outlets.product
