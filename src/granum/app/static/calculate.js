@@ -117,7 +117,7 @@ function Result({ card, values, data, kept, keep, clear, choose }) {
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
     ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} />`}
     ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}
-    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
+    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? (settings.language === 'fr' ? ' ; ' : '; ') : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
     <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
     <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>
