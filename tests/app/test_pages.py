@@ -485,6 +485,81 @@ def test_a_study_runs_with_progress(page: Page, language: str, run: str) -> None
     page.check()
 
 
+HELD = """
+    const sent = window.fetch;
+    window.fetch = async (path, request) => {
+      if (path.startsWith(arguments[0])) { window.job = request.headers['x-job']; await new Promise((done) => { window.release = done; }); }
+      if (path === '/api/progress/' + window.job) return new Response(JSON.stringify({ state: 'running', share: 0.2, note: 'drawing', seconds: 3 }));
+      return sent(path, request);
+    };
+"""
+
+
+def test_what_the_server_is_doing_is_said_while_the_page_waits(page: Page) -> None:
+    for place, path, start in (
+        ("charts/particles.drag_chart", "/api/chart/", lambda: page.button("Undo").click()),
+        (f"lines/{quote(CASE, safe='')}", "/api/run", lambda: page.button("Solve").click()),
+    ):
+        page.open(place)
+        if place.startswith("charts"):
+            page.type("[id^=field-]", "1")
+            page.settle()
+        page.browser.execute_script(HELD, path)
+        start()
+        assert page.until(lambda: [e.text for e in page.all("[data-note]") if e.text == "Drawing"])
+        assert " s" in page.one("[data-working]").text
+        assert page.button("Cancel")
+        page.browser.execute_script("window.release()")
+        page.until(lambda: not page.all("[data-working]"))
+
+
+def test_series_are_read_in_full_and_taken_along(page: Page) -> None:
+    page.open("calculate/fluidization.pressure_velocity")
+    rows = page.all("[data-series] tbody tr")
+    assert len(rows) == len(page.all("[data-series] tbody tr td:first-child")) > 100
+    assert page.one("[data-series] .plot .main-svg .scatterlayer .trace")
+    page.browser.execute_script("URL.createObjectURL = (blob) => { blob.text().then((text) => { window.taken = text; }); return '#'; }")
+    page.button("Download as CSV").click()
+    head, *lines = page.until(lambda: page.browser.execute_script("return window.taken")).strip().split("\n")
+    assert head.startswith("superficial_velocity [")
+    assert len(lines) == len(rows)
+    velocities = [float(line.split(",")[0]) for line in lines]
+    assert velocities == sorted(velocities)
+    cells = [row.text.split()[0] for row in rows[:3]]
+    assert [float(cell) for cell in cells] == pytest.approx(velocities[:3], rel=1e-3)
+    assert "…" not in page.one("section[aria-label=Believe]").text, "nothing is cut"
+    page.settle()
+    page.check()
+
+
+OFF = "The energy balance of unit 'mill' is off by 0.018 of its turnover: its temperatures and duties cannot be used."
+ANSWERED = """
+    const sent = window.fetch;
+    const told = arguments[0];
+    window.fetch = async (path, request) => {
+      if (path !== '/api/run') return sent(path, request);
+      if (told) return new Response(JSON.stringify({ error: { type: 'ConvergenceError', message: told, unit: 'mill' } }), { status: 409 });
+      const data = await (await sent(path, request)).json();
+      data.audit.energy_closure = null; // not a number
+      return new Response(JSON.stringify(data));
+    };
+"""
+
+
+@pytest.mark.parametrize(("answer", "told"), [(OFF, OFF), ("", "The balances do not close")])
+def test_figures_of_a_line_that_does_not_close_do_not_look_current(page: Page, answer: str, told: str) -> None:
+    page.open(f"lines/{quote(CASE, safe='')}")
+    page.one(".diagram svg")
+    assert not page.all(".stale")
+    page.browser.execute_script(ANSWERED, answer)
+    page.button("Solve").click()
+    page.until(lambda: any(e.text.startswith(("▲ " + told, told)) for e in page.all("[role=alert]")))
+    fresh = "return [...document.querySelectorAll('section table, .diagram')].filter((e) => !e.closest('.stale')).length"
+    page.until(lambda: page.browser.execute_script(fresh) == 0)
+    assert bool(page.all("[data-old]")) == bool(answer), "what is left of the line before is called so"
+    assert bool(page.all("[data-form=mill][open]")) == bool(answer), "the form of the unit at fault is open"
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_charts_are_drawn(page: Page, language: str) -> None:
     page.open("charts/particles.drag_chart", language)

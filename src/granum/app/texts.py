@@ -11,10 +11,11 @@ import numpy as np
 from granum.app.wording import noticed
 from granum.core.cards import Card
 from granum.core.i18n import _
-from granum.core.parameters import default_as_json
+from granum.core.parameters import Parameter, default_as_json
 from granum.core.results import Result
+from granum.core.units import format_number, from_si, pretty_unit
 from granum.reports.html import note_step
-from granum.reports.quantities import law_label, value_text
+from granum.reports.quantities import MOST_SHOWN, law_label, value_text
 
 
 def plain_data(value: Any) -> Any:
@@ -67,6 +68,34 @@ def ranking(result: Result) -> dict[str, Any] | None:
     }
 
 
+def series_tables(result: Result) -> list[dict[str, Any]]:
+    """Outputs that run along the same axis as tables, all rows, each column in one unit; given series of that axis come first.
+
+    A lone short series stays in the line of the other results.
+    """
+    listed = {c["name"] for c in (ranking(result) or {"columns": []})["columns"]}
+    produced = {p.name for p in result.card.outputs}
+    candidates = [(p, result.inputs[p.name], False) for p in result.card.parameters if p.name not in produced]
+    along: dict[str, list[tuple[Parameter, np.ndarray, bool]]] = {}
+    for p, values, own in candidates + [(p, result.outputs[p.name], True) for p in result.card.outputs]:
+        if p.series and p.kind is not None and p.name not in listed and np.ndim(values) == 1:
+            along.setdefault(p.series, []).append((p, np.asarray(values, dtype=float), own))
+    found = []
+    for columns in along.values():
+        lengths = [x.size for _p, x, own in columns if own]
+        if lengths and lengths[0] > (MOST_SHOWN if len(lengths) == 1 else 1):
+            found.append([_column(p, x) for p, x, _own in columns if x.size == lengths[0]])
+    return [{"columns": columns, "rows": [list(row) for row in zip(*(c.pop("texts") for c in columns), strict=True)]} for columns in found]
+
+
+def _column(p: Parameter, values: np.ndarray) -> dict[str, Any]:
+    assert p.kind is not None  # only quantities become columns
+    unit = p.display_unit(values)
+    shown = [float(x) for x in from_si(values, unit, p.kind)]
+    head = {"name": p.name, "label": p.label, "unit": pretty_unit(unit), "file_unit": "" if unit == "dimensionless" else unit}
+    return head | {"values": shown, "texts": [format_number(x) for x in shown]}
+
+
 def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     """The stable calc shape, with what a page shows beside it."""
     step = note_step(result)
@@ -74,15 +103,17 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
         {"name": p.name, "label": p.label, "text": value_text(result.outputs[p.name], p), "symbol": row["symbol"]}
         for p, row in zip(result.card.outputs, step["outputs"], strict=True)
     ]
-    table = ranking(result)
+    table, series = ranking(result), series_tables(result)
+    tabled = {c["name"] for found in (*([table] if table else []), *series) for c in found["columns"]}
     used = [p for p in result.card.parameters if result.inputs[p.name] is not None]
     inputs = [
         row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"])} for p, row in zip(used, step["inputs"], strict=True)
     ]
     return result.as_json() | {
         "flags": noticed(result.notices),
-        "shown": [row for row in rows if table is None or row["name"] not in {c["name"] for c in table["columns"]}],
+        "shown": [row for row in rows if row["name"] not in tabled],
         "table": table,
+        "series": series,
         "inputs_shown": inputs,
         "equation": step["equation"] if result.card.equation else "",
         "citation": step["source"],

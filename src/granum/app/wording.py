@@ -17,12 +17,12 @@ _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\]:? ?")
-_KEY = re.compile(rf"\b(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
+_KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 
 def page_words(message: str, allowed: object = None) -> str:
-    """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by it.
+    """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by it; a quoted key is meant as such.
 
     >>> page_words("sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1.")
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'

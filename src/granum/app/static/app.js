@@ -33,7 +33,7 @@ function App() {
   const page = PAGES.find(([name]) => name === state.page) || PAGES[0];
   const shown = PAGES.filter(([name]) => name !== 'select' || guides || page[0] === 'select');
   const other = settings.language === 'fr' ? 'en' : 'fr';
-  useEffect(() => { document.title = `${t(page[1])} · Granum`; }, [page, settings.language]);
+  useEffect(() => { document.title = `${t(page[1])} · Granum`; document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' }); }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => { e.preventDefault(); document.querySelector('#main input, #main select, #main textarea, #main a')?.focus(); }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(([name, label]) => html`<a href=${lastPlace(name)} onClick=${(e) => { e.currentTarget.href = lastPlace(name); }} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`)}</nav>

@@ -2,6 +2,7 @@
 import { html, t, ask, link, useAnswer, useState, useEffect, useRef, useKept, replaceLink, download, settings, Plot, Working } from './core.js';
 import { Field, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
+import { Series } from './series.js';
 import { Spread } from './spread.js';
 
 const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
@@ -55,7 +56,7 @@ function Work({ page, card, given }) {
     <section aria-label=${t('Believe')}>
       <div aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
-      <${Working} busy=${answer.pending} cancel=${answer.cancel} />
+      <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
       ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
         : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} />`)}</div>
@@ -111,11 +112,12 @@ function Result({ card, values, data, kept, keep, clear, choose }) {
   return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
     : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class=${isPlain(data.outputs[row.name].value) ? 'n' : ''} data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></td></tr>`)}</tbody></table></div>`}
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
+    <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
     ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} />`}
     ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}
-    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
+    ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? (settings.language === 'fr' ? ' ; ' : '; ') : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
     <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
     <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>

@@ -106,7 +106,7 @@ export async function ask(path, body, options = {}) {
   const form = body instanceof FormData;
   const response = await reach(path, {
     method: options.method || (body === undefined ? 'GET' : 'POST'),
-    headers: { 'x-language': settings.language, 'x-units': settings.units, ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
+    headers: { 'x-language': settings.language, 'x-units': settings.units, ...(options.signal?.job && { 'x-job': options.signal.job }), ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
     body: body === undefined ? undefined : form ? body : JSON.stringify(body),
     signal: options.signal,
   });
@@ -114,6 +114,13 @@ export async function ask(path, body, options = {}) {
   const data = await response.json();
   if (!response.ok) throw Object.assign(new Error(data.error?.message || t('The server did not understand the request.')), { details: data.error });
   return data;
+}
+
+/** The way to stop a request, with a name under which the server can be asked how far it is. */
+export function stoppable() {
+  const stop = new AbortController();
+  stop.signal.job = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(36)).join('');
+  return stop;
 }
 
 /**
@@ -124,7 +131,7 @@ export function useAnswer(make, dependencies, wait = 60) {
   const [state, setState] = useState({ data: null, error: null, to: null });
   const running = useRef(null);
   useEffect(() => {
-    const stop = new AbortController();
+    const stop = stoppable();
     running.current = stop;
     const timer = setTimeout(async () => {
       try {
@@ -138,21 +145,34 @@ export function useAnswer(make, dependencies, wait = 60) {
   }, dependencies);
   const pending = !state.to || dependencies.some((value, i) => value !== state.to[i]);
   const cancel = () => { running.current?.abort(); setState((s) => ({ ...s, error: new Error(t('Cancelled. Change an input to calculate again.')), to: dependencies })); };
-  return { data: state.data, error: state.error, pending, cancel };
+  return { data: state.data, error: state.error, pending, cancel, job: () => running.current?.signal.job };
 }
 
-/** Shown once something takes longer than a second: how long already, and a way to stop it. */
-export function Working({ busy, cancel, share = 0, text = t('Working… what is asked for the first time takes a little longer.') }) {
+/**
+ * Shown once something takes longer than a second: what the server is doing, how long already, and a way to stop it.
+ * `job` gives the name of the request waited for; without one, `share` and `text` say how far it is.
+ */
+export function Working({ busy, cancel, job, share = 0, text = t('Working… what is asked for the first time takes a little longer.') }) {
   const [seconds, setSeconds] = useState(0);
+  const [note, setNote] = useState('');
   useEffect(() => {
     if (!busy) return undefined;
     const start = Date.now();
-    setSeconds(0);
-    const timer = setInterval(() => setSeconds(Math.floor((Date.now() - start) / 1000)), 500);
+    let asking = false;
+    setSeconds(0); setNote('');
+    const look = async () => {
+      setSeconds(Math.floor((Date.now() - start) / 1000));
+      const name = job?.();
+      if (!name || asking || Date.now() - start < 1000) return;
+      asking = true;
+      try { const found = await ask(`/api/progress/${name}`); if (name === job()) setNote(found.note || ''); } catch { setNote(''); }
+      asking = false;
+    };
+    const timer = setInterval(look, 500);
     return () => clearInterval(timer);
   }, [busy]);
   if (!busy || seconds < 1) return null;
-  return html`<div class="row" data-working><progress max="1" value=${share || null} aria-label=${t('Progress')}></progress> <span class="small">${text} ${share ? `${Math.round(100 * share)} % · ` : ''}${t('{seconds} s', { seconds })}</span> <button class="button" onClick=${cancel}>${t('Cancel')}</button></div>`;
+  return html`<div class="row" data-working><progress max="1" value=${share || null} aria-label=${t('Progress')}></progress> <span class="small"><span data-note>${note ? note[0].toUpperCase() + note.slice(1) : text}</span> · ${share ? `${Math.round(100 * share)} % · ` : ''}${t('{seconds} s', { seconds })}</span> <button class="button" onClick=${cancel}>${t('Cancel')}</button></div>`;
 }
 
 /** A file made here, handed to the person in front of the page. */

@@ -58,7 +58,7 @@ function Test({ card, given }) {
       <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${wrong === p ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
-      <${Working} busy=${answer.pending} cancel=${answer.cancel} />
+      <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;

@@ -1,5 +1,5 @@
 // Lines: open or write a case file, edit it through forms made from the declarations, solve it, click through units and streams, compare, report.
-import { html, t, ask, link, number, useState, useEffect, useRef, remember, recall, replaceLink, download, Plot, Working } from './core.js';
+import { html, t, ask, link, number, useState, useEffect, useRef, remember, recall, replaceLink, download, stoppable, Plot, Working } from './core.js';
 import { caseAt, keepDraft, packed } from './drafts.js';
 import { Field } from './form.js';
 
@@ -65,7 +65,7 @@ export function Lines({ state }) {
   };
   const working = async (work) => {
     stop.current?.abort();
-    const mine = new AbortController();
+    const mine = stoppable();
     stop.current = mine;
     setBusy(true); setError(null);
     try { await work(mine.signal, () => stop.current === mine); } catch (problem) { if (problem.name !== 'AbortError') setError(problem); } finally { if (stop.current === mine) setBusy(false); }
@@ -110,7 +110,7 @@ export function Lines({ state }) {
     <details open=${!form}><summary>${t('Case file')}</summary>
     <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => change(e.target.value)} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
-    <${Working} busy=${busy} cancel=${() => { stop.current?.abort(); setBusy(false); }} text=${t('Working… a new line takes a little while the first time.')} />
+    <${Working} busy=${busy} cancel=${() => { stop.current?.abort(); setBusy(false); }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
     ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
@@ -151,7 +151,7 @@ function Outcome({ data, kept, form, edit, touch, tools, clear }) {
     event.preventDefault();
     choose(found.dataset.unit ? { sort: 'unit', name: found.dataset.unit } : { sort: 'stream', name: found.dataset.stream });
   };
-  const closes = Math.max(data.audit.mass_closure, data.audit.energy_closure) <= 1e-9;
+  const closes = [data.audit.mass_closure, data.audit.energy_closure].every((off) => off !== null && off <= 1e-9);
   const cases = [...kept, { ...data, form }];
   return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
     ${closes ? html`<p class="ok">● ${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>`

@@ -42,6 +42,12 @@ async function read(p, text, signal) {
   return { text, ...(await ask('/api/read', asked, { signal })) };
 }
 
+// A field that is left by pressing a button keeps its height until the button is let go: the press would miss it otherwise.
+let pressed = false;
+addEventListener('pointerdown', () => { pressed = true; }, true);
+for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => { pressed = false; }, true);
+const released = () => new Promise((done) => { if (pressed) for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => setTimeout(done), { once: true }); else done(); });
+
 /** The text that a value keeps: what was typed, with the unit of the menu where none was typed. */
 function kept(typed, menu) {
   const parts = split(typed.trim());
@@ -87,7 +93,7 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   const wrong = reading?.problem || problem;
   const example = p.default_shown?.number ?? p.hint ?? (p.series ? p.example?.number ?? '1 2 3' : '');
   return html`<div class="quantity"><div class="pairs"><input id=${id} type="text" inputmode="text" autocomplete="off" autocapitalize="off" spellcheck=${false} aria-label=${id ? null : label} aria-describedby=${note} aria-invalid=${wrong ? 'true' : 'false'}
-      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => { focused.current = true; }} onBlur=${() => { focused.current = false; settle(); }}
+      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => { focused.current = true; }} onBlur=${() => { focused.current = false; released().then(settle); }}
       onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => { if (e.key === 'Enter') { e.preventDefault(); settle(); } }} />
     ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
     ${wrong ? html`<div class="out small told" role="status">${wrong}</div>` : reading?.shown ? html`<div class="dim small" role="status" data-echo>= ${reading.shown}</div>` : ''}</div>`;

@@ -21,7 +21,7 @@ export function Studies({ state }) {
   const [list, setList] = useState(null);
   useEffect(() => { Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files || [], shipped: shipped.files })); }, []);
   const place = state.key || 'card:particles.terminal_velocity';
-  const { data: found, error, pending, cancel } = useAnswer((signal) => subjectOf(place, state.values, signal), [place, state.visit, settings.language, settings.units], 0);
+  const { data: found, error, pending, cancel, job } = useAnswer((signal) => subjectOf(place, state.values, signal), [place, state.visit, settings.language, settings.units], 0);
   const go = (value) => { location.hash = `#/studies/${encodeURIComponent(value)}`; };
   const head = html`<h1>${t('Studies')}</h1>
     <div class="row"><label>${t('Study of')} <select value=${place} onChange=${(e) => go(e.target.value)}>
@@ -32,7 +32,7 @@ export function Studies({ state }) {
     ${found?.changed && html`<p class="small caution" data-changed>▲ ${t('With the changes made under Lines that are not saved.')}</p>`}`;
   const ready = found && found.place === place && !pending;
   return html`<main class="studies" id="main">${ready ? html`<${Form} key=${place + settings.language + settings.units + state.visit} place=${place} head=${head} subject=${found.subject} choices=${found.choices} />`
-    : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Loading…')}</p><${Working} busy=${pending} cancel=${cancel} />`}</section><section aria-label=${t('Believe')} />`}</main>`;
+    : html`<section aria-label=${t('Enter')}>${head}${error && !pending ? html`<p class="message out" role="alert">${error.message}</p>` : html`<p class="dim" aria-busy="true">${t('Loading…')}</p><${Working} busy=${pending} cancel=${cancel} job=${job} />`}</section><section aria-label=${t('Believe')} />`}</main>`;
 }
 
 /** What is studied: a card with the values of the link, or a line as it stands on the screen, saved or not. */
