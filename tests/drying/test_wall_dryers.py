@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 import granum as gr
-from granum.core.errors import ApplicabilityError, InputError
+from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
 from granum.drying.contact.matter import Matter
 from granum.drying.formulas import assisted
 from granum.drying.formulas import contact_drying as c
@@ -41,9 +41,8 @@ def test_tray_of_the_textbook():
 
 def test_tray_reports_what_cannot_be():
     line = gr.read(EXAMPLES / "tray.toml")
-    wet = line.with_values(**{"oven.equilibrium_moisture": 0.01, "oven.temperature_limit": 350.0})
-    failed = [k.name for k in wet.solve().units["oven"].checks if not k.ok]
-    assert "moisture of the product above equilibrium with the hot air" in failed
+    with pytest.raises(ConvergenceError, match=r"'oven' has no solution.*without end"):
+        line.with_values(**{"oven.equilibrium_moisture": 0.01, "oven.temperature_limit": 350.0}).solve()
     damp, inlets = line.with_values(**{"oven.radiated_heat": 2000.0}).sheet.units["oven"], inlets_of(line)
     assert float(damp.results(inlets, damp(**inlets)).drying_time) < 3.3 * 3600
 
@@ -178,7 +177,7 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     parameters = {p.name: getattr(unit, p.name) for p in unit.card.parameters if p.name != "moisture_outlet"}
     back = type(unit).rate(float(figures.area), feed, **parameters)
     assert float(back.moisture_outlet) == pytest.approx(float(unit.moisture_outlet), rel=1e-9)
-    with pytest.raises(ApplicabilityError, match="does not fit"):
+    with pytest.raises(ApplicabilityError, match=r"does not fit|outside what is possible"):
         type(unit).rate(0.01, feed, **parameters)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import equinox as eqx
 import jax
 
 from granum.core import registry
@@ -127,6 +128,8 @@ def _as_law(value: Any, family: str, name: str, where: str) -> Any:
                 name=name,
             )
         return value() if isinstance(value, type) else value
+    if isinstance(value, eqx.Module) and not callable(value):
+        return value  # a module written for the purpose, such as an equilibrium that hangs on nothing
     if isinstance(value, type) or not callable(value):
         raise _no_law(value, name, where)
     missing = [ability for ability in registry.abilities(family) if not callable(getattr(value, ability, None))]
