@@ -16,6 +16,7 @@ OPENED = {key: thing for key, thing in EVERYTHING.items() if thing.card.sort in 
 
 FLAGGED = {
     "cyclones.cyclone_for_efficiency": "the dust of its example is a law made beforehand, and one of two numbers must be chosen",
+    "materials.saturated_solution": "saturated potassium nitrate is stronger than the solutions whose heat capacity was measured, and says so",
 }
 
 
@@ -27,7 +28,8 @@ def test_a_card_opens_with_a_result_and_without_a_flag(key: str) -> None:
         return  # no ordinary example: the page asks for what is missing
     values = inputs_for(thing.card, shown)
     if thing.card.sort == "chart":
-        assert thing(**values).data
+        drawn = thing(**values)
+        assert drawn.data or drawn.layout.shapes
         return
     result = thing.evaluate(**values)
     assert not result.notices, [notice["message"] for notice in result.notices]

@@ -18,7 +18,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.core import constants, registry, units
+from granum.core import constants, flags, registry, units
 from granum.core.formulas import Formula
 
 BASE = {"[length]": 1.37, "[mass]": 0.71, "[time]": 1.93, "[temperature]": 1.21, "[substance]": 0.83, "[currency]": 1.11}
@@ -51,7 +51,8 @@ def numbers(f: Formula) -> dict[str, Any]:
 
 
 def called(f: Formula, inputs: dict[str, Any]) -> Any:
-    return f.function(*(jnp.asarray(inputs[p.name]) if p.name in inputs else p.default for p in f.card.parameters))
+    with flags.inside(f):
+        return f.function(*(jnp.asarray(inputs[p.name]) if p.name in inputs else p.default for p in f.card.parameters))
 
 
 def evaluated(f: Formula, inputs: dict[str, Any]) -> list[np.ndarray]:

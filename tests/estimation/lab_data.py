@@ -54,11 +54,11 @@ def _grinding() -> Data:
     feed = (sizes / sizes[-1]) ** 1.2
     times = np.array([0.0, 60.0, 120.0, 240.0, 480.0])
     p = {"selection_rate": 0.004, "selection_exponent": 0.8, "fines_share": 0.5, "fines_exponent": 0.7, "coarse_exponent": 4.0}
-    later = np.asarray(GrindingKinetics.model(p, times[1:], sizes, feed))
-    below = np.vstack([feed, np.minimum(later, 1.0)])
+    rows = {"grinding_time": np.repeat(times, sizes.size), "particle_diameter": np.tile(sizes, times.size)}
+    plain = GrindingKinetics(**rows, cumulative_fraction=np.tile(feed, times.size))
+    below = np.vstack([feed, np.minimum(np.asarray(plain.model(p, times[1:], sizes, feed)), 1.0)])
     below[:, -1] = 1.0
-    return Data({"grinding_time": np.repeat(times, sizes.size), "particle_diameter": np.tile(sizes, times.size),
-                 "cumulative_fraction": below.ravel()}, {}, "cumulative_fraction", 0.003)  # fmt: skip
+    return Data({**rows, "cumulative_fraction": below.ravel()}, {}, "cumulative_fraction", 0.003)
 
 
 def _batch() -> Data:
