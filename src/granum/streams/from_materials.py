@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import linear_regression
 from typing import Any
 
 import jax
@@ -99,9 +98,10 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
 
     T = np.linspace(280.0, 350.0, 8)
     densities, heat_capacity = apparent(T)
-    # Sums rounded once: a singular value decomposition differs in the last digit from process to process, and stored studies tell models apart by it.
-    slope, intercept = linear_regression((T - ZERO_CELSIUS).tolist(), np.asarray(densities).tolist())
-    return Species(name, ((name, 1.0),), (intercept, slope), (float(heat_capacity),), 0.0, float(system.molar_mass), CONDENSED)
+    density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
+    return Species(
+        name, ((name, 1.0),), tuple(float(c) for c in density), (float(heat_capacity),), 0.0, float(system.molar_mass), CONDENSED
+    )
 
 
 def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:

@@ -29,6 +29,7 @@ that is not finite, from 2000 the input at fault, from 3000 the result that is n
 solution."""
 
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
+_DECIMALS = re.compile(r"\d+\.\d{8,}(e[+-]?\d+)?")
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
 Traced = Callable[[Any, Any], tuple[Any, Any]]
 
@@ -103,7 +104,10 @@ class Subject(abc.ABC):
         return self.title
 
     def fingerprint(self) -> str:
-        """A digest of the model and the version, the same in every process, so that a stored study is never continued with another model."""
+        """A digest of the model and the version, the same in every process, so that a stored study is never continued with another model.
+
+        Numbers count with nine digits: what a material's constants are beyond that depends on how they were compiled.
+        """
         leaves, tree = jax.tree.flatten(self.arrays())
         parts = [
             granum.__version__,
@@ -116,10 +120,12 @@ class Subject(abc.ABC):
             for leaf in leaves
             if not _is_number(leaf)
         ]
-        digest = hashlib.sha256(_ADDRESS.sub("", "\n".join(parts)).encode())
+        text = _ADDRESS.sub("", "\n".join(parts))
+        digest = hashlib.sha256(_DECIMALS.sub(lambda m: f"{float(m[0]):.9g}", text).encode())
         for leaf in leaves:
             if _is_number(leaf):
-                digest.update(np.asarray(leaf, dtype=float).tobytes())
+                mantissa, exponent = np.frexp(np.asarray(leaf, dtype=float))
+                digest.update(np.ldexp(np.round(mantissa, 9), exponent).tobytes())
         return digest.hexdigest()
 
     # -- common to all -----------------------------------------------------------------------------------------
