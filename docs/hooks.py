@@ -28,7 +28,7 @@ from granum.reports.quantities import value_text
 ROOT = Path(__file__).parent.parent
 WORDS = {
     "en": ["Cards", "input", "symbol", "units", "allowed", "default", "required", "result", "Source", "covers", "Kind", "formula", "cards"],
-    "fr": ["Cartes", "donnée", "symbole", "unités", "permis", "par défaut", "obligatoire", "résultat", "Source", "couvre", "Sorte", "formule", "cartes"],
+    "fr": ["Fiches", "donnée", "symbole", "unités", "permis", "par défaut", "obligatoire", "résultat", "Source", "couvre", "Sorte", "formule", "fiches"],
 }  # fmt: skip
 FOLDERS = {"en": "cards", "fr": "cards-fr"}
 DOMAIN_TITLES = {

@@ -143,6 +143,10 @@ def test_several_values_are_read_and_what_is_not_understood_is_said(client: http
     mixed = client.post("/api/read", json=series | {"number": "2", "unit_typed": "mm, 850 um"}).json()
     assert "number" not in mixed, "values with units of their own stay as they were typed"
     assert mixed["shown"].endswith(("2 mm", "0.85 mm", "850 µm"))
+    both = LENGTH | {"number": "10 20", "unit_typed": "um"}
+    assert set(client.post("/api/read", json=both).json()) == {"problem"}
+    assert client.post("/api/read", json=both | {"several": True}).json()["shown"] == "10 · 20 µm", "as a formula takes them"
+    assert client.post("/api/read", json=both | {"several": True, "number": "1 200"}).json()["shown"] == "1200 µm"
     for number, unit in (("eighty", ""), ("85", "kg"), ("-3", "um"), ("", "um"), ("85", "furlong per fortnight per")):
         told = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}).json()
         assert set(told) == {"problem"}
@@ -262,9 +266,10 @@ def test_a_case_is_shown_as_forms_and_edited_without_losing_comments(client: htt
     form = client.post("/api/case/form", json={"case": case}, headers={"x-language": "fr"}).json()
     assert form["units"]["mill"]["values"]["holdup_mass"] == "1.6 tonne"
     assert form["feeds"]["fresh"]["values"]["solid_flow"] == "20 t/h"
-    assert next(p for p in form["units"]["mill"]["parameters"] if p["name"] == "selection")["laws"]["austin_selection"][
-        "selection_exponent"
-    ].startswith("exposant")
+    selection = next(p for p in form["units"]["mill"]["parameters"] if p["name"] == "selection")
+    option = selection["laws"]["austin_selection"]["parameters"]["selection_exponent"]
+    assert option["label"].startswith("exposant")
+    assert option["kind"], "a quantity of a law is a quantity of the form"
 
     def edit(table: str, name: str, key: str, text: str) -> httpx.Response:
         return client.post("/api/case/edit", json={"case": case, "table": table, "name": name, "key": key, "text": text})

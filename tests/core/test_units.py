@@ -53,7 +53,7 @@ def test_mesh_numbers_lead_to_the_sieve_series() -> None:
         units.read_quantity("200 mesh", KINDS["Length"], "particle_diameter")
 
 
-@pytest.mark.parametrize("text", ["", "abc", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
+@pytest.mark.parametrize("text", ["", "abc", "5 1 m", "5±1 m", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
 def test_what_is_not_a_number_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         units.read_quantity(text, KINDS["Length"], "x")
@@ -85,6 +85,7 @@ def test_lists(text: str, expected: list[float]) -> None:
         ("0,85 um", 0.85),
         ("1\u202f200 um", 1200),
         ("60 85 um", [60, 85]),
+        ("5 1 um", [5, 1]),
         ("0,10,20 um", [0, 10, 20]),
         ("[50, 85, 100] um", [50, 85, 100]),
         ("[50, 1200] um", [50, 1200]),
@@ -102,6 +103,17 @@ def test_one_value_or_several(text: str, expected: object) -> None:
 def test_digits_in_threes_are_not_guessed_where_several_values_may_stand(text: str) -> None:
     with pytest.raises(InputError, match="one number or several"):
         units.read_values(text, KINDS["Length"], "particle_diameter")
+
+
+@pytest.mark.parametrize(("text", "one"), [("0,5 mm", "0.5"), ("9,970e-01", "9.970e-01"), ("1 1/2 inch", "1.5"), ("3 1 1/4 inch", "1.25")])
+def test_a_comma_or_a_fraction_in_a_series_is_not_guessed(text: str, one: str) -> None:
+    with pytest.raises(InputError, match=f"'{one}' for one"):
+        units.read_series(text, KINDS["Length"], "class_sizes")
+
+
+def test_a_whole_number_and_a_fraction_are_one_number() -> None:
+    assert units.read_quantity("1 1/2 inch", KINDS["Length"]) == pytest.approx(1.5 * 0.0254)
+    assert units.read_quantity("-1 1/4 degC", KINDS["Temperature"]) == pytest.approx(273.15 - 1.25)
 
 
 def test_several_values_of_an_input_of_a_formula() -> None:

@@ -19,6 +19,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter, convert
 from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
+from granum.core.written import read_number
 from granum.reports.mathml import mathml
 from granum.reports.quantities import law_label
 
@@ -29,22 +30,39 @@ def card_form(key: str) -> dict[str, Any]:
     data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
     examples = docstring_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
-        row["symbol_shown"] = mathml(p.term.symbol) if p.term and p.term.symbol else ""
-        row["allowed"] = bounds_text(p)
-        row["source_range"] = range_text(p, p.fitted) if p.fitted else ""
+        row |= _field(p)
         row["options"] = options(p)
-        row["laws"] = law_labels(p)
-        if p.kind:
-            row["units"] = _units_of(p.kind, row["units"])
-        row["default_shown"] = None if p.required or p.default is None else entry(p, p.default)
+        row["laws"] = laws_with_parameters(p)
+        row["several"] = bool(p.kind) and card.sort == "formula"
         row["example"] = example(p, examples)
+        row["units"] += _unit_of(row["example"], p.kind, row["units"])
     return data
+
+
+def _field(p: Parameter) -> dict[str, Any]:
+    """What stands around a field: symbol, bounds, range, units, default."""
+    return {
+        "symbol_shown": mathml(p.term.symbol) if p.term and p.term.symbol else "",
+        "allowed": bounds_text(p),
+        "source_range": range_text(p, p.fitted) if p.fitted else "",
+        "units": _units_of(p.kind, p.as_json()["units"]) if p.kind else [],
+        "default_shown": None if p.required or p.default is None else entry(p, p.default),
+    }
 
 
 def _units_of(kind: Kind, rows: list[dict[str, str]]) -> list[dict[str, str]]:
     """Units to choose from, customary ones first when they are wanted."""
     wanted = [{"unit": u, "label": pretty_unit(u)} for u in field_units(kind)]
     return wanted + [u for u in rows if same_dimension(u["unit"], kind) and u not in wanted]
+
+
+def _unit_of(shown: dict[str, str] | None, kind: Kind | None, offered: list[dict[str, str]]) -> list[dict[str, str]]:
+    """The unit of an example where none of those offered is it."""
+    found = read_number(shown["number"]) if shown and kind else None
+    unit = found[1] if found else ""
+    if not kind or not unit or not _known(unit, kind) or any(_alike(unit, u["unit"], kind) for u in offered):
+        return []
+    return [{"unit": unit, "label": pretty_unit(unit)}]
 
 
 def same_dimension(unit: str, kind: Kind) -> bool:
@@ -77,15 +95,35 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     p = _asked_parameter(asked)
     assert p.kind is not None
     typed = str(asked.get("unit_typed", ""))
-    array = np.atleast_1d(np.asarray(convert(f"{asked.get('number', '')} {typed}".strip(), p), dtype=float))
+    array = _converted(f"{asked.get('number', '')} {typed}".strip(), p, bool(asked.get("several")))
     unit = typed or p.kind.unit
     if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
         shown = display_unit(array, p.kind)
         return {"shown": _listed(array, shown, p.kind)}
     offered = (str(u) for u in asked.get("units") or ())
     unit = next((u for u in offered if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
-    numbers = " ".join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
+    between = " " if p.series else "; "  # beside one number a blank sets thousands apart
+    numbers = between.join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
     return {"shown": _listed(array, unit, p.kind), "number": numbers, "unit": "" if unit == "dimensionless" else unit}
+
+
+def _converted(text: str, p: Parameter, several: bool) -> np.ndarray:
+    """The values of a text: one, or those of a series; several of a single input only where it cannot be read as one."""
+    try:
+        return np.atleast_1d(np.asarray(convert(text, p), dtype=float))
+    except InputError:
+        values = _several(text, p) if several else None
+        if values is None:
+            raise
+        return values
+
+
+def _several(text: str, p: Parameter) -> np.ndarray | None:
+    try:
+        values = np.atleast_1d(np.asarray(convert(text, p, several=True), dtype=float))
+    except InputError:
+        return None
+    return values if values.size > 1 else None
 
 
 def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
@@ -173,13 +211,13 @@ def _law_option(card: Card) -> dict[str, str] | None:
     return {"value": card.name, "label": law_label(card), "table": json.dumps({"law": card.name} | example, ensure_ascii=False)}
 
 
-def law_labels(p: Parameter) -> dict[str, dict[str, str]]:
-    """Labels of the laws with parameters that may stand for a parameter, by the names under which a case or a link calls them."""
-    found: dict[str, dict[str, str]] = {}
+def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
+    """Titles and parameters of the laws that may stand for a parameter, by the names under which a case or a link calls them."""
+    found: dict[str, dict[str, Any]] = {}
     for thing in registry.family(p.law).values() if p.law else ():
         if thing.card.sort == "law":
-            words = {"law": thing.card.title} | {q.name: q.label for q in thing.card.parameters}
-            found |= {thing.card.name: words, thing.card.name.removeprefix(p.law or "").strip("_"): words}
+            law = {"title": thing.card.title, "parameters": {q.name: q.as_json() | _field(q) for q in thing.card.parameters}}
+            found |= {thing.card.name: law, thing.card.name.removeprefix(p.law or "").strip("_"): law}
     return found
 
 

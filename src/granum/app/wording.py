@@ -17,6 +17,7 @@ _BESIDE = re.compile(rf" \({_QUOTED}\)")  # label ('name')
 _WITH_LABEL = re.compile(rf"{_QUOTED} \(([^(),]+)(?:, ([^()]+))?\)")  # 'name' (label, unit)
 _ALONE = re.compile(_QUOTED)
 _PLACE = re.compile(r"\[(?:units|feeds)\.([^\]]+)\]:? ?")
+_STUDY = re.compile(r"\[study\.[^\]]+\] ?")
 _KEY = re.compile(rf"(?<!['\w.])(?<!«\s)(?:{'|'.join(registry.DOMAINS)})\.[a-z0-9_]+\b")
 _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
@@ -27,7 +28,7 @@ def page_words(message: str, allowed: object = None) -> str:
     >>> page_words("sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1.")
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
     """
-    text = _PLACE.sub(r"\1: ", message)
+    text = _STUDY.sub("", _PLACE.sub(r"\1: ", message))
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
     text = _ALONE.sub(lambda found: Parameter(found[1]).label if quantity_in(found[1]) else found[0], text)

@@ -16,7 +16,7 @@ from granum.core.errors import InputError, UnitError
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.kinds import Kind
-from granum.core.written import apart, read_number, tidy
+from granum.core.written import apart, mixed, read_number, tidy
 
 _LONGEST_UNIT = 40
 
@@ -49,6 +49,8 @@ def _registry() -> Any:
         "btu = Btu",
         "rev = revolution",
         "tr = revolution",
+        "@alias day = j",
+        "@alias year = an",
         "gpm = gallon / minute",
         "gpd = gallon / day",
         "mgd = 1e6 * gallon / day = MGD",
@@ -216,12 +218,7 @@ def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:
     """The SI value of a text, or the values of one that holds several: ``"60 85 um"``, ``"0,10,20degC"``, ``"[1; 2] bar"``."""
     digits = apart(text)
     if digits:
-        raise InputError(
-            _("'{name}' = '{text}' may be one number or several: write '{one}' for one, '{more}' for several.").format(
-                name=name or kind.name, text=shown(text), one=re.sub("[ ,]", "", digits), more=re.sub("[ ,]", "; ", digits)
-            ),
-            name=name or kind.name,
-        )
+        raise _one_or_several(text, re.sub("[ ,]", "", digits), re.sub("[ ,]", "; ", digits), name or kind.name)
     try:
         return read_quantity(text, kind, name)
     except InputError:
@@ -232,6 +229,12 @@ def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:
         if values.size < 2:
             raise
         return values
+
+
+def _one_or_several(text: str, one: str, more: str, name: str) -> InputError:
+    """The error for a text that may be read in two ways."""
+    message = _("'{name}' = '{text}' may be one number or several: write '{one}' for one, '{more}' for several.")
+    return InputError(message.format(name=name, text=shown(text), one=one, more=more), name=name)
 
 
 def has_unit(text: str) -> bool:
@@ -245,9 +248,13 @@ def has_unit(text: str) -> bool:
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value without a unit takes the next one's."""
+    if both := mixed(text):
+        raise _one_or_several(text, *both, name or kind.name)
     cleaned = re.sub(r"[\[\];]", " ", tidy(text))
     cleaned = re.sub(r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned)  # before a blank or after a unit the comma separates
     numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
+    if len(numbers) == 1 and re.fullmatch(r"[^,]*,\d[^,]*", numbers[0]):  # "0,5 mm"
+        raise _one_or_several(text, numbers[0].replace(",", "."), numbers[0].replace(",", "; "), name or kind.name)
     if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
         cleaned = cleaned.replace(",", " ")  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
     values: list[float] = []
@@ -283,12 +290,16 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 _PRETTY = {"um": "µm", "degC": "°C", "degF": "°F", "percent": "%", "dimensionless": "", "delta_degC": "K", "kelvin": "K",
            "radian": "rad", "degree": "°", "hour": "h", "tonne": "t", "delta_degF": "°F", "inch": "in", "gallon": "gal", "short_ton": "short ton"}  # fmt: skip
+_FRENCH = {"day": "j", "year": "an", "rpm": "tr/min", "revolution": "tr"}
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def pretty_unit(unit: str) -> str:
-    """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``."""
-    text = re.sub(r"[A-Za-z_]+", lambda m: _PRETTY.get(m.group(), m.group()), unit)
+    """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``; in French ``tonne/day`` → ``t/j``."""
+    from granum.core.i18n import current_language
+
+    printed = _PRETTY | _FRENCH if current_language() == "fr" else _PRETTY
+    text = re.sub(r"[A-Za-z_]+", lambda m: printed.get(m.group(), m.group()), unit)
     text = re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_SUPERSCRIPT), text)
     return text.replace("*", "·")
 

@@ -13,7 +13,7 @@ _GROUPED = r"[1-9]\d{0,2}(?: \d{3})+(?![\d/])"
 _BOTH = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.\d+|(?:\.\d{3})+,\d+)(?![\d.,])"  # 1,200.5 and 1.200,5
 _APART_IN_THREES = re.compile(rf"\s*([+-]?(?:{_GROUPED}|[1-9]\d{{0,2}}(?:,\d{{3}}){{2,}}(?![\d.,])))")
 _NUMBER = re.compile(
-    rf"\s*([+-]?(?:\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*",
+    rf"\s*([+-]?(?:(?:\d+ )?\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*",
     re.DOTALL,
 )
 
@@ -32,14 +32,15 @@ def tidy(text: str) -> str:
 def read_number(text: str) -> tuple[float, str] | None:
     """The number a text starts with and what follows it; None where it starts with none.
 
-    >>> read_number("0,8 bar"), read_number("1 200,5 kg/h"), read_number("1,200.5"), read_number("1/8 in")
-    ((0.8, 'bar'), (1200.5, 'kg/h'), (1200.5, ''), (0.125, 'in'))
+    >>> read_number("0,8 bar"), read_number("1 200,5 kg/h"), read_number("1,200.5"), read_number("1 1/8 in")
+    ((0.8, 'bar'), (1200.5, 'kg/h'), (1200.5, ''), (1.125, 'in'))
     """
     found = _NUMBER.fullmatch(tidy(text)) if len(text) <= LONGEST else None
-    if found is None:
+    if found is None or re.match(r"(?!1\s*/)[±\d]", found[2]):  # "5 1 um", "5±1 um"
         return None
-    above, _over, below = _plain(found[1]).partition("/")
-    return float(above) / float(below or 1.0), found[2]
+    if "/" in found[1]:
+        return _fraction(found[1]), found[2]
+    return float(_plain(found[1])), found[2]
 
 
 def apart(text: str) -> str:
@@ -52,6 +53,24 @@ def apart(text: str) -> str:
     """
     found = _APART_IN_THREES.match(tidy(text))
     return found[1] if found else ""
+
+
+def mixed(text: str) -> tuple[str, str] | None:
+    """A whole number that a fraction follows, read as one number and as two; None where a text has none.
+
+    >>> mixed("1 1/2 in"), mixed("1; 1/2 in"), mixed("25 1/h")
+    (('1.5', '1; 1/2'), None, None)
+    """
+    found = re.search(r"(?<![\d.,/])(\d+) (\d+/[1-9]\d*)", tidy(text))
+    return (f"{_fraction(found[0]):.12g}", f"{found[1]}; {found[2]}") if found else None
+
+
+def _fraction(text: str) -> float:
+    """``1 1/8`` or ``-1/8``."""
+    whole, _blank, part = text.lstrip("+-").rpartition(" ")
+    above, _over, below = part.partition("/")
+    size = float(whole or 0.0) + float(above) / float(below)
+    return -size if text.startswith("-") else size
 
 
 def _plain(number: str) -> str:

@@ -59,7 +59,7 @@ function Work({ page, card, given }) {
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
       ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
-        : html`<${Result} card=${card} values=${values} data=${answer.data} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} />`)}</div>
+        : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} />`)}</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
@@ -106,14 +106,14 @@ function appended(text, value, unit) {
   return `${before ? before + ' ' : ''}${shown} ${unit}`;
 }
 
-function Result({ card, values, data, kept, keep, clear, choose }) {
+function Result({ card, values, data, old, kept, keep, clear, choose }) {
   const bad = data.flags.length > 0;
   const single = data.shown.length <= 3;
   return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
     : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class=${isPlain(data.outputs[row.name].value) ? 'n' : ''} data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></td></tr>`)}</tbody></table></div>`}
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <${Series} card=${card} tables=${data.series} />
-    <div class="row"><button class="button" disabled=${kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
+    <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
     ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} />`}
     ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}

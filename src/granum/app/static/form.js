@@ -23,17 +23,33 @@ function Choice({ p, id, note, text, onChange }) {
 /** A word as it is; a law that has parameters with those of its example, to be changed. */
 const meant = (p, word) => p.options.find((o) => o.value === word)?.table || word;
 
-/** A law with its own parameters: the law as a choice, its parameters as fields. */
+/** A law with its own parameters: the law as a choice, its parameters as fields; quantities with their units. */
 function LawTable({ p, id, note, text, onChange }) {
   let table = null;
   try { table = JSON.parse(text); } catch { /* shown as text below */ }
   if (!table || typeof table !== 'object') return html`<input id=${id} value=${text} aria-describedby=${note} onInput=${(e) => onChange(e.target.value)} />`;
-  const labels = p.laws?.[table.law];
-  const options = p.options.some((o) => o.value === table.law) ? p.options : [{ value: table.law, label: labels?.law || String(table.law).replaceAll('_', ' ') }, ...p.options];
-  const plain = (value) => (typeof value === 'string' ? inLanguage(value) : typeof value === 'number' ? inLanguage(String(value)) : JSON.stringify(value));
-  const read = (typed, before) => { const clean = typed.replace(/^([-+]?\d*),(\d*)/, '$1.$2'); if (clean.trim().startsWith('[')) { try { return JSON.parse(clean); } catch { return clean; } } return typeof before === 'number' && clean.trim() !== '' && Number.isFinite(Number(clean)) ? Number(clean) : clean; };
+  const law = p.laws?.[table.law];
+  const options = p.options.some((o) => o.value === table.law) ? p.options : [{ value: table.law, label: law?.title || String(table.law).replaceAll('_', ' ') }, ...p.options];
+  const set = (name, value) => onChange(JSON.stringify({ ...table, [name]: value }));
   return html`<div class="law"><select id=${id} class="alone" value=${table.law} aria-describedby=${note} onChange=${(e) => onChange(meant(p, e.target.value))}>${options.map((o) => html`<option value=${o.value} selected=${o.value === table.law}>${o.label}</option>`)}</select>
-    ${Object.entries(table).filter(([name]) => name !== 'law').map(([name, value]) => html`<label class="small">${labels?.[name] || name.replaceAll('_', ' ')} <input data-option=${name} value=${plain(value)} onInput=${(e) => onChange(JSON.stringify({ ...table, [name]: read(e.target.value, value) }))} /></label>`)}</div>`;
+    ${Object.entries(table).filter(([name]) => name !== 'law').map(([name, value]) => {
+      const q = law?.parameters[name];
+      return html`<div class="small given" key=${`${table.law} ${name}`} data-option=${name}><label for=${`${id}-${name}`}>${q?.label || name.replaceAll('_', ' ')}</label>
+        ${q?.kind && isQuantity(value) ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
+          : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`}</div>`;
+    })}</div>`;
+}
+
+const isQuantity = (value) => [value].flat().every((x) => typeof x === 'number' || typeof x === 'string');
+const plain = (value) => (typeof value === 'string' ? inLanguage(value) : typeof value === 'number' ? inLanguage(String(value)) : JSON.stringify(value));
+/** A number stays a number where nothing but a number was typed. */
+const bare = (text, before) => (typeof before === 'number' && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text);
+
+/** What is typed for an option that is no quantity. */
+function read(typed, before) {
+  const clean = typed.replace(/^([-+]?\d*),(\d*)/, '$1.$2');
+  if (!clean.trim().startsWith('[')) return bare(clean, before);
+  try { return JSON.parse(clean); } catch { return clean; }
 }
 
 function Text({ p, id, note, text, onChange, problem }) {

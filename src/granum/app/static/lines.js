@@ -28,6 +28,8 @@ export function Lines({ state }) {
   const saved = useRef('');
   const where = useRef('');
   const waiting = useRef(0);
+  const due = useRef(new Map());
+  const written = useRef(Promise.resolve());
   const files = () => Promise.all([ask('/api/workspace'), ask('/api/examples')]).then(([own, shipped]) => setList({ own: own.files, shipped: shipped.files, titles: shipped.titles }));
   useEffect(() => { files(); return () => stop.current?.abort(); }, []);
   useEffect(() => { if (state.key.includes(':')) open(state.key, state.values.case); }, [state.visit]);
@@ -36,9 +38,10 @@ export function Lines({ state }) {
     const changed = next !== saved.current || where.current.startsWith('computer:');
     keepDraft(where.current, changed ? next : null);
     const short = changed ? await packed(next) : '';
-    if (latest.current !== next) return;
+    if (latest.current !== next) return short;
     setCarried(short);
     replaceLink('lines', where.current, { case: short });
+    return short;
   };
   const settle = (next) => { where.current = next; setPlace(next); };
   const shown = (next) => { latest.current = next; setText(next); ask('/api/case/form', { case: next }).then((found) => { if (latest.current === next) setForm(found); }, () => setForm(null)); };
@@ -83,30 +86,51 @@ export function Lines({ state }) {
       waiting.current = setTimeout(() => solve(found.case), 400);
     } catch (problem) { setError(problem); }
   };
-  const undo = () => { const before = past.at(-1); setPast(past.slice(0, -1)); setTyping(false); shown(before); follow(before); if (outcome) solve(before); };
+  /** What is typed waits a moment before it goes into the case, one change after the other; whoever takes the case along takes all of it. */
+  const later = (...what) => {
+    const spot = what.slice(0, 3).join(' ');
+    setTyping(true);
+    clearTimeout(due.current.get(spot)?.timer);
+    due.current.set(spot, { what, timer: setTimeout(complete, 500) });
+  };
+  const drop = () => { const open = [...due.current.values()]; open.forEach((one) => clearTimeout(one.timer)); due.current.clear(); return open; };
+  const complete = () => {
+    for (const { what } of drop()) written.current = written.current.then(() => edit(...what));
+    return written.current;
+  };
+  const typedIn = { later, waits: (...spot) => due.current.has(spot.join(' ')) };
+  const undo = () => { drop(); const before = past.at(-1); setPast(past.slice(0, -1)); setTyping(false); shown(before); follow(before); if (outcome) solve(before); };
   const save = async (replace) => {
     try {
+      await complete();
+      const text = latest.current;
       await ask(address(path), { text, replace }, { method: 'PUT' });
       keepDraft(where.current, null); saved.current = text; settle('workspace:' + path); follow(text);
       setTaken(false); setTold(t('Saved.')); files(); setTimeout(() => setTold(''), 3000);
     } catch (problem) { if (problem.details?.exists) setTaken(true); else setError(problem); }
   };
   const compare = (cases) => { setKept(cases); remember('compared ' + where.current, cases); };
-  const report = () => working(async (signal) => download('report.html', await ask('/api/report', { case: text, place }, { text: true, signal }), 'text/html'));
+  const report = () => working(async (signal) => download('report.html', await ask('/api/report', { case: (await complete(), latest.current), place }, { text: true, signal }), 'text/html'));
+  const study = async (e) => {
+    if (!due.current.size) return;
+    e.preventDefault();
+    await complete();
+    location.hash = link('studies', where.current, { case: await follow(latest.current) });
+  };
   const old = outcome && (busy || error || typing || text !== solved);
   return html`<main class="lines" id="main"><section aria-label=${t('Enter')}><h1>${t('Lines')}</h1>
     <div class="row"><select aria-label=${t('Open a case file')} onChange=${(e) => open(e.target.value)}><option value="" selected=${!place}>${t('Open…')}</option>
       ${place.startsWith('computer:') && html`<option value=${place} selected>${place.slice(9)}</option>`}
       ${list?.shipped?.length > 0 && html`<optgroup label=${t('Examples')}>${list.shipped.map((f) => html`<option value=${'examples:' + f} selected=${place === 'examples:' + f}>${f}</option>`)}</optgroup>`}
       ${list?.own?.length > 0 && html`<optgroup label=${t('Workspace')}>${list.own.map((f) => html`<option value=${'workspace:' + f} selected=${place === 'workspace:' + f}>${f}</option>`)}</optgroup>`}</select>
-      <button class="button main" disabled=${!text || busy} onClick=${() => solve(text)}>${t('Solve')}</button>
+      <button class="button main" disabled=${!text || busy} onClick=${async () => { await complete(); clearTimeout(waiting.current); solve(latest.current); }}>${t('Solve')}</button>
       <button class="button" disabled=${!past.length} onClick=${undo}>${t('Undo')}</button></div>
     <div class="row"><label class="button">${t('Open from this computer')}<input class="hidden" type="file" accept=".toml" aria-label=${t('Open from this computer')} onChange=${(e) => read(e.target.files)} /></label>
-      <button class="button" disabled=${!text} onClick=${() => download((path.split('/').at(-1) || 'line').replace(/(\.toml)?$/, '.toml'), text, 'application/toml')}>${t('Download the file')}</button></div>
+      <button class="button" disabled=${!text} onClick=${async () => { await complete(); download((path.split('/').at(-1) || 'line').replace(/(\.toml)?$/, '.toml'), latest.current, 'application/toml'); }}>${t('Download the file')}</button></div>
     ${list && !list.own && html`<p class="small dim">${t('To save on the server, start it with --workspace FOLDER.')}</p>`}
     ${list?.own && html`<div class="row"><input type="text" aria-label=${t('File name')} placeholder="line.toml" value=${path} onInput=${(e) => { setPath(e.target.value); setTaken(false); }} /><button class="button" disabled=${!path.endsWith('.toml') || !text} onClick=${() => save(place === 'workspace:' + path)}>${t('Save')}</button></div>
       ${taken && html`<div class="row caution" role="alert">▲ ${t('There is another file of this name: {path}', { path })} <button class="button" onClick=${() => save(true)}>${t('Overwrite it')}</button> <button class="button" onClick=${() => setTaken(false)}>${t('Keep it')}</button></div>`}`}<span class="small dim" role="status">${told}</span>
-    ${form && html`<${Forms} form=${form} edit=${edit} touch=${() => setTyping(true)} problem=${error?.details} message=${error?.message} />`}
+    ${form && html`<${Forms} form=${form} typedIn=${typedIn} problem=${error?.details} message=${error?.message} />`}
     <details open=${!form}><summary>${t('Case file')}</summary>
     <textarea id="case" aria-label=${t('Case file')} rows="30" spellcheck="false" value=${text} placeholder=${t('Open an example, or write a case file here.')} onChange=${(e) => change(e.target.value)} onInput=${(e) => setText(e.target.value)}></textarea></details></section>
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
@@ -114,34 +138,31 @@ export function Lines({ state }) {
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
     ${!outcome && !busy && !error && html`<h2 class="first">${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
-    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} edit=${edit} touch=${() => setTyping(true)} clear=${() => compare([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
-      <button class="button" disabled=${kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
-      <a class="button" href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
+    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} kept=${kept} form=${form} typedIn=${typedIn} clear=${() => compare([])} tools=${html`<button class="button" disabled=${busy} onClick=${report}>${t('Report')}</button>
+      <button class="button" disabled=${Boolean(old) || kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
+      <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`} /></div>`}</section></main>`;
 }
 
 /** Feeds and units, each a closed form that opens when asked. */
-function Forms({ form, edit, touch, problem, message }) {
+function Forms({ form, typedIn, problem, message }) {
   const groups = [['feeds', t('Feeds'), form.feeds], ['units', t('Units'), form.units]];
   return groups.map(([table, label, items]) => Object.keys(items).length > 0 && html`<h2>${label}</h2>${Object.entries(items).map(([name, item]) => html`<details key=${table + name} open=${problem?.unit === name} data-form=${name}><summary><strong>${name}</strong> <span class="dim">${item.title || ''}</span></summary>
-    <${ItemForm} table=${table} name=${name} item=${item} edit=${edit} touch=${touch} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`)}`);
+    <${ItemForm} table=${table} name=${name} item=${item} typedIn=${typedIn} wrong=${problem?.unit === name ? problem.name : ''} message=${message} /></details>`)}`);
 }
 
-/** The form of one unit or feed. What is typed waits a moment before it goes into the case. */
-function ItemForm({ table, name, item, edit, touch, wrong, message, spot = 'form' }) {
+/** The form of one unit or feed. */
+function ItemForm({ table, name, item, typedIn, wrong, message, spot = 'form' }) {
   const [typed, setTyped] = useState({});
-  const timer = useRef({});
-  useEffect(() => setTyped({}), [JSON.stringify(item.values)]);
+  useEffect(() => setTyped((before) => Object.fromEntries(Object.entries(before).filter(([key]) => typedIn.waits(table, name, key)))), [JSON.stringify(item.values)]);
   const set = (key, value) => {
     setTyped((before) => ({ ...before, [key]: value }));
-    touch();
-    clearTimeout(timer.current[key]);
-    timer.current[key] = setTimeout(() => edit(table, name, key, value), 500);
+    typedIn.later(table, name, key, value);
   };
   if (!item.parameters.length) return html`<p class="small dim">${item.summary || t('No parameters.')}</p>`;
   return html`<form onSubmit=${(e) => e.preventDefault()}>${item.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} id=${`field-${spot}-${name}-${p.name}`} text=${typed[p.name] ?? item.values[p.name]} onChange=${(value) => set(p.name, value)} problem=${wrong === p.name ? message : ''} />`)}</form>`;
 }
 
-function Outcome({ data, kept, form, edit, touch, tools, clear }) {
+function Outcome({ data, kept, form, typedIn, tools, clear }) {
   const [chosen, choose] = useState({ sort: '', name: '' });
   const panel = useRef(null);
   const pick = (event) => {
@@ -160,7 +181,7 @@ function Outcome({ data, kept, form, edit, touch, tools, clear }) {
     <p class="small dim">${t('Click a unit or a stream, or reach it with the tabulator key and press Enter.')}</p>
     <div ref=${panel} aria-live="polite">${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card" data-panel=${chosen.name}><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
     ${chosen.sort === 'unit' && data.units[chosen.name] && html`<div class="card columns" data-panel=${chosen.name}><div><${UnitPanel} name=${chosen.name} unit=${data.units[chosen.name]} cases=${cases} /></div>
-      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} edit=${edit} touch=${touch} spot="panel" /></div>`}</div>`}</div>
+      ${form?.units[chosen.name] && html`<div><${ItemForm} key=${chosen.name} table="units" name=${chosen.name} item=${form.units[chosen.name]} typedIn=${typedIn} spot="panel" /></div>`}</div>`}</div>
     ${data.flags.map((flag) => html`<p class="message caution"><strong>${flag.unit}</strong> ${flag.message}</p>`)}
     ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>

@@ -5,7 +5,7 @@ import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
 export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
 export const inLanguage = (text) => (settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text);
 
-const NUMBER = /[\s;,[\]]*(?!1\s?\/\s?[a-zµ(])[-+−–]?\s?(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
+const NUMBER = /[\s;,[\]]*[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
@@ -38,7 +38,7 @@ function useReading(p, text) {
 
 async function read(p, text, signal) {
   const parts = split(text);
-  const asked = { number: parts.number, unit_typed: parts.unit, name: p.name, kind: p.kind, unit: p.unit, lower: p.lower, upper: p.upper, open_lower: p.open_lower, open_upper: p.open_upper, series: p.series || '', units: (p.units || []).map((u) => u.unit) };
+  const asked = { number: parts.number, unit_typed: parts.unit, name: p.name, kind: p.kind, unit: p.unit, lower: p.lower, upper: p.upper, open_lower: p.open_lower, open_upper: p.open_upper, series: p.series || '', several: p.several || false, units: (p.units || []).map((u) => u.unit) };
   return { text, ...(await ask('/api/read', asked, { signal })) };
 }
 
@@ -51,7 +51,7 @@ const released = () => new Promise((done) => { if (pressed) for (const end of ['
 /** The text that a value keeps: what was typed, with the unit of the menu where none was typed. */
 function kept(typed, menu) {
   const parts = split(typed.trim());
-  return typed.trim() === '' ? '' : joined(parts.unit || !/\d/.test(parts.number) ? parts : { number: parts.number, unit: menu });
+  return typed.trim() === '' ? '' : joined(parts.unit || !/\p{Nd}/u.test(parts.number) ? parts : { number: parts.number, unit: menu });
 }
 
 export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {

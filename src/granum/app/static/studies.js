@@ -97,16 +97,21 @@ function known(setup, inputs, choices) {
     && (!setup.declared || choices.declared.some((d) => d.name === setup.declared));
 }
 
+/** A whole number as people type it, its thousands apart or not; anything else goes to the server as it is, which refuses it. */
+const whole = (text) => (/^\s*\d[\d\s]*$/.test(text) ? Number(text.replace(/\s/g, '')) : text);
+
 function declared({ kind, rows, watched, samples, sense, limits }) {
   const by = (make) => Object.fromEntries(rows.map((r) => [r.name, make(r)]));
-  if (kind === 'sweep' || kind === 'map') return { kind, outputs: watched, over: by((r) => ({ from: r.low, to: r.high, steps: Number(r.steps) || 21 })) };
+  if (kind === 'sweep' || kind === 'map') return { kind, outputs: watched, over: by((r) => ({ from: r.low, to: r.high, steps: whole(r.steps) })) };
   if (kind === 'optimize') return {
     kind, [sense]: watched[0], over: by((r) => ({ lower: r.low, upper: r.high })),
     ...(limits.length ? { limits: Object.fromEntries(limits.map((l) => [l.name, { ...(l.low && { lower: l.low }), ...(l.high && { upper: l.high }) }])) } : {}),
   };
   const uncertain = by((r) => (r.law === 'uniform' ? { distribution: 'uniform', lower: r.low, upper: r.high } : { distribution: 'normal', mean: r.mean, standard_deviation: r.spread }));
-  return { kind, outputs: watched, samples: Number(samples) || 1000, uncertain };
+  return { kind, outputs: watched, samples: whole(samples), uncertain };
 }
+
+const colon = () => (settings.language === 'fr' ? ' :' : ':');
 
 /** The question in words, to stand above its answer. */
 function question(setup, choices) {
@@ -115,10 +120,10 @@ function question(setup, choices) {
   const figure = (name) => choices.figures.find((f) => f.name === name);
   const written = (text, quantity) => { const { number, unit } = split(text); return `${inLanguage(number)} ${quantity.units?.find((u) => u.unit === unit)?.label ?? unit}`.trim(); };
   const range = (r) => { const { quantity, spread } = choices.inputs.find((i) => i.name === r.name); return doubtful(setup.kind) && r.law === 'normal' ? `${written(r.mean, quantity)} ± ${written(r.spread, spread)}` : `${written(r.low, quantity)} … ${written(r.high, quantity)}`; };
-  const bounds = setup.kind === 'optimize' ? setup.limits.map((l) => `${figure(l.name).label}: ${[l.low && `${t('at least')} ${written(l.low, figure(l.name).quantity)}`, l.high && `${t('at most')} ${written(l.high, figure(l.name).quantity)}`].filter(Boolean).join(', ')}`) : [];
+  const bounds = setup.kind === 'optimize' ? setup.limits.map((l) => `${figure(l.name).label}${colon()} ${[l.low && `${t('at least')} ${written(l.low, figure(l.name).quantity)}`, l.high && `${t('at most')} ${written(l.high, figure(l.name).quantity)}`].filter(Boolean).join(', ')}`) : [];
   return {
     kind: kindLabel(setup.kind), title: setup.watched.map((name) => figure(name).label).join(', '),
-    rows: [...setup.rows.map((r) => `${choices.inputs.find((i) => i.name === r.name).label}: ${range(r)}`), ...bounds, ...(doubtful(setup.kind) ? [`${t('Samples')}: ${setup.samples}`] : [])],
+    rows: [...setup.rows.map((r) => `${choices.inputs.find((i) => i.name === r.name).label}${colon()} ${range(r)}`), ...bounds, ...(doubtful(setup.kind) ? [`${t('Samples')}${colon()} ${setup.samples}`] : [])],
   };
 }
 
