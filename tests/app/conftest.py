@@ -1,4 +1,4 @@
-"""A real server on a free port of the loopback address, for the tests of the app."""
+"""A real server on a free port of the loopback address, and a browser to look at it, for the tests of the app."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 import uvicorn
+from tests.app.browsing import Page, chromium
 
 from granum.app.server import create_app
 from granum.app.serving import configured
@@ -44,3 +45,16 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def serve() -> Any:
     """The context manager that runs an application."""
     return running
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """The one browser of a test process."""
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture
+def page(browser: Any, address: str) -> Page:
+    """A page in it."""
+    return Page(browser, address)

@@ -17,10 +17,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from granum.app import exercises
+from granum.app.forms import read_entry
 from granum.app.limits import LARGEST_BODY, Busy, Workers
 from granum.app.server import create_app
 from granum.app.serving import _loopback
 from granum.core import registry
+from granum.core.errors import GranumError
 from granum.core.i18n import catalog
 from granum.core.units import from_si
 
@@ -135,6 +137,23 @@ def test_what_a_field_holds_is_read_and_said(client: httpx.Client, number: str, 
     assert (answer["shown"], f"{answer['number']} {answer['unit']}") == (shown, kept)
     french = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}, headers={"x-language": "fr"}).json()
     assert french["shown"] == shown.replace(".", ",")
+
+
+def test_every_quantity_of_every_card_is_understood() -> None:
+    asked, refused = {}, {}
+    for key, thing in registry.everything().items():
+        for p in thing.card.parameters:
+            row = p.as_json()
+            if p.kind and not p.series:
+                asked.setdefault((p.kind.name, p.kind.unit, p.kind.lower, p.kind.upper), (key, row, sum(p.ordinary()) / 2.0))
+    assert len(asked) > 80
+    for key, row, value in asked.values():
+        try:
+            found = read_entry(row | {"number": repr(value), "unit_typed": row["unit"], "units": [u["unit"] for u in row["units"]]})
+            assert found["shown"]
+        except GranumError as fault:
+            refused[f"{key} {row['name']}"] = fault.message
+    assert not refused
 
 
 def test_several_values_are_read_and_what_is_not_understood_is_said(client: httpx.Client) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import random
 import re
@@ -14,7 +13,6 @@ import numpy as np
 from granum.app.forms import card_form
 from granum.core import registry
 from granum.core.errors import GranumError
-from granum.core.kinds import Kind
 from granum.core.parameters import Parameter, convert
 from granum.core.units import from_si, pretty_unit, to_si
 
@@ -64,7 +62,7 @@ def ordinary(rng: random.Random, p: Parameter, language: str, menu: str) -> tupl
     if unit == "dimensionless":
         if rng.random() < 0.3 and p.kind.upper == 1.0:
             return f"{_plain(100 * number)}{rng.choice((' %', '%'))}".replace(".", rng.choice(".,")), float(_plain(100 * number)) / 100
-        return text, float(number) / (100.0 if menu == "%" else 1.0)
+        return text, float(number) / (100.0 if menu in ("%", "percent") else 1.0)
     written = rng.choice((unit, pretty_unit(unit), pretty_unit(unit).replace("²", "2").replace("³", "3")))
     return f"{text}{' ' if written[0].isdigit() else rng.choice(('', ' '))}{written}", float(to_si(number, unit, p.kind))
 
@@ -102,7 +100,9 @@ class Typist:
     def turn(self) -> None:
         """One text into one field, and all that must hold while and after it is typed."""
         p = self.rng.choice(self.fields)
-        menu = self.page.browser.execute_script("return document.querySelector(arguments[0])?.value ?? ''", f"input#field-{p.name} ~ select")
+        menu = self.page.browser.execute_script(
+            "return document.querySelector(arguments[0])?.value ?? ''", f"input#field-{p.name} ~ select"
+        )
         text, value = ordinary(self.rng, p, self.language, menu) if self.rng.random() < 0.6 else (self.rng.choice(ODD), None)
         self.log.append(f"{self.key} {self.language} {p.name} {text!r}")
         self.page.browser.execute_script("window.answers.length = 0; window.reading = {}")
@@ -113,7 +113,9 @@ class Typist:
         told = field.get_attribute("aria-invalid") == "true"
         echo = [e.text for e in field.find_elements("xpath", "ancestor::*[@class='quantity']//*[@data-echo]")]
         assert told or not refused, "what is refused is said"
-        assert echo == ([f"= {read['shown']}"] if read.get("shown") and not told else []), f"{text!r} is echoed {echo}, understood was {read}"
+        assert echo == ([f"= {read['shown']}"] if read.get("shown") and not told else []), (
+            f"{text!r} is echoed {echo}, understood was {read}"
+        )
         self.consistent(told)
         before = None if refused or not text.strip() else self.understood(p)
         if value is not None and before is not None:
@@ -149,7 +151,7 @@ class Typist:
         assert not (refused and fresh), f"{fresh} beside a field that is refused"
         if not fresh or not seen["answers"]:
             return
-        values = {name: text for name, text in parse_qsl(urlsplit(seen["link"]).fragment.partition("?")[2])}
+        values = dict(parse_qsl(urlsplit(seen["link"]).fragment.partition("?")[2]))
         last = seen["answers"][-1]
         given = {name: text for name, text in last["given"].items() if text}
         assert _same(given, values, registry.find(self.key).card.parameters), f"result of {given}, on the screen is {values}"

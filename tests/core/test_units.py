@@ -53,7 +53,7 @@ def test_mesh_numbers_lead_to_the_sieve_series() -> None:
         units.read_quantity("200 mesh", KINDS["Length"], "particle_diameter")
 
 
-@pytest.mark.parametrize("text", ["", "abc", "5 1 m", "5±1 m", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
+@pytest.mark.parametrize("text", ["", "abc", "5 1 m", "5±1 m", "١٢ m", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
 def test_what_is_not_a_number_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         units.read_quantity(text, KINDS["Length"], "x")

@@ -8,6 +8,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -126,8 +127,16 @@ def _several(text: str, p: Parameter) -> np.ndarray | None:
     return values if values.size > 1 else None
 
 
+@cache
+def _declared_kinds() -> dict[tuple[str, str], Kind]:
+    """Kinds that only a card declares, by name and unit."""
+    cards = (thing.card for thing in registry.everything().values())
+    return {(p.kind.name, p.kind.unit): p.kind for card in cards for p in (*card.parameters, *card.outputs) if p.kind}
+
+
 def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
-    kind = next((k for k in KINDS.values() if k.name == asked.get("kind")), None)
+    name, unit = str(asked.get("kind")), str(asked.get("unit"))
+    kind = next((k for k in KINDS.values() if k.name == name and k.unit == unit), None) or _declared_kinds().get((name, unit))
     if kind is None:
         raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
     edges = {end: asked.get(end) for end in ("lower", "upper")}

@@ -14,7 +14,7 @@ _BOTH = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.\d+|(?:\.\d{3})+,\d+)(?![\d.,])"  # 1,200.
 _APART_IN_THREES = re.compile(rf"\s*([+-]?(?:{_GROUPED}|[1-9]\d{{0,2}}(?:,\d{{3}}){{2,}}(?![\d.,])))")
 _NUMBER = re.compile(
     rf"\s*([+-]?(?:(?:\d+ )?\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*",
-    re.DOTALL,
+    re.DOTALL | re.ASCII,
 )
 
 
@@ -36,7 +36,7 @@ def read_number(text: str) -> tuple[float, str] | None:
     ((0.8, 'bar'), (1200.5, 'kg/h'), (1200.5, ''), (1.125, 'in'))
     """
     found = _NUMBER.fullmatch(tidy(text)) if len(text) <= LONGEST else None
-    if found is None or re.match(r"(?!1\s*/)[±\d]", found[2]):  # "5 1 um", "5±1 um"
+    if found is None or re.match(r"(?!1\s*/)[±\d;,]", found[2]):  # "5 1 um", "5±1 um", "5; 1"
         return None
     if "/" in found[1]:
         return _fraction(found[1]), found[2]

@@ -98,7 +98,7 @@ function known(setup, inputs, choices) {
 }
 
 /** A whole number as people type it, its thousands apart or not; anything else goes to the server as it is, which refuses it. */
-const whole = (text) => (/^\s*\d[\d\s]*$/.test(text) ? Number(text.replace(/\s/g, '')) : text);
+const whole = (text) => (/^\s*(?:\d+|[1-9]\d{0,2}(?:\s\d{3})+)\s*$/.test(text) ? Number(text.replace(/\s/g, '')) : text);
 
 function declared({ kind, rows, watched, samples, sense, limits }) {
   const by = (make) => Object.fromEntries(rows.map((r) => [r.name, make(r)]));
