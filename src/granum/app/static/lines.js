@@ -50,7 +50,7 @@ export function Lines({ state }) {
     if (!wanted) return;
     try {
       const found = await caseAt(wanted, link);
-      if (wanted !== where.current) { setKept(recall('compared ' + wanted, [])); setOutcome(null); setPast(found.changed ? [found.saved] : []); }
+      if (wanted !== where.current) { drop(); setKept(recall('compared ' + wanted, [])); setOutcome(null); setPast(found.changed ? [found.saved] : []); }
       settle(wanted);
       saved.current = found.saved;
       setPath(wanted.slice(wanted.indexOf(':') + 1)); setError(null); setTaken(false);
