@@ -35,7 +35,7 @@ from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
+from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
@@ -170,7 +170,11 @@ class _Batch(Unit):
         operation = self._operation(feed, found, duration)
         times = jnp.linspace(0.0, duration, STEPS + 1)
         solvent = jnp.where(entering.solvent > 0, entering.solvent, TRICKLE)
-        return march(self._model(feed, found), operation, seeds, entering.solute, solvent, times), found, held
+        model = self._model(feed, found)
+        course = march(model, operation, seeds, entering.solute, solvent, times)
+        # once more where its flags are heard: inside what is compiled they are lost
+        model.saturated(Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent)))
+        return course, found, held
 
     def _product(self, feed: Stream, course: Course, found: Roles, held: Any) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""

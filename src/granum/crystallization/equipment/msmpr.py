@@ -85,6 +85,7 @@ class _Continuous(Unit):
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         evaporation, per_crystal = self._evaporation(feed, found)
+        self.solubility(self.temperature)  # once more where its flags are heard: inside what is compiled they are lost
         state = steady_msmpr(
             feed_of(feed, found), self.temperature, self.volume, self.solubility, self.growth, self.nucleation,
             crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
