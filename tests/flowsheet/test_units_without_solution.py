@@ -11,6 +11,7 @@ import granum as gr
 from granum.cases.line import Line
 from granum.core import registry
 from granum.core.errors import ConvergenceError
+from granum.crystallization.equipment import msmpr
 from granum.flowsheet import Flowsheet
 from granum.streams.equipment import agglomerator
 from granum.streams.equipment.agglomerator import settle
@@ -111,3 +112,70 @@ def test_an_agglomerator_whose_sizes_do_not_settle(monkeypatch: pytest.MonkeyPat
     kernel = {"law": "constant_kernel", "agglomeration_coefficient": 2e-13}
     bed = registry.find("streams.agglomerator")(agglomeration_kernel=kernel, holdup_mass=20.0, volume=0.5)
     assert "The steady sizes in the agglomerator were not found" in refused({"bed": bed}, feed, {"feed": ("", "bed")})
+
+
+SALINE = """
+[mixture]
+liquids = ["water", "paracetamol"]
+solids = ["paracetamol"]
+gases = ["dry air", "water"]
+sizes = { smallest = "2 um", largest = "3 mm", classes = 13 }
+[feeds.feed]
+to = "vessel.feed"
+temperature = "70 degC"
+liquid_flow = "1 kg/s"
+liquid = { water = 0.8, paracetamol = 0.2 }
+[units.vessel]
+solubility = { law = "library_solubility", solute = "paracetamol" }
+growth = { law = "power_law_growth", growth_coefficient = "1e-6 m/s", growth_order = 1.0 }
+nucleation = { law = "secondary_nucleation", nucleation_coefficient = "1e7 1/(m^3*s)", nucleation_order = 1.5 }
+"""
+VESSELS = {
+    "continuous": 'model = "crystallization.msmpr"\ntemperature = "{temperature}"\nvolume = "2 m^3"\n',
+    "batch": 'model = "crystallization.batch_crystallizer"\nduration = "1 hour"\nseed_mass_per_solvent = 0.01\n'
+    'temperature_program = {{ law = "power_cooling", temperature_start = "{temperature}", temperature_end = "15 degC", duration = "1 hour" }}\n',
+    "vacuum": 'model = "crystallization.vacuum_crystallizer"\ntemperature = "{temperature}"\nvolume = "2 m^3"\n',
+}
+
+
+def vessel(path: Path, kind: str, temperature: str, classes: int = 13) -> Line:
+    path.write_text('title = "crystals"\n' + SALINE.replace("13", str(classes)) + VESSELS[kind].format(temperature=temperature))
+    return gr.read(path)
+
+
+def test_a_crystallizer_whose_supersaturation_is_not_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = msmpr.steady_msmpr
+    monkeypatch.setattr(msmpr, "steady_msmpr", lambda *given: found(*given)._replace(converged=jnp.asarray(False)))
+    with pytest.raises(ConvergenceError) as caught:
+        vessel(tmp_path / "line.toml", "continuous", "20 degC", 11).solve()  # compiled for itself, being patched
+    assert "Unit 'vessel' has no solution: No supersaturation was found" in caught.value.message
+    assert caught.value.exit_code == 3
+
+
+def test_a_crystallizer_that_would_have_to_take_vapor_in(tmp_path: Path) -> None:
+    with pytest.raises(ConvergenceError, match="The feed is too cold to boil"):
+        vessel(tmp_path / "line.toml", "vacuum", "95 degC").solve()
+
+
+@pytest.mark.parametrize("kind", ["continuous", "batch"])
+def test_a_crystallizer_beyond_the_data_of_its_solubility_says_so(tmp_path: Path, kind: str) -> None:
+    """The data of paracetamol in water end at 30 °C."""
+    line = vessel(tmp_path / "line.toml", kind, "60 degC")
+    told = [row for row in line.solve().flags if row["flag"] == "extrapolated" and "paracetamol" in row["card"]]
+    assert [row["worst"] for row in told] == [pytest.approx(333.15)]
+    inside = {"continuous": {"vessel.temperature": 293.15}, "batch": {"vessel.temperature_program.temperature_start": 303.15}}[kind]
+    assert not [row for row in line.with_values(**inside).solve().flags if "paracetamol" in row["card"]]
+
+
+def test_a_mill_with_nothing_to_take_its_power() -> None:
+    sand = Species("sand", (("sand", 1.0),), (2000.0,), (800.0,), 0.0, 0.06)
+    feed = empty(Mixture((sand,), (), (), (1e-4, 2e-4, 4e-4, 8e-4)), 300.0)
+    mill = registry.find("comminution.bond_mill")(shaft_power=1e4, work_index=5e4)
+    assert "cannot take up the shaft power" in refused({"mill": mill}, feed, {"feed": ("", "mill")})
+
+
+def test_a_screen_finer_than_its_capacity_law() -> None:
+    sand = Species("sand", (("sand", 1.0),), (2000.0,), (800.0,), 0.0, 0.06)
+    feed = empty(Mixture((sand,), (), (), (1e-4, 2e-4, 4e-4, 8e-4)), 300.0).replace(solid=jnp.ones((1, 3)))
+    screen = registry.find("comminution.vibrating_screen")(aperture=3e-4, screen_area=2.0)
+    assert "Karra's capacity falls to zero there" in refused({"screen": screen}, feed, {"feed": ("", "screen")})

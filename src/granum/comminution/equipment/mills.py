@@ -14,6 +14,7 @@ from granum.comminution.kinds import WorkIndex
 from granum.comminution.population import Convention, TanksInSeries, batch_operator, fragments, rate_matrix
 from granum.core import equipment
 from granum.core.errors import InputError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time, Within
 from granum.numerics.smooth import safe_divide
@@ -24,11 +25,22 @@ _TINY = 1e-12
 OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
 
 
+_IDLE = "What enters cannot take up the shaft power: nothing comes in, or it would be hotter than anything its properties are known for."
+
+
 class Ground(NamedTuple):
     """Ground product and the power taken up."""
 
     product: Stream
     shaft_power: Any
+
+
+def _warmed(ground: Stream, shaft_power: Any, card: Any) -> Ground:
+    """The product with the heat that the shaft power becomes."""
+    product = ground.heated(shaft_power)
+    taken = (ground.mass_flow > 0) | (jnp.asarray(shaft_power) == 0.0)
+    unsolved(taken & jnp.isfinite(product.temperature), card, reason=_IDLE)
+    return Ground(product, jnp.asarray(shaft_power))
 
 
 class MillFigures(NamedTuple):
@@ -68,7 +80,7 @@ class BallMill(Unit, Dynamic):
     def __call__(self, feed: Stream) -> Ground:
         matrix = self._matrix(feed.mixture)
         ground = feed.regraded(self.mixing.operator(matrix, self._residence_time(feed)))
-        return Ground(ground.heated(self.shaft_power), jnp.asarray(self.shaft_power))
+        return _warmed(ground, self.shaft_power, type(self).card)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> MillFigures:
         feed = inlets["feed"]
@@ -152,7 +164,7 @@ class BondMill(Unit):
         below = jnp.clip((edges[:, None] - lower[None, :]) / (upper - lower)[None, :], 0.0, 1.0)
         below = below.at[0].set(0.0)  # what leaves the grid at its fine end stays in the finest class
         ground = feed.regraded(jnp.diff(below, axis=0))
-        return Ground(ground.heated(self.shaft_power), jnp.asarray(self.shaft_power))
+        return _warmed(ground, self.shaft_power, type(self).card)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
         feed = inlets["feed"]
@@ -202,7 +214,7 @@ class ConeCrusher(Unit):
         c = chance.over(edges[:-1], edges[1:]).at[0].set(0.0)
         b = fragments(feed.mixture.edges, self.breakage, self.breakage_convention)
         operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
-        return Ground(feed.regraded(operator).heated(self.shaft_power), jnp.asarray(self.shaft_power))
+        return _warmed(feed.regraded(operator), self.shaft_power, type(self).card)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
         feed = inlets["feed"]

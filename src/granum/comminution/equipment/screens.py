@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Law, Length, MassFlow
+from granum.numerics.smooth import safe_divide
 from granum.particles.distributions import SizeDistribution
 from granum.streams.stream import Stream
 from granum.streams.units import Unit
@@ -30,11 +31,15 @@ def size_passing(stream: Stream, part: float = 0.8) -> Any:
     return SizeDistribution.from_amounts(stream.mixture.edges, amounts).percentile(part)
 
 
+def _parts_below(stream: Stream, size: Any) -> Any:
+    """Part of each size class below a size."""
+    edges = jnp.asarray(stream.mixture.edges)
+    return jnp.clip((size - edges[:-1]) / jnp.diff(edges), 0.0, 1.0)
+
+
 def fraction_below(stream: Stream, size: Any) -> Any:
     """Mass fraction of the solid below a size."""
-    edges = jnp.asarray(stream.mixture.edges)
-    inside = jnp.clip((size - edges[:-1]) / jnp.diff(edges), 0.0, 1.0)
-    return jnp.sum(stream.size_fractions * inside)
+    return jnp.sum(stream.size_fractions * _parts_below(stream, size))
 
 
 class Screened(NamedTuple):
@@ -71,11 +76,11 @@ class Screen(Unit):
 
     def results(self, inlets: Mapping[str, Stream], outlets: Screened) -> ScreenFigures:
         size = self.separation.cut_size
-        fine = {name: fraction_below(s, size) * s.solid_flow for name, s in (("feed", inlets["feed"]), ("under", outlets.undersize))}
-        feed_flow = inlets["feed"].solid_flow
-        recovery = fine["under"] / jnp.where(fine["feed"] > 0, fine["feed"], 1.0)
-        coarse_feed = feed_flow - fine["feed"]
-        rejection = 1.0 - (outlets.undersize.solid_flow - fine["under"]) / jnp.where(coarse_feed > 0, coarse_feed, 1.0)
+        fed, passed = inlets["feed"].solid_by_size, outlets.undersize.solid_by_size
+        below = _parts_below(inlets["feed"], size)
+        recovery = safe_divide(jnp.sum(passed * below), jnp.sum(fed * below))
+        # summed as it is: a little coarse feed as a difference of large flows would be rounding alone
+        rejection = 1.0 - safe_divide(jnp.sum(passed * (1.0 - below)), jnp.sum(fed * (1.0 - below)))
         return ScreenFigures(outlets.oversize.mass_flow, outlets.undersize.mass_flow, size, fraction_below(inlets["feed"], size),
                              recovery, rejection, recovery * rejection)  # fmt: skip
 

@@ -40,7 +40,7 @@ class _Load(NamedTuple):
     cut: Length
 
 
-@equipment("vibrating_screen", source="karra1979; king2012", title="Vibrating screen (Karra)")
+@equipment("vibrating_screen", source="karra1979; king2012", title="Vibrating screen (Karra)", typical={"aperture": (2e-3, 5e-2)})
 class VibratingScreen(Unit):
     """A deck of given area: the more undersize it is fed, the finer it cuts. The cut size never exceeds the aperture.
 

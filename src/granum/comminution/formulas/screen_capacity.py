@@ -36,6 +36,10 @@ def _basic(h: Any) -> Any:
     return jnp.where(h < 50.8, 12.1286 * jnp.maximum(h, 1e-9) ** 0.3162 - 10.2991, 0.3388 * h + 14.4122)
 
 
+_FINEST = 1e-3 * (10.2991 / 12.1286) ** (1.0 / 0.3162)  # m, where the basic capacity is nil
+NO_CAPACITY = "Karra's capacity falls to zero there: give a finer screen its partition curve (comminution.screen)."
+
+
 def _oversize(Q: Any) -> Any:
     return jnp.where(Q <= 0.87, 1.6 - 1.2 * Q, 4.275 - 4.25 * Q)
 
@@ -79,12 +83,13 @@ def screening_capacity_karra(
     """
     h, X = throughfall_aperture * 1e3, near_size_fraction
     A = _basic(h)
+    impossible(A <= 0.0, throughfall_aperture, "throughfall_aperture", _FINEST, jnp.inf, NO_CAPACITY)
     if open_area_fraction is not None:
         A = A * open_area_fraction / (0.215 * jnp.log10(h) + 0.37)
     points = jnp.array(_WET)
     E = jnp.interp(1.26 * h, points[:, 0], points[:, 1]) if wetting == "wet" else 1.0
     factors = _oversize(oversize_fraction) * _half_size(half_size_fraction) * (1.1 - 0.1 * deck) * E * bulk_density / STANDARD_BULK_DENSITY
-    return jnp.maximum(A, 0.0) * factors * 0.844 * (1.0 - X) ** 3.453 * TONNE_PER_HOUR
+    return jnp.where(A > 0.0, A, jnp.nan) * factors * 0.844 * (1.0 - X) ** 3.453 * TONNE_PER_HOUR
 
 
 @formula(source="karra1979; king2012", equation=r"\frac{d_{50}}{h_T} = \left(\frac{\dot m''}{\dot m''_U}\right)^{-0.148}",

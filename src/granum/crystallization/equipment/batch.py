@@ -32,18 +32,20 @@ from granum.core.kinds import (
     Volume,
 )
 from granum.crystallization.equipment.heat import StreamHeat
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
-from granum.crystallization.population.operations import Flashing, Jacketed, Operation, Programmed
+from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
+from granum.numerics.smooth import safe_divide
 from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
 
 STEPS = 300
+TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
 _CROWDED = "solids in the suspension by volume"
 _HIGHEST = "highest relative supersaturation"
 _CRUST = "undercooling at the cooled wall"
@@ -167,7 +169,12 @@ class _Batch(Unit):
         held, seeds = self._seeding(feed, found)
         operation = self._operation(feed, found, duration)
         times = jnp.linspace(0.0, duration, STEPS + 1)
-        return march(self._model(feed, found), operation, seeds, entering.solute, entering.solvent, times), found, held
+        solvent = jnp.where(entering.solvent > 0, entering.solvent, TRICKLE)
+        model = self._model(feed, found)
+        course = march(model, operation, seeds, entering.solute, solvent, times)
+        # once more where its flags are heard: inside what is compiled they are lost
+        model.saturated(Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent)))
+        return course, found, held
 
     def _product(self, feed: Stream, course: Course, found: Roles, held: Any) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""
@@ -194,7 +201,7 @@ class _Batch(Unit):
         cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
         seeded = jnp.sum(cubes[: seeds.low.shape[0]])
         return (
-            made, found.solute_fraction * made / fed, made / product.slurry_volume_flow,
+            made, safe_divide(found.solute_fraction * made, fed), safe_divide(made, product.slurry_volume_flow),
             jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0, final.mean_size(4, 3),
             1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300), course, found,
         )  # fmt: skip
@@ -286,7 +293,7 @@ class JacketedBatchCrystallizer(_Cycled):
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
         count = feed.slurry_volume_flow * self.cycle / self.volume
         return JacketedBatchFigures._make(
-            (*figures, self._seed(feed, found) / count, count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
+            (*figures, safe_divide(self._seed(feed, found), count), count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
         )
 
     def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
@@ -321,6 +328,7 @@ class VacuumBatchCrystallizer(_Cycled):
         middle = 0.5 * (course.temperature[1:] + course.temperature[:-1])
         T = jnp.where(gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature)
         vapor = empty(feed.mixture, 298.15).replace(gas=feed.gas.at[found.vapor].add(gone), temperature=T, pressure=feed.pressure)
+        refuse_boiling(product.liquid[found.solvent], vapor.gas[found.vapor], feed, type(self).card)
         product = product.replace(gas=0.0 * feed.gas)
         return VacuumBatchOutlets(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
@@ -344,7 +352,7 @@ class PlugFlowCrystallizer(_Batch):
     volume: Volume
 
     def _time(self, feed: Stream) -> Any:
-        return self.volume / feed.slurry_volume_flow
+        return safe_divide(self.volume, feed.slurry_volume_flow)
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)

@@ -29,8 +29,9 @@ from granum.core.kinds import (
 )
 from granum.core.parameters import is_tracer
 from granum.crystallization.equipment.in_time import Crystallized, InTime
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
+from granum.numerics.smooth import safe_divide
 from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Check, Unit
@@ -84,6 +85,7 @@ class _Continuous(Unit):
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         evaporation, per_crystal = self._evaporation(feed, found)
+        self.solubility(self.temperature)  # once more where its flags are heard: inside what is compiled they are lost
         state = steady_msmpr(
             feed_of(feed, found), self.temperature, self.volume, self.solubility, self.growth, self.nucleation,
             crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
@@ -101,6 +103,8 @@ class _Continuous(Unit):
             temperature=jnp.asarray(self.temperature, dtype=float),
         )  # fmt: skip
         gas = feed.gas if found.vapor is None else feed.gas.at[found.vapor].add(state.evaporation)
+        if found.vapor is not None:
+            refuse_boiling(state.solvent, gas[found.vapor], feed, type(self).card)
         vapor = empty(feed.mixture, self.temperature).replace(gas=gas, pressure=feed.pressure)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
@@ -110,7 +114,7 @@ class _Continuous(Unit):
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
         crystals = jnp.sum(state.crystals)
         return CrystallizerFigures(
-            crystals, found.solute_fraction * crystals / fed, state.magma_density, state.relative_supersaturation,
+            crystals, safe_divide(found.solute_fraction * crystals, fed), state.magma_density, state.relative_supersaturation,
             state.growth_rate, state.nucleation_rate, state.residence_time,
             state.length, _median(state.crystals, inlets["feed"].mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
         )  # fmt: skip

@@ -7,12 +7,15 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core.errors import CaseError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.msmpr import Feed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
+BOILED_DRY = "More solvent would evaporate than there is: give less heat, less evaporation, a cooler feed or more solvent."
+TOO_COLD = "The feed is too cold to boil at the temperature of the vessel: give a warmer feed, a lower temperature or more heat."
 LARGEST = "crystals in the largest size class, which takes what is larger"
 
 
@@ -43,6 +46,13 @@ def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
         )
     vapors = [i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]]
     return Roles(s, pure[0], w, vapors[0] if vapors else None, anhydrous[0][1])
+
+
+def refuse_boiling(solvent: Any, vapor: Any, feed: Stream, card: Any) -> None:
+    """Record that a vessel cannot boil as asked: no solvent would be left, or solvent that is not there would have to condense."""
+    least = -1e-12 * feed.mass_flow
+    unsolved(solvent >= least, card, reason=BOILED_DRY)
+    unsolved(vapor >= least, card, reason=TOO_COLD)
 
 
 def crystal_of(mixture: Mixture, found: Roles, temperature: Any, volume_shape_factor: Any) -> Crystal:

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.flags import unsolved
 from granum.core.kinds import Area, Distance, Fraction, Law, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
@@ -19,6 +20,7 @@ from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
 from granum.streams.units import Check, Unit
 
+_UNSOLVED = "The overflow that leaves the bed with its mass was not found: check the solid, the gas and the area."
 LEAST, THIN = 1e-12, 1e-3  # of a stream without gas, so that the sheet says what fails
 GAS_DIFFUSIVITY = 2.5e-5  # m²/s, of water vapor in air near 20 °C: the bypass is that of a dryer
 
@@ -80,21 +82,27 @@ class FluidizedBed(Unit):
         U = self._velocity(feed)
         return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), self._density(feed)), 0.0) * self.area
 
-    def entrained(self, feed: Stream) -> Any:
-        """Share of each species and size class that leaves with the gas."""
+    def _entrained(self, feed: Stream) -> tuple[Any, Any]:
+        """Share of each species and size class that leaves with the gas, and whether the overflow that goes with it was found."""
         rates, flows = self.rates(feed), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         total = jnp.maximum(jnp.sum(flows), LEAST)
+
         # x_i = F_i/(P + K_i); the mass fractions sum to one. With P = total the sum is at most one; with P = 0 at least one, or none stays
-        overflow = find_root(lambda P: jnp.sum(flows / (P + rates + LEAST * total)) - 1.0, 0.0, total, start=0.5 * total).value
-        overflow = jnp.where(jnp.isfinite(overflow), overflow, 0.0)
-        return rates / (overflow + rates + LEAST * total)
+        def surplus(P: Any) -> Any:
+            return jnp.sum(flows / (P + rates + LEAST * total)) - 1.0
+
+        emptied = surplus(0.0) <= 0.0
+        root = find_root(surplus, 0.0, total, start=0.5 * total)
+        overflow = jnp.where(emptied, 0.0, root.value)
+        return rates / (overflow + rates + LEAST * total), root.converged | emptied
 
     def _drop(self, feed: Stream) -> Any:
         weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - self._density(feed) / feed.solid_density)
         return weight * (1.0 + self.distributor_ratio)
 
     def __call__(self, feed: Stream) -> BedOutlets:
-        share = self.entrained(feed)
+        share, solved = self._entrained(feed)
+        unsolved(solved, type(self).card, reason=_UNSOLVED)
         share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
         carried = feed.solid * share
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)

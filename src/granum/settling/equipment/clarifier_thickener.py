@@ -11,6 +11,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Distance, Fraction, Law, Length, Mass, Ratio, Speed, Time, VolumeFlow, Within
+from granum.numerics.smooth import safe_divide
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import passing_flux, steady_state
@@ -205,7 +206,7 @@ class ClarifierThickener(Unit, Dynamic):
         limit = passing_flux(C, qu, self.settling, jnp.maximum(self.concentration_maximum, C))[0]
         held = course.held[-1] * self.area
         return ClarifierThickenerFigures(
-            q * C / limit, (q - qu) / self.settling(C), q - qu, concentration(outlets.underflow), concentration(outlets.overflow),
+            safe_divide(q * C, limit), (q - qu) / self.settling(C), q - qu, concentration(outlets.underflow), concentration(outlets.overflow),
             course.interface_height(0.5 * C)[-1], course.concentration[-1, -1], held,
             held / jnp.where(feed.solid_flow > 0, feed.solid_flow, jnp.inf),
         )  # fmt: skip

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
+from granum.numerics.smooth import safe_divide
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import limiting_flux_underflow
 from granum.streams.sharing import shared
@@ -63,7 +64,7 @@ class Thickener(Unit):
         rate = outlets.overflow.slurry_volume_flow / self.area
         velocity = self.settling(concentration(feed))
         return ThickenerFigures(
-            applied, limit, jnp.where(limits, applied / limit, 1.0), rate / velocity, layer, rate,
+            applied, limit, jnp.where(limits, safe_divide(applied, limit), 1.0), rate / velocity, layer, rate,
             outlets.underflow.slurry_volume_flow, concentration(outlets.overflow),
         )  # fmt: skip
 

@@ -1,0 +1,80 @@
+"""Units at random ordinary settings, empty feeds among them: a solution that conserves and keeps its bounds, or one word of the unit itself.
+
+GRANUM_RANDOM_SAMPLES tries every unit so often, with few and with many size classes; otherwise some of each kind, a hundred times.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.contracts import unit_cases
+from tests.contracts.unit_search import EMPTY, SAMPLES, Case, Tried, disordered, rows, tried, wrong
+
+GROUPS = {
+    "mills": unit_cases.mills,
+    "filters": unit_cases.filters,
+    "centrifuges": unit_cases.centrifuges,
+    "basics": unit_cases.basics,
+    "crystallizers": unit_cases.crystallizers,
+}
+QUICK = ("mill plug", "screen ideal", "sized screen 3 wet", "drum", "decanter", "peeler", "heater", "msmpr")
+CLASSES = (2, 8, 40) if SAMPLES else (8,)
+COUNT = max(SAMPLES, 100)
+CASES = [(group, name) for group, made in GROUPS.items() for name in made(2) if SAMPLES or name in QUICK]
+
+
+def cumulative(solid: np.ndarray) -> np.ndarray:
+    """Solid of each species finer than each class boundary, kg/s."""
+    return np.cumsum(solid, axis=2)
+
+
+def coarser(found: Tried) -> np.ndarray:
+    """By how much the product of a mill has less below some size than its feed, as a share of the feed."""
+    feed, product = found.feeds["feed"].solid, found.products["product"].solid
+    return (cumulative(feed) - cumulative(product)).max(axis=(1, 2)) / np.maximum(feed.sum(axis=(1, 2)), 1e-300)
+
+
+def wetter(found: Tried, name: str) -> np.ndarray:
+    """By how much a cake holds more liquid per solid than its feed, as a share of the feed's."""
+    feed, cake = found.feeds["feed"], found.products[name]
+    held, had = (s.liquid.sum(axis=1) / np.maximum(s.solid.sum(axis=(1, 2)), 1e-300) for s in (cake, feed))
+    return np.where(feed.solid.sum(axis=(1, 2)) > 0, held / np.maximum(had, 1e-300) - 1.0, 0.0)
+
+
+def judge(case: Case, name: str, found: Tried) -> None:
+    """What physics demands of each kind of unit besides the balances."""
+    ok = ~found.refused
+    out = found.products
+    nothing = sum(s.solid.sum(axis=(1, 2)) + s.liquid.sum(axis=1) + s.gas.sum(axis=1) for s in found.feeds.values()) == 0.0
+    for s in out.values():
+        assert not any(part[nothing & ok].any() for part in (s.solid, s.liquid, s.gas))
+    if name.startswith(("mill", "bond", "cone")):
+        assert coarser(found)[ok].max() <= 1e-9
+    if "cake" in out and "wash" in found.feeds:
+        unwashed = found.feeds["wash"].liquid.sum(axis=1) == 0.0
+        assert wetter(found, "cake")[ok & unwashed].max() <= 1e-9
+    if "sediment" in out:
+        assert wetter(found, "sediment")[ok].max() <= 1e-9
+    if name.startswith(("screen", "sized", "two", "three")):
+        parts = [s.solid for s in out.values()]
+        fed = found.feeds["feed"].solid
+        assert all(((part >= 0.0) & (part <= fed * (1.0 + 1e-12))).all() for part in parts)
+
+
+@pytest.mark.parametrize("classes", CLASSES)
+@pytest.mark.parametrize(("group", "name"), CASES)
+def test_random_settings(group: str, name: str, classes: int) -> None:
+    case, x = GROUPS[group](classes)[name], rows(COUNT)
+    found = tried(case, x)
+    print(f"{name}, {classes} classes: {COUNT} tried, {int(found.refused.sum())} refused")
+    assert not wrong(found)
+    assert found.refused.mean() <= 0.3
+    judge(case, name, found)
+
+
+@pytest.mark.parametrize(("group", "name"), [c for c in CASES if SAMPLES or c[1] == "drum"])
+def test_the_order_of_the_species_does_not_matter(group: str, name: str) -> None:
+    case, x = GROUPS[group](8)[name], rows(COUNT)
+    found, other = tried(case, x), tried(case, x, reverse=True)
+    np.testing.assert_array_equal(found.refused, other.refused)
+    assert not disordered(found, other, ~found.refused & (np.arange(COUNT) >= EMPTY))
