@@ -22,7 +22,9 @@ class Evaluated:
 
     def __init__(self, model: Model, names: tuple[str, ...], scale: np.ndarray, x: Any):
         x = jax.tree.map(jax.numpy.asarray, x)
-        self._function = _shared(model, names, scale, x) if isinstance(model, eqx.Module) else jax.jit(partial(_both, model, names, scale, x))
+        self._function = (
+            _shared(model, names, scale, x) if isinstance(model, eqx.Module) else jax.jit(partial(_both, model, names, scale, x))
+        )
         self._place: bytes | None = None
         self._found: tuple[np.ndarray, np.ndarray] = (np.empty(0), np.empty((0, 0)))
 

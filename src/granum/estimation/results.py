@@ -67,6 +67,7 @@ class Fit:
     held: parameters that ended on a bound.
     diagnostics: leverage and influence of every point, stray points, and whether there is a relation at all.
     defaults: conditions and choices that were not given, with the values taken, as plain data by name.
+    ranges: lowest and highest value of each condition and column that the estimates hold for, by name.
     """
 
     card: str
@@ -81,6 +82,7 @@ class Fit:
     held: tuple[str, ...] = ()
     diagnostics: Diagnostics | None = field(default=None, repr=False)
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Estimate:
         found = {**self.derived, **self.parameters}
@@ -183,6 +185,7 @@ class Fit:
             "flags": self.flags,
             "diagnostics": self.diagnostics.as_json() if self.diagnostics else None,
             "defaults": dict(self.defaults),
+            "ranges": {name: [_number(low), _number(high)] for name, (low, high) in self.ranges.items()},
         }
 
 
