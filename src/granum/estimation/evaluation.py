@@ -49,5 +49,5 @@ def _both(model: Model, names: tuple[str, ...], scale: Any, x: Any, q: Any) -> t
 _both_for_all = eqx.filter_jit(_both)
 
 
-def _shared(model: Model, names: tuple[str, ...], scale: np.ndarray, x: Any) -> Callable[[Any], tuple[Any, Any]]:
+def _shared(model: Any, names: tuple[str, ...], scale: np.ndarray, x: Any) -> Callable[[Any], tuple[Any, Any]]:
     return lambda q: _both_for_all(model, names, jax.numpy.asarray(scale), x, jax.numpy.asarray(q))

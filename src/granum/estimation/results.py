@@ -206,7 +206,7 @@ def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapp
     return found
 
 
-def _derived(function: Callable[[dict[str, Any]], Mapping[str, Any]], names: tuple[str, ...], vector: Any) -> tuple[Any, Any]:
+def _derived(function: Any, names: tuple[str, ...], vector: Any) -> tuple[Any, Any]:
     def flat(v: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         found = dict(function(dict(zip(names, v, strict=True))))
         return found, found

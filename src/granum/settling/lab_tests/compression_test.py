@@ -68,7 +68,7 @@ class CompressionTest(LabTest):
 
     def _column(self, start_height: Any) -> _Column:
         numbers = (start_height, self.initial_concentration, self.solid_density, self.liquid_density, self.stress_concentration)
-        return _Column(*(jnp.asarray(value, dtype=float) for value in numbers), self.cells)
+        return _Column(*(jnp.asarray(value, dtype=float) for value in numbers), cells=self.cells)
 
     def fit(self) -> Fit:
         """Constants of hindrance and compression."""
