@@ -111,9 +111,11 @@ def flags_of(key: str, values: np.ndarray) -> set[str]:
     """Words of the flags of a lab test with other values in its measured column; one word where it is refused."""
     made = data(key)
     try:
-        found = registry.find(key)(**{**made.columns, made.measured: values}, **made.conditions).fit()
+        test = registry.find(key)(**{**made.columns, made.measured: values}, **made.conditions)
+        found = test.fit()
     except (InputError, ConvergenceError):
         return {"refused"}
+    assert (found.defaults, found.ranges) == (test.defaults(), test.ranges())  # whatever the test does to its fit
     return {f["flag"] for f in found.flags}
 
 

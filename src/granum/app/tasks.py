@@ -22,7 +22,16 @@ from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number
 from granum.flowsheet.watching import Watch
-from granum.reports.quantities import check_row, defaults_text, estimate_rows, statistics_text, stream_figures, stream_table, value_text
+from granum.reports.quantities import (
+    check_row,
+    defaults_text,
+    estimate_rows,
+    ranges_text,
+    statistics_text,
+    stream_figures,
+    stream_table,
+    value_text,
+)
 
 LONGEST = 900.0  # s that a line may take
 
@@ -121,7 +130,7 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         data
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
-            "statistics_shown": " · ".join(filter(None, (statistics_text(data), defaults_text(data)))),
+            "statistics_shown": " · ".join(filter(None, (statistics_text(data), defaults_text(data), ranges_text(data)))),
             "chart": json.loads(test.chart().to_json()),
         }
     )

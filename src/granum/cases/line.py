@@ -12,6 +12,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.cases.fitted import fit_notices
 from granum.cases.schema import Case
 from granum.core import flags, record_steps
 from granum.core.errors import ConvergenceError, InputError
@@ -178,8 +179,9 @@ class Run:
 
     @cached_property
     def flags(self) -> list[dict[str, Any]]:
-        """What the formulas of each unit flagged, with the unit's name."""
-        return [{"unit": unit, **row} for unit, records in self.solution.records.items() for row in flags.describe(records)]
+        """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's name."""
+        own = [{"unit": unit, **row} for unit, records in self.solution.records.items() for row in flags.describe(records)]
+        return own + fit_notices(self.line.fits, self.sheet)
 
     def schedule(self) -> Schedule:
         """The cycles of the batch units, with a Gantt chart."""

@@ -17,7 +17,7 @@ from scipy.stats import qmc
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.parameters import REQUIRED, Parameter, convert, parameters_of
+from granum.core.parameters import REQUIRED, Parameter, convert, default_as_json, parameters_of
 from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit
 from granum.estimation.losses import Loss
@@ -119,7 +119,7 @@ class CardData:
             raise InputError(_("The model has no finite value at the start values {start}.").format(start=places[0]))
         bounds = {n: (p.kind.lower, p.kind.upper) for n, (_g, p) in self.starts.items() if p.kind is not None}
         kinds = {n: Annotated[Any, p.kind] for n, (_g, p) in self.starts.items() if p.kind is not None}
-        return fit(
+        found = fit(
             self.model,
             places[int(np.argmin(misses))],
             self.columns,
@@ -129,6 +129,13 @@ class CardData:
             loss=loss,
             card=self.thing.card.key,
         )
+        return replace(found, defaults=self.defaults(), ranges={n: (float(v.min()), float(v.max())) for n, v in self.columns.items()})
+
+    def defaults(self) -> dict[str, Any]:
+        """Inputs that were neither measured nor given nor estimated and stand at their defaults, as plain data."""
+        known = {*self.fixed, *self.columns, *self.starts}
+        left = {n: p.default for n, p in inputs_of(self.thing).items() if n not in known and not p.required and p.default is not None}
+        return {n: default_as_json(value) for n, value in left.items()}
 
     def next_measurement(self, found: Fit, steps: int = 41) -> dict[str, Any]:
         """Where in the measured ranges one more measurement tells most, SI: ``{"at", "shrinkage", "standard_errors"}``."""
@@ -196,8 +203,11 @@ def fit_together(sets: Sequence[CardData], loss: Loss | None = None) -> Fit:
     start = {n: float(np.mean([f[n].value for f in alone])) for n in sets[0].starts}
     kinds = {n: Annotated[Any, p.kind] for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
     bounds = {n: (p.kind.lower, p.kind.upper) for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
-    return fit(lambda p, x: tuple(s.model(p, c) for s, c in zip(sets, x, strict=True)), start, tuple(s.columns for s in sets),
+    found = fit(lambda p, x: tuple(s.model(p, c) for s, c in zip(sets, x, strict=True)), start, tuple(s.columns for s in sets),
                tuple(s.measured for s in sets), sigma=spreads, bounds=bounds, kinds=kinds, loss=loss, card=sets[0].thing.card.key)  # fmt: skip
+    ends = [f.ranges for f in alone]
+    ranges = {n: (min(e[n][0] for e in ends if n in e), max(e[n][1] for e in ends if n in e)) for n in {n for e in ends for n in e}}
+    return replace(found, defaults={n: v for f in alone for n, v in f.defaults.items()}, ranges=ranges)
 
 
 def inputs_of(thing: Any) -> dict[str, Parameter]:

@@ -3,6 +3,7 @@
 A stray point is one whose removal, alone or with one or two others, lowers the sum of squares by more than chance allows (mean-shift F test,
 Bonferroni over all sets of that size). Where to look is told by the linear algebra of the fit itself and by a robust fit beside it,
 so that one wild point neither hides another nor itself by pulling a curve along; what is reported was refitted without the points.
+Scatter may be constant or in proportion to what is measured: a point must be stray under both.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ ROUND_OFF = 1e-8
 UNEVEN, LEAST_SET = 3.0, 5
 """Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this takes."""
 LITTLE, SCATTERED = 0.25, 0.15
+SMALL = 0.05
+"""Part of the mean size of the data below which a reading's scatter no longer falls with it."""
 
 
 class Influence(NamedTuple):
@@ -175,14 +178,23 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
         tried += [refitted((k,)) for k in range(n) if sets.get((k,), 1.0) >= PROMISING]
     _least, suspects, at = min(tried, key=lambda item: item[0])
     while suspects:
-        # of a set only those are stray that the others, refitted without the set, reject one by one
+        # of a set only those are stray that the others, refitted without the set, reject one by one, whatever the law of their scatter
         deviations = _deviations(problem, at, suspects, floor)
+        even = _in_proportion(problem, at)
+        relative = _deviations(even, even.solve(at, without=suspects)[0], suspects, floor)
         limit = stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
-        far = tuple(k for k, d in zip(suspects, deviations, strict=True) if abs(d) > limit)
+        far = tuple(k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit)
         if far == suspects:
             return far, tuple(deviations), at, robust
         suspects, at = far, _without(problem, (at, q, robust), far)
     return nothing
+
+
+def _in_proportion(problem: Problem, at: np.ndarray) -> Problem:
+    """The problem with scatter in proportion to the model (Carroll and Ruppert 1988): readings good to a percent look wild under one constant scatter."""
+    size, group = np.abs(problem.prediction(at)), problem.group
+    mean = np.sqrt(np.bincount(group, size**2) / np.maximum(np.bincount(group), 1))[group]
+    return problem.variant(sigma=problem.sigma * np.maximum(size / np.where(mean > 0, mean, 1.0), SMALL))
 
 
 def _robust(problem: Problem, q: np.ndarray, floor: float) -> np.ndarray:

@@ -27,14 +27,16 @@ if TYPE_CHECKING:
 class LabTest(eqx.Module):
     """A laboratory test: columns measured under conditions, from which parameters are estimated.
 
-    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, and ``axes`` (kinds of what is fitted
-    against what, by glossary word, for the chart).
+    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``axes`` (kinds of what is fitted
+    against what, by glossary word, for the chart), and ``holds_for``: columns and conditions outside whose range the estimates are
+    extrapolated.
     """
 
     card: ClassVar[Card]
     estimates: ClassVar[Mapping[str, Any]]
     axes: ClassVar[Mapping[str, Any]]
     least_points: ClassVar[int] = 3
+    holds_for: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def read(cls, path: Source, **conditions: Any) -> Self:
@@ -74,7 +76,7 @@ class LabTest(eqx.Module):
         """
         kinds = {**self.estimates, **(kinds or {})}
         found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
-        return replace(found, defaults=self.defaults())
+        return replace(found, defaults=self.defaults(), ranges=self.ranges())
 
     def judged(self, found: Fit, trials: int) -> Fit:
         """The best of several models with its diagnostics (fit them with ``judged=False``)."""
@@ -99,6 +101,11 @@ class LabTest(eqx.Module):
                 if value == default_as_json(p.default):
                     found[p.name] = value
         return found
+
+    def ranges(self) -> dict[str, tuple[float, float]]:
+        """What the estimates hold for: lowest and highest value of the columns and conditions that matter."""
+        given = {n: np.asarray(value, dtype=float) for n in self.holds_for if (value := getattr(self, n)) is not None}
+        return {n: (float(values.min()), float(values.max())) for n, values in given.items()}
 
     def note(self, word: str, message: str, name: str = "") -> dict[str, Any]:
         """A flag of this test: a short word and a sentence in the current language."""

@@ -17,6 +17,7 @@ from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import kind_of
 from granum.estimation.diagnostics import diagnose
+from granum.estimation.evaluation import Evaluated
 from granum.estimation.losses import LeastSquares, Loss
 from granum.estimation.results import Estimate, Fit, derive, t_reach
 from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, stray_note
@@ -42,33 +43,25 @@ class Problem:
     derived: Callable[[dict[str, Any]], Mapping[str, Any]] | None = None
 
     @cached_property
-    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
-        index = np.flatnonzero(self.keep)
-
-        def whole(q: Any) -> Any:
-            return ravel_pytree(self.model(dict(zip(self.names, q * self.scale, strict=True)), self.x))[0]
-
-        def residual(q: Any, measured: Any) -> Any:
-            return whole(q)[index] - measured[index]
-
-        return jax.jit(residual), jax.jit(jax.jacfwd(residual)), jax.jit(whole)
+    def _evaluated(self) -> Evaluated:
+        return Evaluated(self.model, self.names, self.scale, self.x)
 
     def prediction(self, q: np.ndarray) -> np.ndarray:
         """Model values at all points, at scaled parameters."""
-        return np.asarray(self._functions[2](q))
+        return self._evaluated(q)[0]
 
     def residual(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
         """Weighted residuals (model less measured) of the kept points at scaled parameters."""
-        return np.asarray(self._functions[0](q, self.y if y is None else y)) / self.sigma[self.keep]
+        return (self._evaluated(q)[0] - (self.y if y is None else y))[self.keep] / self.sigma[self.keep]
 
-    def jacobian(self, q: np.ndarray, y: np.ndarray | None = None) -> np.ndarray:
+    def jacobian(self, q: np.ndarray) -> np.ndarray:
         """Their derivatives with respect to the scaled parameters."""
-        return np.asarray(self._functions[1](q, self.y if y is None else y)) / self.sigma[self.keep][:, None]
+        return self._evaluated(q)[1][self.keep] / self.sigma[self.keep][:, None]
 
     def variant(self, **changes: np.ndarray) -> Problem:
         """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled again."""
         other = replace(self, **changes)
-        other.__dict__["_functions"] = self._functions
+        other.__dict__["_evaluated"] = self._evaluated
         return other
 
     def spread(self, values: np.ndarray) -> float:
@@ -102,7 +95,7 @@ class Problem:
         robust = {} if width is None else {"loss": loss.rho, "f_scale": loss.threshold * width}
 
         def slopes(part: np.ndarray) -> np.ndarray:
-            found = weight[:, None] * self.jacobian(whole(part), y)[:, free]
+            found = weight[:, None] * self.jacobian(whole(part))[:, free]
             if not np.all(np.isfinite(found)):
                 last = {n: float(v) for n, v in zip(self.names, whole(part) * self.scale, strict=True)}
                 raise ConvergenceError(_("The fit came to values at which the model has no slope: {last}.").format(last=last), last=last)

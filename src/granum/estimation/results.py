@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -65,6 +67,7 @@ class Fit:
     held: parameters that ended on a bound.
     diagnostics: leverage and influence of every point, stray points, and whether there is a relation at all.
     defaults: conditions and choices that were not given, with the values taken, as plain data by name.
+    ranges: lowest and highest value of each condition and column that the estimates hold for, by name.
     """
 
     card: str
@@ -79,6 +82,7 @@ class Fit:
     held: tuple[str, ...] = ()
     diagnostics: Diagnostics | None = field(default=None, repr=False)
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Estimate:
         found = {**self.derived, **self.parameters}
@@ -181,6 +185,7 @@ class Fit:
             "flags": self.flags,
             "diagnostics": self.diagnostics.as_json() if self.diagnostics else None,
             "defaults": dict(self.defaults),
+            "ranges": {name: [_number(low), _number(high)] for name, (low, high) in self.ranges.items()},
         }
 
 
@@ -190,10 +195,8 @@ def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapp
     names = list(values)
     vector = jnp.array([values[n] for n in names])
 
-    def flat(v: Any) -> dict[str, Any]:
-        return dict(function(dict(zip(names, v, strict=True))))
-
-    out, slopes = jax.jit(lambda v: (flat(v), jax.jacfwd(flat)(v)))(vector)
+    slopes, out = _derived_for_all(function, tuple(names), vector) if isinstance(function, eqx.Module) else jax.jit(
+        partial(_derived, function, tuple(names)))(vector)  # fmt: skip
     reach = t_reach(0.95, degrees_of_freedom)
     found = {}
     for name, value in out.items():
@@ -201,6 +204,17 @@ def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapp
         error = float(np.sqrt(max(row @ covariance @ row, 0.0)))
         found[name] = Estimate(float(value), units.get(name, ""), error, (float(value) - reach * error, float(value) + reach * error))
     return found
+
+
+def _derived(function: Any, names: tuple[str, ...], vector: Any) -> tuple[Any, Any]:
+    def flat(v: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        found = dict(function(dict(zip(names, v, strict=True))))
+        return found, found
+
+    return jax.jacfwd(flat, has_aux=True)(vector)
+
+
+_derived_for_all = eqx.filter_jit(_derived)  # of a module, with its numbers as arrays, compiled once
 
 
 def t_reach(level: float, degrees_of_freedom: float) -> float:

@@ -20,6 +20,10 @@ from granum.core.units import to_si
 from granum.core.written import read_number
 
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:[\[(]\s*(.*?)\s*[\])]|\s/\s*(.+?))?\s*$")
+_IN_THREES = {",": re.compile(r"[+-]?[1-9]\d{0,2},\d{3}"), ".": re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}")}
+_DECIMAL = {",": re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?"), ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?")}
+_WHOLE = re.compile(r"[+-]?[1-9]\d{0,2}")
+_SHEET_ERRORS = ("#N/A", "#DIV/0!", "#REF!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!")  # in a first cell: no comment, but no number
 MOST_ROWS = 20_000  # of a workbook, which is read cell by cell
 LARGEST_UNPACKED = 30_000_000  # bytes
 Row = tuple[int, list[Any]]
@@ -43,10 +47,25 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     places: dict[str, int] = {}
     for place, cell in enumerate(header):
         name, unit = _heading(str(cell or ""))
+        if not name:
+            continue
         if name in places:
             raise InputError(_("Column '{name}' stands twice{where}.").format(name=name, where=where), name=name)
         places[name], units[name] = place, unit
+    named = 1 + max((place for place, cell in enumerate(header) if cell not in (None, "")), default=-1)
+    for line, row in body:
+        if any(cell not in (None, "") for cell in row[named:]):
+            raise InputError(
+                _(
+                    "Line {line} has {count} cells, the header {expected}{where}: decimal commas need semicolons or tabs between the cells."
+                ).format(line=line, count=len(row), expected=named, where=where),
+                line=line,
+            )
     found: dict[str, np.ndarray] = {}
+    columns = list(columns)
+    asked = [places[p.name] for p in columns if p.name in places]
+    texts = [row[k] for _line, row in body for k in asked if k < len(row) and isinstance(row[k], str)]
+    marks = {mark for mark in ",." if any(_DECIMAL[mark].fullmatch(text) for text in texts)}
     for p in columns:
         if p.name not in places:
             close = nearest(p.name, places)
@@ -55,8 +74,27 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
             continue
         place = places[p.name]
         cells = [(line, row[place] if place < len(row) else None) for line, row in body]
+        _no_thousands(p, cells, marks, where)
         found[p.name] = _column(p, units[p.name], cells, where)
     return found
+
+
+def _no_thousands(p: Parameter, cells: list[tuple[int, Any]], marks: set[str], where: str) -> None:
+    """Refuse a mark that may set thousands apart: other cells have the other mark, or whole numbers below a thousand stand beside."""
+    written = [(line, cell) for line, cell in cells if isinstance(cell, str)]
+    for mark, other in ((",", "."), (".", ",")):
+        doubtful = [(line, cell) for line, cell in written if _IN_THREES[mark].fullmatch(cell)]
+        if not doubtful or any(_DECIMAL[mark].fullmatch(cell) and not _IN_THREES[mark].fullmatch(cell) for _line, cell in written):
+            continue
+        if other in marks or any(_WHOLE.fullmatch(cell) for _line, cell in written):
+            line, cell = doubtful[0]
+            raise InputError(
+                _("Line {line}, column '{name}': '{text}' may be thousands or decimals{where}: write the thousands without a mark.").format(
+                    line=line, name=p.name, text=cell, where=where
+                ),
+                name=p.name,
+                line=line,
+            )
 
 
 class Held(io.BytesIO):
@@ -76,19 +114,25 @@ def held(source: Source) -> tuple[Held, tuple[str, ...]]:
 
 
 def as_csv(source: Source) -> str:
-    """A data file as comma-separated text with decimal points, whatever it was."""
+    """A data file as comma-separated text with decimal points, whatever it was; as it is written where a mark may set thousands apart."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source))):
-        writer.writerow(["" if cell is None else cell for cell in cells])
+    rows = [cells for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source)))]
+    doubtful = any(isinstance(cell, str) and any(of.fullmatch(cell) for of in _IN_THREES.values()) for cells in rows for cell in cells)
+    for cells in rows:
+        writer.writerow(["" if cell is None else cell if doubtful else _with_point(cell) for cell in cells])
     return text.getvalue()
+
+
+def _with_point(cell: Any) -> Any:
+    return cell.replace(",", ".") if isinstance(cell, str) and _DECIMAL[","].fullmatch(cell) else cell
 
 
 def _heading(cell: str) -> tuple[str, str | None]:
     match = _HEADER.match(cell)
     assert match is not None
     name = match.group(1).strip().lower().replace(" ", "_").replace("-", "_")
-    return name, match.group(2) if match.group(2) is not None else match.group(3)
+    return name, match.group(2) or match.group(3) or None
 
 
 def _no_column(p: Parameter, places: Iterable[str], close: str | None, where: str) -> InputError:
@@ -157,10 +201,10 @@ def _rows(source: Source, where: str) -> Iterable[Row]:
         yield from _sheet(raw, where)
         return
     try:
-        text = raw.decode("utf-8-sig")
+        text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except UnicodeDecodeError:
         text = raw.decode("cp1252", errors="replace")
-    lines = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and not line.lstrip().startswith("#")]
+    lines = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and not _comment(line)]
     if not lines:
         return
     separator = max("\t;,", key=lambda mark: (lines[0][1].count(mark), mark == ","))
@@ -170,7 +214,12 @@ def _rows(source: Source, where: str) -> Iterable[Row]:
         except csv.Error as problem:  # a cell longer than a page, a lone quote
             raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
         if any(cells):
-            yield i, [cell.replace(",", ".") if separator != "," and i != lines[0][0] else cell for cell in cells]
+            yield i, cells
+
+
+def _comment(line: str) -> bool:
+    start = line.lstrip().lstrip('"')
+    return start.startswith("#") and not start.upper().startswith(_SHEET_ERRORS)
 
 
 def _bytes(source: Source, where: str) -> bytes:
@@ -223,5 +272,5 @@ def _sheet(raw: bytes, where: str) -> Iterable[Row]:
             )
         )
     for i, cells in enumerate(rows, 1):
-        if any(cell is not None for cell in cells) and not str(cells[0]).startswith("#"):
+        if any(cell is not None for cell in cells) and not _comment(str(cells[0])):
             yield i, list(cells)

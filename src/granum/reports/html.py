@@ -20,7 +20,16 @@ from granum.core.sources import cite
 from granum.core.units import format_number, from_si
 from granum.flowsheet.drawing import draw, main_phase
 from granum.reports.mathml import mathml
-from granum.reports.quantities import check_row, defaults_text, estimate_rows, label_of, statistics_text, stream_table, value_text
+from granum.reports.quantities import (
+    check_row,
+    defaults_text,
+    estimate_rows,
+    label_of,
+    ranges_text,
+    statistics_text,
+    stream_table,
+    value_text,
+)
 
 
 def _row(p: Parameter, value: Any) -> dict[str, str]:
@@ -76,7 +85,7 @@ def _fit_sheets(run: Any) -> list[dict[str, Any]]:
     for fit, paths in given.values():
         data, card = fit.as_json(), find(fit.card).card
         sheets.append({
-            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), defaults_text(data)))),
+            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), defaults_text(data), ranges_text(data)))),
             "source": card.citation, "notices": [f["message"] if isinstance(f, dict) else str(f) for f in data["flags"]],
         })  # fmt: skip
     return sheets

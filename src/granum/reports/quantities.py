@@ -105,6 +105,21 @@ def defaults_text(data: dict[str, Any]) -> str:
     return _("Taken by default: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
 
 
+def ranges_text(data: dict[str, Any]) -> str:
+    """What the estimates of a fit hold for, in one line; empty where nothing is known."""
+    from granum.core import registry
+
+    thing = registry.everything().get(data["card"])
+    declared = {p.name: p for p in thing.card.parameters} if thing else {}
+    shown = [f"{declared[n].label} {range_text(*ends, declared[n])}" for n, ends in data.get("ranges", {}).items() if n in declared]
+    return _("Measured at: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
+
+
+def range_text(low: float, high: float, p: Parameter) -> str:
+    """Two ends of a range, or the one value that they are."""
+    return value_text(low, p) if low == high else f"{value_text(low, p)} … {value_text(high, p)}"
+
+
 class EstimateRow(NamedTuple):
     """An estimate in its display unit, each number to the second figure of the standard error."""
 

@@ -60,6 +60,7 @@ class BatchKinetics(LabTest):
     least_points: ClassVar[int] = 6
     estimates: ClassVar = {"log_growth_coefficient": Number, "growth_order": Number, "log_nucleation_coefficient": Number,
                            "nucleation_order": Number}  # fmt: skip
+    holds_for: ClassVar = ("temperature",)
     axes: ClassVar = {"time": Time, "solute_per_solvent": MassRatio}
 
     def fit(self) -> Fit:
@@ -164,4 +165,6 @@ def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
         bounds={"growth_order": (0.3, 6.0), "nucleation_order": (0.3, 12.0), "log_nucleation_coefficient": (0.0, 80.0)},
         derived=lambda p: {"growth_coefficient": jnp.exp(p["log_growth_coefficient"]), "nucleation_coefficient": jnp.exp(p["log_nucleation_coefficient"])},
     )  # fmt: skip
-    return replace(found, defaults=tests[0].defaults())
+    held = [test.ranges() for test in tests]
+    ranges = {n: (min(r[n][0] for r in held), max(r[n][1] for r in held)) for n in held[0]}
+    return replace(found, defaults=tests[0].defaults(), ranges=ranges)

@@ -33,6 +33,7 @@ class InductionTime(LabTest):
     ions_per_formula: PositiveNumber = 1.0
 
     estimates: ClassVar = {"interfacial_energy": SurfaceTension, "induction_time_limit": Time}
+    holds_for: ClassVar = ("supersaturation_ratio", "temperature")
     axes: ClassVar = {"supersaturation_ratio": PositiveNumber, "induction_time": Time}
 
     def fit(self) -> Fit:

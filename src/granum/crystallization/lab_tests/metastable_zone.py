@@ -55,6 +55,7 @@ class MetastableZone(LabTest):
     detected_number_density: NumberDensity | None = None
 
     estimates: ClassVar = {"nyvlt_order": Number, "nyvlt_constant": CoolingRate}
+    holds_for: ClassVar = ("cooling_rate",)
     axes: ClassVar = {"cooling_rate": CoolingRate, "undercooling": TemperatureDifference}
 
     def fit(self) -> Fit:
@@ -97,6 +98,7 @@ class MetastableZoneSangwal(LabTest):
     molar_mass: MolarMass
 
     estimates: ClassVar = {"sangwal_slope": PositiveNumber, "sangwal_constant": Number}
+    holds_for: ClassVar = ("cooling_rate",)
     axes: ClassVar = {"cooling_rate": CoolingRate, "undercooling": TemperatureDifference}
 
     def fit(self) -> Fit:

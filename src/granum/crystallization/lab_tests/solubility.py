@@ -26,6 +26,7 @@ from granum.estimation.lines import polynomial, straight_line
 class _Solubility(LabTest):
     """Mole fractions of the measured mass ratios, and the chart of all three fits."""
 
+    holds_for: ClassVar = ("temperature",)
     axes: ClassVar = {"temperature": Temperature, "solute_per_solvent": MassRatio}
 
     def _mole_fractions(self) -> np.ndarray:
@@ -142,6 +143,7 @@ class SolubilityAntisolvent(LabTest):
 
     least_points: ClassVar[int] = 4
     estimates: ClassVar = {"solubility_per_solvent": MassRatio, "antisolvent_power": Number, "antisolvent_curvature": Number}
+    holds_for: ClassVar = ("antisolvent_fraction",)
     axes: ClassVar = {"antisolvent_fraction": MassFraction, "solute_per_solvent": MassRatio}
 
     def fit(self) -> Fit:

@@ -40,6 +40,7 @@ class EffectiveDiffusivity(LabTest):
     temperature: Annotated[Temperature, Series("points")] | None = None
     body: Literal["plate", "cylinder", "sphere"] = "plate"
     estimates: ClassVar = {"diffusivity": Diffusivity, "diffusion_activation_energy": MolarEnergy}
+    holds_for: ClassVar = ("temperature",)
     axes: ClassVar = {"time": Time, "moisture_ratio": Ratio}
     least_points: ClassVar[int] = 4
 

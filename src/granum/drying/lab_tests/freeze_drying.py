@@ -45,6 +45,7 @@ class VialHeatTest(LabTest):
     area_vial: Area
     estimates: ClassVar = {"vial_coefficient_contact": HeatTransferCoefficient, "vial_coefficient_gas": HeatTransferPerPressure,
                            "vial_coefficient_saturation": PerPressure}  # fmt: skip
+    holds_for: ClassVar = ("pressure_chamber",)
     axes: ClassVar = {"pressure_chamber": Pressure, "heat_transfer_coefficient": HeatTransferCoefficient}
     least_points: ClassVar[int] = 4
 
@@ -96,6 +97,7 @@ class ProductResistanceTest(LabTest):
     linear: bool = False
     estimates: ClassVar = {"vapor_resistance": VaporResistance, "vapor_resistance_slope": VaporResistanceGradient,
                            "vapor_resistance_saturation": PerLength}  # fmt: skip
+    holds_for: ClassVar = ("pressure_chamber",)
     axes: ClassVar = {"dry_layer_thickness": Distance, "vapor_resistance": VaporResistance}
     least_points: ClassVar[int] = 4
 

@@ -45,6 +45,7 @@ class IsothermTest(LabTest):
         "monolayer_moisture": MoistureDryBasis, "monolayer_constant": PositiveNumber, "multilayer_constant": PositiveNumber,
         "isotherm_coefficient": Number, "isotherm_exponent": Number,
     }  # fmt: skip
+    holds_for: ClassVar = ("water_activity", "temperature")
     axes: ClassVar = {"water_activity": WaterActivity, "moisture_dry_basis": MoistureDryBasis}
     least_points: ClassVar[int] = 4
 

@@ -51,6 +51,7 @@ class IsothermTemperatures(LabTest):
         "monolayer_energy": MolarEnergy, "multilayer_energy": MolarEnergy, "isotherm_coefficient": Number, "isotherm_exponent": Number,
         "isotherm_temperature_offset": Number, "isotherm_coefficient_per_celsius": Number, "isosteric_heat_net": SpecificEnergy,
     }  # fmt: skip
+    holds_for: ClassVar = ("water_activity", "temperature")
     axes: ClassVar = {"water_activity": WaterActivity, "moisture_dry_basis": MoistureDryBasis}
     least_points: ClassVar[int] = 6
 

@@ -52,6 +52,7 @@ class CompressionCell(LabTest):
         "compaction_exponent": Number,
         "characteristic_pressure": PressureDrop,
     }
+    holds_for: ClassVar = ("solids_pressure",)
     axes: ClassVar = {"solids_pressure": PressureDrop, "cake_resistance": CakeResistance}
 
     def fit(self) -> Fit:
@@ -127,6 +128,7 @@ class DeliquoringCurve(LabTest):
     cake_thickness: Length
 
     estimates: ClassVar = {"cake_permeability": Permeability, "irreducible_saturation": Fraction}
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"time": Time, "cake_saturation": Fraction}
 
     def fit(self) -> Fit:

@@ -68,6 +68,7 @@ class Compressibility(LabTest):
         "void_fraction_reference": VoidFraction,
         "compaction_exponent": Number,
     }
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"pressure_drop": PressureDrop, "cake_resistance": CakeResistance}
 
     def fit(self) -> Fit:

@@ -53,6 +53,7 @@ class LeafTest(LabTest):
     first_points_excluded: Annotated[int, Within(0, 10_000)] | None = None
 
     estimates: ClassVar = {"cake_resistance": CakeResistance, "medium_resistance": MediumResistance}
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"filtrate_volume": Volume, "time_per_filtrate_volume": TimePerVolume}
 
     def fit(self) -> Fit:

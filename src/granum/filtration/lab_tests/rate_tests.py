@@ -21,12 +21,19 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
 )
+from granum.core.parameters import Parameter
+from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
 from granum.filtration.lab_tests.starts import bad_start, bend
 from granum.filtration.quantities import PressureTimePerVolume
 
 NOTICEABLE_BEND = 0.3
+UNCERTAIN, LEAST_MEDIUM = (
+    0.05,
+    0.2,
+)  # of an estimate, by what readings leave open of the pressure; part of the line that a medium must be to count
+READING = 0.03  # change of the pressure below which it may be the scatter of the gauge
 
 
 @lab_test(
@@ -57,6 +64,7 @@ class ConstantRateTest(LabTest):
         "compressibility": Ratio,
         "medium_resistance": MediumResistance,
     }
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"time": Time, "pressure_drop": PressureDrop}
 
     def fit(self) -> Fit:
@@ -112,13 +120,14 @@ class VariablePressureTest(LabTest):
     dry_cake_per_filtrate: Concentration
 
     estimates: ClassVar = {"cake_resistance": CakeResistance, "medium_resistance": MediumResistance}
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"filtrate_volume": Volume, "impulse_per_volume": PressureTimePerVolume}
 
     def fit(self) -> Fit:
         """Resistances with 95 % intervals."""
         self.increasing("time")
         self.increasing("filtrate_volume", strictly=False)
-        t, V, dp = (np.asarray(x) for x in (self.time, self.filtrate_volume, self.pressure_drop))
+        t, V, dp = (np.asarray(x, dtype=float) for x in (self.time, self.filtrate_volume, self.pressure_drop))
         impulse = dp[0] * t[0] + np.concatenate([[0.0], np.cumsum(0.5 * np.diff(t) * (dp[1:] + dp[:-1]))])
         good = (V > 0) & (t > 0)
         V, ratio = V[good], impulse[good] / V[good]
@@ -131,9 +140,36 @@ class VariablePressureTest(LabTest):
         per_cake = self.dynamic_viscosity * self.dry_cake_per_filtrate / (2.0 * self.area**2)
         per_medium = self.dynamic_viscosity / self.area
         slope, intercept = straight_line(V[kept], ratio[kept])
+        missed = _missed(t, dp)[:, good][:, kept] / V[kept]
+        for name, size, weights in zip(("cake_resistance", "medium_resistance"), (slope, intercept), _weights(V[kept]), strict=True):
+            doubt = float(np.linalg.norm(missed @ weights))
+            if doubt > UNCERTAIN * max(abs(size), LEAST_MEDIUM * ratio.mean() if name == "medium_resistance" else 0.0):
+                sentence = _(
+                    "The pressure changes between readings in a way that they do not show: this alone leaves ± {share} % in {label}. "
+                    "Take a reading just before and just after each change."
+                ).format(share=format_number(100.0 * doubt / max(abs(size), 1e-300), 2), label=Parameter(name).label)
+                flags.append(self.note("coarse pressure", sentence, name))
         return self.fitted(
             lambda p, V: p["cake_resistance"] * per_cake * V + p["medium_resistance"] * per_medium,
             {"cake_resistance": abs(slope) / per_cake, "medium_resistance": max(intercept, 0.01 * ratio.mean()) / per_medium},
             V, ratio, index=np.flatnonzero(good), keep=kept, flags=flags,
             bounds={"cake_resistance": (0.0, np.inf), "medium_resistance": (0.0, np.inf)},
         )  # fmt: skip
+
+
+def _missed(t: np.ndarray, dp: np.ndarray) -> np.ndarray:
+    """What trapezoids may miss of the impulse at each reading, one row an interval: nothing on a steady course or a ramp, all of a jump."""
+    width, rise = np.diff(t), np.diff(dp)
+    slope = np.pad(rise / width, 1)
+    own = slope[1:-1]
+    alike = [np.clip(np.divide(np.minimum(own * beside, own**2), np.maximum(own**2, beside**2), where=own != 0, out=np.zeros_like(own)), 0, 1)
+             for beside in (slope[:-2], slope[2:])]  # fmt: skip
+    seen = np.abs(rise) > READING * 0.5 * (dp[1:] + dp[:-1])
+    open_part = np.where(seen, 0.5 * width * np.abs(rise) * (1.0 - np.maximum(*alike)) ** 2, 0.0)
+    return np.triu(np.repeat(open_part[:, None], len(t), axis=1), 1)
+
+
+def _weights(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What each value has to say in the slope and in the intercept of a straight line."""
+    slope = (x - x.mean()) / float(np.sum((x - x.mean()) ** 2))
+    return slope, 1.0 / x.size - x.mean() * slope

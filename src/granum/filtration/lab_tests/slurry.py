@@ -80,6 +80,7 @@ class PumpCurve(LabTest):
     pressure_drop: Annotated[PressureDrop, Series("points")]
 
     estimates: ClassVar = {"pressure_shutoff": PressureDrop, "volume_flow_largest": VolumeFlow}
+    holds_for: ClassVar = ("volume_flow",)
     axes: ClassVar = {"volume_flow": VolumeFlow, "pressure_drop": PressureDrop}
     least_points: ClassVar = 3
 

@@ -53,6 +53,7 @@ class SteppedPressureTest(LabTest):
     reference_pressure: PressureDrop = 1e5
 
     estimates: ClassVar = {"cake_resistance_reference": CakeResistance, "compressibility": Ratio, "medium_resistance": MediumResistance}
+    holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"filtrate_volume": Volume, "time_per_filtrate_volume": TimePerVolume}
 
     def fit(self) -> Fit:

@@ -54,6 +54,7 @@ class Permeametry(LabTest):
     creeping: bool = False
 
     estimates: ClassVar = {"permeability": Permeability, "inertial_coefficient": ReciprocalLength}
+    holds_for: ClassVar = ("superficial_velocity",)
     axes: ClassVar = {"superficial_velocity": Speed, "pressure_drop": PressureDrop}
 
     def fit(self) -> Fit:

@@ -100,6 +100,30 @@ FUNCTIONS = {
 VelocityFunction = Literal["vesilind", "richardson_zaki", "takacs", "cole"]
 
 
+class _Height(eqx.Module):
+    """The curve of a velocity law; a module with its numbers as arrays, so that it is compiled once for all tests of one length."""
+
+    law: str = eqx.field(static=True)
+    initial_concentration: Any
+    initial_height: Any
+
+    def __call__(self, p: Mapping[str, Any], t: Any) -> Any:
+        function, C0 = FUNCTIONS[self.law], self.initial_concentration
+        return kynch_height(t, function.build(p), C0, self.initial_height, function.inflection(p), function.densest(p, C0))
+
+
+class _UnitArea(eqx.Module):
+    """Coe and Clevenger's unit area from a velocity law."""
+
+    law: str = eqx.field(static=True)
+    initial_concentration: Any
+    underflow_concentration: Any
+
+    def __call__(self, p: Mapping[str, Any]) -> dict[str, Any]:
+        limit = limiting_flux_underflow(self.underflow_concentration, self.initial_concentration, FUNCTIONS[self.law].build(p))
+        return {"unit_area_coe_clevenger": 1.0 / limit.limiting_flux}
+
+
 def _scatter(found: Fit, points: np.ndarray) -> float:
     return float(np.sqrt(np.mean(found.residuals[points] ** 2)))
 
@@ -207,25 +231,18 @@ class BatchTest(LabTest):
 
     def _law(self, c: Curve, start: Mapping[str, float] | None = None) -> Fit:
         """The velocity law fitted to the curve up to its compression point."""
-        function = FUNCTIONS[self.velocity_function]
+        function, under = FUNCTIONS[self.velocity_function], self.underflow_concentration
         C, v = self.tangents(c)
         last = c.time.size if c.compression is None else c.compression.index + 1
         usable = C[0] * 1.0001 >= C if last == c.constant_rate.points else self._densest(c) >= C
         C0 = float(self.initial_concentration)
-
-        def model(p: Mapping[str, Any], t: Any) -> Any:
-            return kynch_height(t, function.build(p), C0, c.initial_height, function.inflection(p), function.densest(p, C0))
-
-        def area(p: Mapping[str, Any]) -> dict[str, Any]:
-            limit = limiting_flux_underflow(jnp.asarray(float(self.underflow_concentration)), jnp.asarray(C0), function.build(p))  # type: ignore[arg-type]
-            return {"unit_area_coe_clevenger": 1.0 / limit.limiting_flux}
-
         bounds = dict(function.bounds)
         if "packed_concentration" in bounds:
             bounds["packed_concentration"] = (1.02 * C0, np.inf)
         return self.fitted(
-            model, start or function.start(C[usable], v[usable]), c.time, c.height, keep=np.arange(c.time.size) < last, bounds=bounds,
-            derived=area if self.underflow_concentration is not None else None,
+            _Height(self.velocity_function, jnp.asarray(C0), jnp.asarray(c.initial_height)), start or function.start(C[usable], v[usable]),
+            c.time, c.height, keep=np.arange(c.time.size) < last, bounds=bounds,
+            derived=_UnitArea(self.velocity_function, jnp.asarray(C0), jnp.asarray(float(under))) if under is not None else None,
         )  # fmt: skip
 
     def _disagreement(self, derived: Mapping[str, Estimate]) -> list[dict[str, Any]]:

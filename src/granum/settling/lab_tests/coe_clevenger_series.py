@@ -33,6 +33,7 @@ class CoeClevengerSeries(LabTest):
     underflow_concentration: Concentration
 
     estimates: ClassVar = {"vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume}
+    holds_for: ClassVar = ("solids_concentration",)
     axes: ClassVar = {"solids_concentration": Concentration, "settling_velocity": Speed}
     least_points: ClassVar = 3
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
@@ -16,6 +17,25 @@ from granum.settling.compression import LogarithmicStress
 from granum.settling.lab_tests.batch_test import BatchTest
 from granum.settling.quantities import SpecificVolume
 from granum.settling.velocities import Vesilind
+
+
+class _Column(eqx.Module):
+    """Height of the interface in a column; a module with its numbers as arrays, so that it is compiled once for all tests of one length."""
+
+    start_height: Any
+    initial_concentration: Any
+    solid_density: Any
+    liquid_density: Any
+    stress_concentration: Any
+    cells: int = eqx.field(static=True)
+
+    def __call__(self, p: Any, time: Any) -> Any:
+        stress = LogarithmicStress(p["critical_concentration"], p["stress_scale"], self.stress_concentration)
+        law = Vesilind(p["vesilind_velocity"], p["vesilind_coefficient"])
+        suspension = Suspension(law, stress, self.solid_density, self.liquid_density)
+        times = jnp.concatenate([jnp.zeros(1), jnp.asarray(time)])
+        course = settle(suspension, self.start_height, self.initial_concentration, times, cells=self.cells)
+        return course.interface_height(0.5 * self.initial_concentration)[1:]
 
 
 @lab_test("compression_test", source="burger2011; declercq2008; diehl2015", title="Settling curve with compression")
@@ -44,12 +64,11 @@ class CompressionTest(LabTest):
 
     def model(self, p: Any, time: Any, start_height: Any) -> Any:
         """Height of the interface at given times."""
-        stress = LogarithmicStress(p["critical_concentration"], p["stress_scale"], float(self.stress_concentration))
-        law = Vesilind(p["vesilind_velocity"], p["vesilind_coefficient"])
-        suspension = Suspension(law, stress, float(self.solid_density), float(self.liquid_density))
-        times = jnp.concatenate([jnp.zeros(1), jnp.asarray(time)])
-        course = settle(suspension, start_height, float(self.initial_concentration), times, cells=self.cells)
-        return course.interface_height(0.5 * float(self.initial_concentration))[1:]
+        return self._column(start_height)(p, time)
+
+    def _column(self, start_height: Any) -> _Column:
+        numbers = (start_height, self.initial_concentration, self.solid_density, self.liquid_density, self.stress_concentration)
+        return _Column(*(jnp.asarray(value, dtype=float) for value in numbers), cells=self.cells)
 
     def fit(self) -> Fit:
         """Constants of hindrance and compression."""
@@ -73,5 +92,5 @@ class CompressionTest(LabTest):
         low = 1.01 * float(self.initial_concentration)
         bounds = dict.fromkeys(start, (1e-09, np.inf)) | {"critical_concentration": (low, np.inf)}
         return self.fitted(
-            lambda p, t: self.model(p, t, c.initial_height), start, c.time[later], c.height[later], bounds=bounds, flags=flags
+            self._column(c.initial_height), start, c.time[later], c.height[later], bounds=bounds, flags=flags
         )  # fmt: skip

@@ -30,6 +30,7 @@ class SludgeIndexTest(LabTest):
     stirred: bool = False
 
     estimates: ClassVar = {"sludge_volume_index": SpecificVolume, "settled_fraction_offset": Fraction}
+    holds_for: ClassVar = ("solids_concentration",)
     axes: ClassVar = {"solids_concentration": Concentration, "settled_fraction": Fraction}
     least_points: ClassVar = 2
 

@@ -1,0 +1,100 @@
+"""Known numbers in any dress of a data file: read as they are, or refused in one sentence; never another number.
+
+``GRANUM_RANDOM_SAMPLES=10000 pytest -n 0 tests/estimation/test_dressed_tables.py`` is the long search.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+
+import numpy as np
+import pytest
+
+from granum.core.errors import GranumError, InputError
+from granum.estimation import read_table
+from granum.estimation.tables import as_csv
+from granum.filtration.lab_tests.leaf_test import LeafTest
+
+FILES = max(300, int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0")))
+COLUMNS = [p for p in LeafTest.card.parameters if p.series]
+SPOILED = ["", "NaN", "inf", "-", "n/a", "#N/A", "#DIV/0!", "1.2.3", "12 min", "-5", "1e999", "<3", "True", "12%", "0x10", "12:30", "?"]
+"""Cells that hold no number that a time or a volume may be."""
+
+
+def dressed(rng: np.random.Generator) -> tuple[bytes, np.ndarray, np.ndarray, bool]:
+    """A file, its times in seconds and volumes in cubic meters, and whether one of its cells is spoiled."""
+    count = int(rng.integers(1, 9))
+    digits = int(rng.integers(0, 5))
+    written = [np.round(10.0 ** rng.uniform(-1, 4, count), digits) for _column in range(2)]
+    separator = str(rng.choice([",", ";", "\t"]))
+    mark = str(rng.choice([".", ","]))
+    thousands = str(rng.choice(["", "", ".", ",", "\u202f", " "]))
+    if thousands == mark:
+        thousands = ""
+    if thousands in (".", ","):  # a column of which every number looks like 1,200 says nothing about its marks
+        for column in written:
+            column[0] = 7.0
+
+    def number(value: float) -> str:
+        text = f"{value:,.{digits}f}" if rng.random() < 0.5 or digits == 0 else f"{value:,.{digits}f}".rstrip("0").rstrip(".")
+        text = text.translate(str.maketrans({",": thousands, ".": mark}))
+        return f'"{text}"' if separator in text and rng.random() < 0.7 else text
+
+    unit, scale = [("min", 60.0), ("s", 1.0), ("hour", 3600.0)][int(rng.integers(3))]
+    style = ["{} [{}]", "{} ({})", "{} / {}"][int(rng.integers(3))]
+    heads = [style.format("time", unit), style.format("filtrate_volume", "L")]
+    rows = [[number(a), number(b)] for a, b in zip(*written, strict=True)]
+    spoiled = rng.random() < 0.3
+    if spoiled:
+        rows[int(rng.integers(count))][int(rng.integers(2))] = str(rng.choice(SPOILED))
+    if rng.random() < 0.5:
+        heads, rows = heads[::-1], [row[::-1] for row in rows]
+    if rng.random() < 0.3:
+        heads, rows = [*heads, "note"], [[*row, "x"] for row in rows]
+    if rng.random() < 0.2:
+        heads, rows = [*heads, "", ""], [[*row, "", ""] for row in rows]
+    lines = [separator.join(cells) for cells in (heads, *rows)]
+    for _line in range(int(rng.integers(3))):
+        lines.insert(int(rng.integers(len(lines) + 1)), str(rng.choice(["", "# said by hand", "  "])))
+    text = str(rng.choice(["\n", "\r\n"])).join(lines)
+    encoding = str(rng.choice(["utf-8", "utf-8-sig", "utf-16"]))
+    return text.encode(encoding), scale * written[0], 1e-3 * written[1], spoiled
+
+
+def test_a_dressed_table_is_read_as_it_is_or_refused() -> None:
+    rng = np.random.default_rng(16)
+    read = 0
+    for _file in range(FILES):
+        content, time, volume, spoiled = dressed(rng)
+        for source in (content, None):
+            try:
+                found = read_table(io.BytesIO(content) if source else io.StringIO(as_csv(io.BytesIO(content))), COLUMNS)
+            except GranumError:
+                continue
+            assert not spoiled, content
+            np.testing.assert_allclose(found["time"], time, rtol=1e-9, err_msg=repr(content))
+            np.testing.assert_allclose(found["filtrate_volume"], volume, rtol=1e-9, err_msg=repr(content))
+            read += 1
+    assert read > FILES // 2
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [min],filtrate_volume [L]\n1,5,2,5\n2,5,3,5\n", "Line 2 has 4 cells, the header 2"),
+        ('time [s],filtrate_volume [L]\n900,1.5\n"1,200",1.8\n', "Line 3, column 'time': '1,200' may be thousands or decimals"),
+        ("time [s];filtrate_volume [L]\n900;1,5\n1.200;1,8\n", "Line 3, column 'time': '1.200' may be thousands or decimals"),
+        ("time [s],filtrate_volume [L]\n900,1.5\n#N/A,1.8\n", "Line 3, column 'time': '#N/A' is not a number"),
+        ("time [],filtrate_volume [L]\n900,1.5\n", "'time' has no unit"),
+    ],
+)
+def test_what_was_read_as_another_number_is_refused(text: str, words: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read_table(io.StringIO(text), COLUMNS)
+    assert words in caught.value.message
+
+
+def test_decimal_commas_with_three_digits_are_decimals_where_the_column_shows_it() -> None:
+    found = read_table(io.StringIO("time [s];filtrate_volume [L]\n1,125;2\n2,25;3\n"), COLUMNS)
+    np.testing.assert_allclose(found["time"], [1.125, 2.25])
