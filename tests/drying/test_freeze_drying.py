@@ -194,3 +194,14 @@ def test_layer_of_food():
     assert thick == pytest.approx(4 * thin)
     with pytest.raises(ApplicabilityError, match="sublime"):
         f.freeze_drying_slab("-40 degC", "100 Pa", 0.05, 2.5e-8, "10 mm", 90.0, 9.0)
+
+
+def test_a_freeze_dryer_whose_duct_is_not_given(tmp_path: Path) -> None:
+    """It has no choked flow to show, which is no reason to refuse it."""
+    example = Path(__file__).parents[2] / "examples/dryers/freeze.toml"
+    (tmp_path / "freeze.toml").write_text("\n".join(row for row in example.read_text().splitlines() if not row.startswith("duct_diameter")))
+    (tmp_path / "solids_made.toml").write_text((example.parent / "solids_made.toml").read_text())
+    run = gr.read(tmp_path / "freeze.toml").solve()
+    figures = run.as_json()["units"]["dryer"]["results"]
+    assert figures["choked_flow_rate"]["value"] is None
+    assert figures["drying_time_primary"]["value"] > 0

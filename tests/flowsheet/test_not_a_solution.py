@@ -83,6 +83,33 @@ def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:
     assert problem.details["unit"] == "middle"
 
 
+class Thirsty(Mixer):
+    """Has no answer while one of its inlets is empty, as a dryer without gas."""
+
+    def __call__(self, **inlets: Stream) -> Single:
+        joined = sum(inlets.values(), start=empty(MIXTURE))
+        flows = jnp.all(jnp.stack([s.mass_flow > 0 for s in inlets.values()]))
+        return Single(joined.replace(temperature=jnp.where(flows, joined.temperature, jnp.nan)))
+
+
+def test_a_loop_starts_though_a_unit_waits_for_what_comes_round() -> None:
+    """The torn stream is empty at first: the unit behind it gave no number, and none came round for ever."""
+    units = {"dryer": Thirsty(), "split": Splitter(side_fraction=0.5), "mix": Mixer()}
+    links = {"cake": ("", "dryer.cake"), "air": ("", "mix.fresh"), "hot": ("mix", "dryer.gas"), "exhaust": ("dryer", "split"),
+             "back": ("split.side", "mix.back")}  # fmt: skip
+    line = Line("waiting", Flowsheet(units, {"cake": FEED, "air": FEED}, links))
+    assert [block.tears for block in line.sheet.blocks if block.tears] == [("hot",)]
+    run = line.solve()
+    assert float(run.streams["exhaust"].mass_flow) == pytest.approx(4.0, rel=1e-10)  # two enter, half of it goes round
+
+
+def test_a_loop_that_nothing_starts_names_the_unit_that_waits() -> None:
+    units = {"dryer": Thirsty(), "split": Splitter(side_fraction=0.5)}
+    links = {"cake": ("", "dryer.cake"), "exhaust": ("dryer", "split"), "back": ("split.side", "dryer.back")}
+    problem = refusal(Line("stuck", Flowsheet(units, {"cake": FEED}, links)))
+    assert "from unit 'dryer' has no temperature" in problem.message
+
+
 AIR = """
 title = "two airs"
 [mixture]

@@ -51,6 +51,21 @@ gas = { "dry air" = 1.0 }
 [units.mixer]
 model = "streams.humid_mixer"
 """
+GAS = """
+[mixture]
+liquids = ["water"]
+gases = ["dry air", "water"]
+[feeds.air]
+to = "unit.gas"
+temperature = "{temperature}"
+gas_flow = "1 kg/s"
+gas = {{ "dry air" = 1.0 }}
+"""
+SPRAY = """
+[feeds.spray]
+to = "unit.water"
+liquid_flow = "1 g/s"
+"""
 LOST = 'heat_loss = "1 GW"\n'
 CONVECTIVE = 'model = "drying.convective_dryer"\ntemperature_inlet = "120 degC"\n' + LOST
 CASES = {
@@ -66,6 +81,17 @@ CASES = {
         WET + 'model = "drying.closed_dryer"\ntemperature_inlet = "60 degC"\nmoisture_outlet = "1 %"\n'
         'drying_circuit = { law = "circuit_heat_pump", relative_humidity_outlet = "5 %", coil_temperature = "50 degC" }\n',  # a coil too warm
         "No temperature of the outlet air",
+    ),
+    "tray": (
+        WET + 'model = "drying.tray_dryer"\ntemperature_inlet = "-100 degC"\ngas_velocity = "2 m/s"\ndry_mass_per_area = "20 kg/m^2"\n'
+        'moisture_outlet = "1 %"\ncritical_moisture = "5 %"\n' + AIR.format(temperature="-10 degC"), "No temperature of the wet surface"
+    ),
+    "coil": (
+        GAS.format(temperature="20 degC") + '[units.unit]\nmodel = "streams.dehumidifying_coil"\ncoil_temperature = "-100 degC"\n'
+        "coil_bypass_fraction = 0.0\n", "No temperature was found at which gas and liquid"
+    ),
+    "humidifier": (
+        GAS.format(temperature="-80 degC") + SPRAY + '[units.unit]\nmodel = "streams.adiabatic_humidifier"\n', "No temperature was found at which gas and liquid"
     ),
     "humid mixer": (MIXER, "No temperature was found at which gas and liquid"),
 }  # fmt: skip

@@ -83,8 +83,17 @@ class _Made(NamedTuple):
     sheets: dict[str, tuple[Any, tuple[Check, ...]]]
 
 
-def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets: bool) -> _Made:
-    """One pass through the units of a block. Torn streams are read as given and made anew."""
+def _known(stream: Stream) -> Any:
+    """Whether it carries numbers."""
+    return jnp.isfinite(stream.mass_flow + stream.temperature)
+
+
+def _where(known: Any, stream: Stream, instead: Stream) -> Stream:
+    return jax.tree.map(lambda here, spare: jnp.where(known, here, spare), stream, instead)
+
+
+def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets: bool, instead: Stream | None = None) -> _Made:
+    """One pass through the units of a block. Torn streams are read as given and made anew; ``instead`` goes on where a stream has no numbers."""
     streams = dict(streams)
     made = _Made({}, {}, {}, {})
     for unit in block.units:
@@ -97,23 +106,29 @@ def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets
         made.records[unit] = records
         new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == unit}
         made.streams.update(new)
-        streams |= {name: s for name, s in new.items() if name not in block.tears}
+        onward = {name: s for name, s in new.items() if name not in block.tears}
+        streams |= onward if instead is None else {name: _where(_known(s), s, instead) for name, s in onward.items()}
     return made
 
 
 def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson | Newton, max_steps: int, watched: bool) -> tuple[_Made, Settled]:  # fmt: skip
     """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
     words: list[Any] = []  # names and sources among what is made, which are no numbers
+    # nothing flows from a unit that has no answer yet, such as a dryer whose gas is still to come round
+    first = next(iter(line.feeds.values()))
+    nothing = empty(first.mixture, first.temperature, first.pressure)
+    guess = {n: _where(_known(s), s, nothing) for n, s in guess.items()}
 
     def torn(vector: Any) -> dict[str, Stream]:
         rows = vector.reshape(len(block.tears), -1)
         return {n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)}
 
     def once(vector: Any) -> tuple[Any, Any]:
-        made = _run_block(line, block, streams | torn(vector), sheets)
+        made = _run_block(line, block, streams | torn(vector), sheets, nothing)
         numbers, others = eqx.partition(made, eqx.is_array)
         words[:] = [others]
-        return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), numbers
+        come_round = (made.streams[n] for n in block.tears)
+        return jnp.concatenate([_pack(_where(_known(s), s, nothing), scale) for s in come_round]), numbers
 
     start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
     if isinstance(method, Anderson):
@@ -124,7 +139,9 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
         good = root.residual <= within_rounding(root.state, TOLERANCE)
         found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
     made = eqx.combine(found.made, words[0])
-    return made._replace(streams=made.streams | torn(found.state)), found
+    known = {n: _known(s) for n, s in made.streams.items()}
+    at_rest = {n: _where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
+    return made._replace(streams=made.streams | at_rest), found._replace(converged=found.converged & jnp.all(jnp.stack([*known.values()])))
 
 
 def solve(

@@ -18,7 +18,7 @@ from scipy.optimize import root_scalar
 from granum.core.errors import ApplicabilityError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.core.kinds import HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, Ratio, Temperature, Time
+from granum.core.kinds import HumidityRatio, Mass, MoistureDryBasis, Power, Ratio, SignedMassFlow, Temperature, Time
 from granum.drying.contact.cells import Contact, Inlet, Profile
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
 from granum.drying.contact.liquor import composition, counted, moistened
@@ -81,7 +81,7 @@ class Dried(NamedTuple):
 class DryerFigures(NamedTuple):
     """Figures that every continuous dryer has."""
 
-    evaporation_rate: MassFlow
+    evaporation_rate: SignedMassFlow  # negative where the solid came in drier than it is in equilibrium with the gas
     moisture_dry_basis: MoistureDryBasis
     moisture_dry_basis_highest: MoistureDryBasis
     temperature_product: Temperature

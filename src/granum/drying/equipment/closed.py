@@ -40,7 +40,7 @@ from granum.streams.units import Check, Unit
 _MET, _LIMIT = "moisture of the product against the specification", "product temperature over its limit"
 _WARM = "temperature at which heat is given off above that of the heated gas"
 _DRY = "outlet temperature of the steam above boiling"
-_UNSOLVED = "No temperature of the outlet air was found between coil and hot air at which heat and evaporation agree: take hotter air, a colder coil or a smaller heat loss."
+_UNSOLVED = "No temperature of the outlet air was found between coil and hot air at which heat and evaporation agree: take hotter air, a colder coil, a wetter feed or a smaller heat loss."
 _COIL = "humidity of the outlet air above saturation at the coil"
 
 

@@ -43,6 +43,8 @@ _LIMIT = "product temperature over its limit"
 _ENERGY = "energy per water evaporated"
 _UNSOLVED = "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the heater and the heat loss against the flow of gas, and what is asked of the outlet."
 _MET = "moisture of the product against the specification"
+_WARM = "temperature of the exhaust against the specification"
+_MOIST = "relative humidity of the exhaust against the specification"
 
 
 class ConvectiveOutlets(NamedTuple):
@@ -195,13 +197,14 @@ class ConvectiveDryer(Unit):
         else:
             inlet = mixed.replace(temperature=jnp.asarray(self.temperature_inlet))
             duty = inlet.enthalpy_flow - gas.enthalpy_flow - back * out.enthalpy_flow - self.fan_power
-        recovered, exhaust, condensate = self._recover(gas, out, duty)
-        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate, known & root.converged)
+        recovered, exhaust, condensate, cooled = self._recover(gas, out, duty)
+        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate, known & root.converged & cooled)
 
-    def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream]:
-        """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point."""
+    def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream, Any]:
+        """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point. Also whether the
+        temperature that this leaves it was found."""
         if isinstance(self.effectiveness, float | int) and self.effectiveness == 0:
-            return jnp.zeros(()), out, out.part()
+            return jnp.zeros(()), out, out.part(), jnp.asarray(True)
         # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
         beyond = jnp.maximum(PAIR.fraction(humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
 
@@ -220,9 +223,9 @@ class ConvectiveDryer(Unit):
         passed = jnp.clip(self.effectiveness * most, 0.0, jnp.maximum(duty, 0.0))
         low = jnp.minimum(gas.temperature, out.temperature) - 1.0
         scale = jnp.maximum(jnp.sum(out.gas) * 1e3, 1e-300)
-        T = find_root(lambda T: (given(T) - passed) / scale, low, out.temperature + 1.0, tolerance=1e-14).value
-        dry, wet = drained(T)
-        return given(T), dry, wet
+        root = find_root(lambda T: (given(T) - passed) / scale, low, out.temperature + 1.0, tolerance=1e-14)
+        dry, wet = drained(root.value)
+        return given(root.value), dry, wet, root.converged
 
     @shared
     def results(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> ConvectiveFigures:
@@ -259,6 +262,10 @@ class ConvectiveDryer(Unit):
         ]
         if self.moisture_outlet is not None:
             found.append(Check(_MET, X - self.moisture_outlet, -1e-9, 1e-9, "kg/kg", "keey1978"))
+        if self.temperature_outlet is not None:  # missed where all the water is gone, or none goes
+            found.append(Check(_WARM, figures.temperature_outlet - self.temperature_outlet, -1e-6, 1e-6, "delta_degC", "keey1978"))
+        if self.relative_humidity_outlet is not None:
+            found.append(Check(_MOIST, phi - self.relative_humidity_outlet, -1e-6, 1e-6, "dimensionless", "keey1978"))
         if self.isotherm is not None:
             driest = PAIR.fraction(figures.humidity_ratio_inlet) / saturated_fraction(
                 PAIR, figures.temperature_inlet, inlets["gas"].pressure

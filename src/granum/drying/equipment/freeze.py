@@ -64,7 +64,7 @@ class FreezeFigures(NamedTuple):
     heat_duty_condenser: Power
     energy_per_water: SpecificEnergy
     sublimation_rate_highest: MassFlow
-    choked_flow_rate: MassFlow
+    choked_flow_rate: MassFlow | None  # of a machine whose duct is not given
 
 
 @equipment("freeze_dryer", source="pikal1985; pikal1990; shivkumar2019", title="Freeze dryer for vials")
@@ -127,7 +127,7 @@ class FreezeDryer(Unit):
         water = feed.liquid[0] - outlets.product.liquid[0]
         heat = SUBLIMATION_HEAT * water
         highest = primary.sublimation_flux_highest * self.area_product * vials
-        choked = jnp.inf if self.duct_diameter is None else choked_flow_rate(self.pressure_chamber, self.duct_diameter)
+        choked = None if self.duct_diameter is None else choked_flow_rate(self.pressure_chamber, self.duct_diameter) + 0.0 * highest
         return FreezeFigures(
             drying_time_primary=primary.drying_time,
             drying_time_secondary=secondary,
@@ -141,7 +141,7 @@ class FreezeDryer(Unit):
             heat_duty_condenser=-heat,
             energy_per_water=safe_divide(heat, water),
             sublimation_rate_highest=highest,
-            choked_flow_rate=choked + 0.0 * highest,
+            choked_flow_rate=choked,
         )
 
     def checks(self, inlets: Mapping[str, Stream], outlets: FreezeDried) -> tuple[Check, ...]:

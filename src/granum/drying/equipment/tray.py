@@ -10,6 +10,7 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.errors import ApplicabilityError
+from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
@@ -51,6 +52,7 @@ from granum.streams.units import Check, Unit
 _SPEED, _AIR = "air speed over the trays", "relative humidity of the exhaust"
 _REACHED, _LIMIT = "moisture of the product above equilibrium with the hot air", "product temperature over its limit"
 _RECYCLE = "recirculated share of the air"
+_UNSOLVED = "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation agree: give hotter air, or less radiated heat."
 
 
 class TrayDried(NamedTuple):
@@ -152,7 +154,8 @@ class TrayDryer(Unit):
             if self.heat_transfer_coefficient is None
             else jnp.asarray(self.heat_transfer_coefficient)
         )
-        Tw = drying_rate_assisted(T, w, h, self.radiated_heat, pressure=P).surface_temperature
+        Tw = drying_rate_assisted.function(T, w, h, self.radiated_heat, pressure=P).surface_temperature
+        unsolved(jnp.isfinite(Tw), type(self).card, reason=_UNSOLVED)
         c = (1006.0 + 1860.0 * w) / (1.0 + w)
         end = temperature_outlet_tray(T, Tw, h * self.sides, flux, self.tray_length, self.tray_gap, c)
         mean = flux * c * self.tray_gap * (T - end) / self.tray_length  # W per tray area, both sides

@@ -179,12 +179,12 @@ class AdiabaticHumidifier(Unit):
 
         m = gas.mixture
         root = find_root(surplus, COLDEST, gas.temperature)
-        wet = root.value
-        full = jnp.where(root.converged, humid.saturated_vapor(gas, wet) - gas.gas[humid.vapor], 0.0)
+        thirst = humid.saturated_vapor(gas, gas.temperature) - gas.gas[humid.vapor]  # at its own temperature: none where it is saturated
+        full = jnp.where(root.converged, humid.saturated_vapor(gas, root.value) - gas.gas[humid.vapor], 0.0)
         evaporated = jnp.clip(self.saturation_effectiveness * full, 0.0, available)
         drain = water.replace(liquid=water.liquid.at[0].add(-evaporated))
         product = wetted(evaporated)
-        unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
+        unsolved(jnp.isfinite(product.temperature) & (root.converged | (thirst <= 0.0)), type(self).card, reason=UNSOLVED)
         return Humidified(product, drain)
 
     def results(self, inlets: Mapping[str, Stream], outlets: Humidified) -> HumidifierFigures:
