@@ -7,7 +7,8 @@ from collections.abc import Callable
 from typing import Any, get_type_hints
 
 from granum.core.cards import Card, Ranges, key_of, make_card
-from granum.core.parameters import REQUIRED, Binder, Parameter, outputs_of, parameter_of
+from granum.core.conversion import Binder
+from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of
 from granum.core.registry import register
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from granum.core import flags
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import Kind, kind_of
@@ -18,7 +19,7 @@ from granum.core.kinds import MassFraction as _MassFraction
 from granum.core.kinds import MassRatio as _MassRatio
 from granum.core.kinds import Pressure as _Pressure
 from granum.core.kinds import Temperature as _Temperature
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.numerics.interpolation import MonotoneCubic, slopes_steffen
 
 
