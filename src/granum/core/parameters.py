@@ -175,7 +175,7 @@ def parameters_of(
     """The parameters of a function, from its annotations and defaults."""
     # The return annotation is left out: that of a chart names a Plotly type which only the type checker imports.
     inputs = type("Inputs", (), {"__annotations__": {k: v for k, v in function.__annotations__.items() if k != "return"}})
-    hints = get_type_hints(inputs, globalns=function.__globals__, include_extras=True)
+    hints = get_type_hints(inputs, globalns=inspect.unwrap(function).__globals__, include_extras=True)
     return tuple(
         parameter_of(name, hints.get(name, Any), found.default, fitted=fitted.get(name), typical=typical.get(name))
         for name, found in inspect.signature(function).parameters.items()
