@@ -66,3 +66,8 @@ def test_one_value_outside_the_bounds_of_its_kind_is_refused_and_is_none_in_an_a
     assert curve[0] == 1.0
     assert np.isnan(curve[1])
     assert float(jax.jit(law)(20_000.0)) == pytest.approx(-0.2, abs=1e-8)  # inside a program its caller judges
+
+
+def test_an_infinite_value_of_a_law_is_none() -> None:
+    breakage = EVERYTHING["crystallization.power_breakage"](breakage_frequency=1.0, reference_size=1e-9, breakage_exponent=400.0)
+    assert np.isnan(breakage(1e-3))

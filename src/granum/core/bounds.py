@@ -96,9 +96,9 @@ def judged(outputs: Iterable[Parameter], out: Any, card: str, source: str) -> An
         return out
     with flags.collect(flags.OUTSIDE_DOMAIN) as records:
         record_outside(outputs, out, card, source, 0)
-    single = all(np.ndim(value) == 0 for _p, value in figures(outputs, out))
-    if single and records:
-        raise ApplicabilityError(flags.describe(records)[0]["message"])
+    told = flags.describe(records)
+    if told and all(np.ndim(value) == 0 for _p, value in figures(outputs, out)):
+        raise ApplicabilityError(told[0]["message"])
     return without_impossible(outputs, out, records, False)
 
 
