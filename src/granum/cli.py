@@ -2,73 +2,18 @@
 
 from __future__ import annotations
 
-import functools
-import json
-import os
-import sys
-from collections.abc import Callable
-from copy import copy
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated
 
 import typer
-from typer.core import TyperGroup
 
-from granum import __version__
-from granum.core.errors import ConvergenceError, GranumError, InputError
-from granum.core.i18n import _, set_language
-
-
-def _language(lang: str) -> None:
-    if lang:
-        if lang not in ("en", "fr"):
-            raise typer.BadParameter("choose en or fr", param_hint="--lang")
-        set_language(lang)
-
-
-def _unit_system(units: str) -> None:
-    if units:
-        if units not in ("si", "field"):
-            raise typer.BadParameter("choose si or field", param_hint="--units")
-        os.environ["GRANUM_UNITS"] = units
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        print(f"granum {__version__}")
-        raise typer.Exit
-
-
-SHARED: dict[str, tuple[Callable[[str], None], str]] = {
-    "--lang": (_language, "Language of messages: en or fr."),
-    "--units": (_unit_system, "Units of what is shown: si or field (customary of the United States)."),
-}
-"""Options of the program that stand before or after the command, with what they do and their help."""
-
-
-def _heeded(act: Callable[[str], None], _context: Any, _option: Any, value: str) -> str:
-    act(value)
-    return value
-
-
-class _Commands(TyperGroup):
-    """The commands, each of which takes the options of the program too: ``granum run case.toml --lang fr``."""
-
-    def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        command = super().get_command(ctx, cmd_name)
-        words = {word for option in command.params for word in option.opts} if command else set(SHARED)
-        for option in self.params:
-            heed = SHARED.get(option.opts[0])
-            if command and heed and option.opts[0] not in words:
-                own = copy(option)
-                own.expose_value, own.envvar, own.callback = False, None, functools.partial(_heeded, heed[0])
-                command.params.append(own)
-        return command
-
+from granum.core.errors import ConvergenceError, InputError
+from granum.core.i18n import _
+from granum.shell import SHARED, Commands, choose_language, choose_units, emit, keep_compiled_code, one_message, pairs, tell_version
 
 app = typer.Typer(
     name="granum",
-    cls=_Commands,
+    cls=Commands,
     help="Fluid–solid unit operations: calculate, fit lab data, run process lines.",
     no_args_is_help=True,
     add_completion=False,
@@ -85,63 +30,13 @@ CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).")]
 @app.callback()
 def _options(lang: Annotated[str, typer.Option("--lang", help=SHARED["--lang"][1], envvar="GRANUM_LANG")] = "",
              units: Annotated[str, typer.Option("--units", help=SHARED["--units"][1], envvar="GRANUM_UNITS")] = "",
-             version: Annotated[bool, typer.Option("--version", help="Show the version and end.", callback=_version, is_eager=True)] = False) -> None:  # fmt: skip
-    _unit_system(units)
-    _language(lang)
-
-
-class Unexpected(GranumError):
-    """A fault of the program itself, not of its input."""
-
-    exit_code = 1
-
-
-def _fail(problem: GranumError, as_json: bool) -> NoReturn:
-    if as_json:
-        print(json.dumps({"error": problem.as_json()}, ensure_ascii=False))
-    print(problem.message, file=sys.stderr)
-    raise SystemExit(problem.exit_code)
-
-
-def _one_message(command: Callable[..., None]) -> Callable[..., None]:
-    """Turns errors raised on purpose into one message and an exit status."""
-
-    @functools.wraps(command)
-    def run(*args: Any, **kwargs: Any) -> None:
-        try:
-            command(*args, **kwargs)
-        except GranumError as problem:
-            _fail(problem, bool(kwargs.get("as_json")))
-        except KeyboardInterrupt:
-            raise SystemExit(130) from None
-        except Exception as problem:
-            if os.environ.get("GRANUM_TRACEBACK"):
-                raise
-            place = f"{type(problem).__name__}: {str(problem).splitlines()[0] if str(problem) else ''}"
-            text = _("Granum failed where it should not have ({place}). Please report it with the output of GRANUM_TRACEBACK=1.")
-            _fail(Unexpected(text.format(place=place)), bool(kwargs.get("as_json")))
-
-    return run
-
-
-def _pairs(words: list[str] | None) -> dict[str, str]:
-    values: dict[str, str] = {}
-    for word in words or []:
-        name, equals, value = word.partition("=")
-        if not equals or not name:
-            raise InputError(_("'{word}' is not of the form name=value, such as particle_diameter=85um.").format(word=word))
-        if name in values:
-            raise InputError(_("'{name}' was given twice.").format(name=name), name=name)
-        values[name] = value
-    return values
-
-
-def _emit(data: dict[str, Any]) -> None:
-    print(json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1))
+             version: Annotated[bool, typer.Option("--version", help="Show the version and end.", callback=tell_version, is_eager=True)] = False) -> None:  # fmt: skip
+    choose_units(units)
+    choose_language(lang)
 
 
 @app.command()
-@_one_message
+@one_message
 def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
     """Evaluate a formula, a law or a procedure."""
     from granum.core import registry
@@ -154,9 +49,9 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
                 key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
             )
         )
-    result = thing.evaluate(**_pairs(inputs))
+    result = thing.evaluate(**pairs(inputs))
     if as_json:
-        _emit(result.as_json())
+        emit(result.as_json())
     else:
         from granum.reports.terminal import print_result
 
@@ -164,7 +59,7 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
 
 
 @app.command()
-@_one_message
+@one_message
 def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with units in the header.")], conditions: Pairs = None,
         as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None,
         estimate: Annotated[list[str] | None, typer.Option(help="Of a formula or law: a parameter to find, as NAME or NAME=first value.")] = None,
@@ -178,13 +73,13 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
     if thing.card.sort == "lab test":
         if estimate or output or robust or next_point:
             raise InputError(_("A lab test knows what it estimates: leave out --estimate, --output, --robust and --next."))
-        test = thing.read(data, **_pairs(conditions))
+        test = thing.read(data, **pairs(conditions))
         found = test.fit()
     else:
         from granum.estimation import CardData, Huber
 
         wanted = {name: value or None for name, _equals, value in (word.partition("=") for word in estimate or ())}
-        test = CardData.read(thing, data, estimate=wanted, fixed=_pairs(conditions), output=output)
+        test = CardData.read(thing, data, estimate=wanted, fixed=pairs(conditions), output=output)
         found = test.fit(Huber() if robust else None)
     told = test.next_measurement(found) if next_point else None
     if chart is not None:
@@ -193,7 +88,7 @@ def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with un
 
         write_atomic(chart, as_html(test.chart(), page=True))
     if as_json:
-        _emit(found.as_json() | ({"next": told} if told is not None else {}))
+        emit(found.as_json() | ({"next": told} if told is not None else {}))
     else:
         from granum.reports.terminal import print_fit, print_next
 
@@ -215,7 +110,7 @@ def _unsolved(problem: ConvergenceError, as_json: bool, partial: bool) -> None:
 
 
 @app.command()
-@_one_message
+@one_message
 def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
         tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None,
         minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
@@ -238,7 +133,7 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
     if tables is not None:
         outcome.tables(tables)
     if as_json:
-        _emit(outcome.as_json())
+        emit(outcome.as_json())
     else:
         from granum.reports.terminal import print_run
 
@@ -246,7 +141,7 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
 
 
 @app.command()
-@_one_message
+@one_message
 def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case or study file (TOML), or a formula, law or piece of equipment.")],
           names: Annotated[list[str] | None, typer.Argument(metavar="[STUDY|name=value]...", help="Of a file: the studies to run, all when none is named. Of a card: its inputs; 0.3..0.8bar is a range, 1e7+-30% a spread.", show_default=False)] = None,
           as_json: Json = False,
@@ -281,7 +176,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
         else:
             from granum.cases.worded import study_text
 
-            text, wanted = study_text(model, _pairs(names), samples=samples, **of_card), []
+            text, wanted = study_text(model, pairs(names), samples=samples, **of_card), []
             known = studies_of_text(text, name=model)
     for name in wanted:
         if name not in known:
@@ -316,7 +211,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
             write_atomic(report, study_report(outcomes, text, known[picked[0].name].subject.title))
         saved.append(report)
     if as_json:
-        _emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})
+        emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})
     else:
         from granum.reports.studies import print_study
 
@@ -325,7 +220,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
 
 
 @app.command()
-@_one_message
+@one_message
 def chart(
     key: Key, inputs: Pairs = None, out: Annotated[Path, typer.Option("--out", "-o", help="HTML file to write.")] = Path("chart.html")
 ) -> None:
@@ -339,12 +234,12 @@ def chart(
         raise InputError(
             _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(key=key, sort=_(thing.card.sort))
         )
-    write_atomic(out, as_html(thing(**_pairs(inputs)), page=True))
+    write_atomic(out, as_html(thing(**pairs(inputs)), page=True))
     print(_("saved to {path}").format(path=out))
 
 
 @app.command("list")
-@_one_message
+@one_message
 def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)] = None,
                as_json: Json = False,
                sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "") -> None:  # fmt: skip
@@ -357,7 +252,7 @@ def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only
     found = [c for c in cards if all(n in f"{c.key} {c.title} {c.summary}".lower() for n in needles)]
     found = found or [c for c in cards if all(n in c.doc.lower() for n in needles)]  # other names of a thing stand in its description
     if as_json:
-        _emit({"cards": [{"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found]})
+        emit({"cards": [{"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found]})
     else:
         from granum.reports.terminal import print_list
 
@@ -365,14 +260,14 @@ def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only
 
 
 @app.command()
-@_one_message
+@one_message
 def show(key: Key, as_json: Json = False) -> None:
     """Show a card: inputs with units and limits, outputs, equation, source."""
     from granum.core import registry
 
     card = registry.find(key).card
     if as_json:
-        _emit(card.as_json())
+        emit(card.as_json())
     else:
         from granum.reports.terminal import print_card
 
@@ -380,7 +275,7 @@ def show(key: Key, as_json: Json = False) -> None:
 
 
 @app.command("app")
-@_one_message
+@one_message
 def serve(port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8765, host: Annotated[str, typer.Option(help="Address; another than loopback demands a token.")] = "127.0.0.1",
           browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
           workspace: Annotated[Path | None, typer.Option(help="Folder whose case files may be opened and saved.")] = None) -> None:  # fmt: skip
@@ -390,24 +285,9 @@ def serve(port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 take
     start(host, port, browser, workspace)
 
 
-def _keep_compiled_code() -> None:
-    """The second run of a line skips the compiler: what JAX compiles stays in the user's cache folder, oldest out beyond 512 MB."""
-    from platformdirs import user_cache_path
-
-    if "JAX_COMPILATION_CACHE_DIR" in os.environ:
-        return
-    folder = user_cache_path("granum") / "compiled"
-    for entry in folder.glob("*-cache"):
-        if not entry.with_name(entry.name.removesuffix("-cache") + "-atime").exists():  # a run was killed while it wrote this one
-            entry.unlink(missing_ok=True)
-    os.environ["JAX_COMPILATION_CACHE_DIR"] = str(folder)
-    os.environ.setdefault("JAX_COMPILATION_CACHE_MAX_SIZE", "512_000_000")
-    os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.2")
-
-
 def main() -> None:
     """Entry point of the ``granum`` command."""
-    _keep_compiled_code()
+    keep_compiled_code()
     app()
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 
 from granum.core import registry
 from granum.core.bounds import figures, limits
+from granum.core.cards import Card
 from granum.core.formulas import Formula
 from granum.core.parameters import Parameter
 from granum.core.results import Result
@@ -26,9 +28,9 @@ BLOCK = 10_000  # of them in one array
 DECADES = 8.0  # on either side of an ordinary value
 
 
-def drawn(f: Formula) -> list[Parameter]:
+def drawn(parameters: Iterable[Parameter]) -> list[Parameter]:
     """The numeric inputs: required ones, and those whose default is a number."""
-    numeric = [p for p in f.card.parameters if p.kind is not None and p.sort is not int]
+    numeric = [p for p in parameters if p.kind is not None and p.sort is not int and not p.series]
     return [p for p in numeric if p.required or p.typical is not None or isinstance(p.default, float)]
 
 
@@ -42,12 +44,12 @@ def ordinary(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
 def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
     """Ordinary values for each numeric input, inside the hard bounds."""
     rng = np.random.default_rng(seed)
-    return {p.name: ordinary(p, rng, count) for p in drawn(f)}
+    return {p.name: ordinary(p, rng, count) for p in drawn(f.card.parameters)}
 
 
 def quickly(f: Formula, inputs: Mapping[str, np.ndarray]) -> AbstractContextManager[object]:
     """Step by step where the formula has no loop, since compiling it takes longer than running it; its example runs compiled anyway."""
-    program = str(jax.make_jaxpr(lambda kw: f(**kw))({n: float(v[0]) for n, v in inputs.items()}))
+    program = str(jax.make_jaxpr(lambda kw: f(**kw))({n: jnp.asarray(v[0]) for n, v in inputs.items()}))
     return nullcontext() if "while[" in program or "scan[" in program else jax.disable_jit()
 
 
@@ -67,24 +69,45 @@ def wide(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
     return np.where(rng.random(count) < 0.5, scale, -scale)
 
 
-def random_inputs(f: Formula, count: int, seed: int) -> dict[str, np.ndarray]:
+def random_inputs(parameters: Iterable[Parameter], count: int, seed: int) -> dict[str, np.ndarray]:
     """Half the sets ordinary throughout; in the others each input is as likely to be wide."""
     rng = np.random.default_rng(seed)
     far = rng.random(count) < 0.5
     values = {}
-    for p in drawn(f):
+    for p in drawn(parameters):
         chosen = far & (rng.random(count) < 0.5)
         values[p.name] = np.where(chosen, wide(p, rng, count), ordinary(p, rng, count))
     return values
 
 
+def rows(parameters: Iterable[Parameter], count: int, seed: int) -> dict[str, np.ndarray]:
+    """A row of values for each series: shares that add up to one; all rising, all falling or as they come; edges one more than classes."""
+    rng = np.random.default_rng(seed)
+    order, shared, far = rng.integers(3), rng.random() < 0.8, rng.random() < 0.3
+    found = {}
+    for p in parameters:
+        if not (p.series and p.kind and p.required):
+            continue
+        values = (wide if far else ordinary)(p, rng, count + (p.series == "edges"))
+        if p.kind.upper == 1.0 and shared:
+            found[p.name] = values / values.sum()
+        else:
+            found[p.name] = (np.sort(values), np.sort(values)[::-1], values)[order]
+    return found
+
+
 def wrong(result: Result, inputs: Mapping[str, Any]) -> list[str]:
     """What is wrong in an answer: a number outside its own bounds, an infinite one, or none without a flag."""
+    return amiss(result.card, result.value, result.flags, inputs)
+
+
+def amiss(card: Card, answer: Any, bits: np.ndarray, inputs: Mapping[str, Any]) -> list[str]:
+    """What is wrong in the values of a card's outputs, with the flags that go with them."""
     found = []
-    for p, value in figures(result.card.outputs, result.value):
+    for p, value in figures(card.outputs, answer):
         array = np.asarray(value, dtype=float)
         low, high = limits(p)
-        flags = np.broadcast_to(result.flags, array.shape) if result.flags.shape in ((), array.shape) else np.asarray(result.flags.any())
+        flags = np.broadcast_to(bits, array.shape) if bits.shape in ((), array.shape) else np.asarray(bits.any())
         for word, bad in (
             ("outside its bounds", (array < low) | (array > high)),
             ("infinite", np.isinf(array)),
@@ -93,5 +116,5 @@ def wrong(result: Result, inputs: Mapping[str, Any]) -> list[str]:
             if bad.any():
                 at = int(np.argmax(bad.ravel()))
                 given = {n: float(np.ravel(v)[at]) for n, v in inputs.items() if np.size(v) == array.size}
-                found.append(f"{result.card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} at {given}")
+                found.append(f"{card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} at {given}")
     return found

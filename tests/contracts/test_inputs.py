@@ -13,10 +13,11 @@ from annotated_types import Ge, Le
 
 from granum.cases import schema
 from granum.core import registry, units
+from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError
 from granum.core.glossary import endings, parsed_ending, quantity_in
 from granum.core.i18n import catalog
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 
 CARDS = {key: thing.card for key, thing in registry.everything().items()}
 

@@ -127,3 +127,8 @@ def test_batch_kinetics_finds_the_parameters_that_made_the_data():
     low, high = found["growth_coefficient"].interval_95
     assert low < 6967e-6 / 60 < high
     assert isinstance(test.model(found.values).volume, SuspensionVolume)
+
+
+def test_as_many_class_limits_as_fractions_is_one_message() -> None:
+    with pytest.raises(InputError, match="2 class limits and 2 fractions do not go together"):
+        population_densities(class_edges="[0.833, 1.168] mm", class_fractions=[0.5, 0.5], magma_density=450, crystal_density=1335)

@@ -13,7 +13,8 @@ import pytest
 import granum.humid_gas.relations as rel
 from granum.core import flags
 from granum.humid_gas.formulas.state import describe, state
-from granum.humid_gas.inputs import MOISTURE, NAMES, WET, Solver
+from granum.humid_gas.given import MOISTURE, NAMES, WET
+from granum.humid_gas.inputs import Solver
 from granum.humid_gas.pairs import AIR_WATER, AbstractPair
 from granum.humid_gas.real_air import AIR_WATER_REAL
 from granum.humid_gas.solvents import AirToluene, NitrogenEthanol

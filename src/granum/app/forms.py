@@ -15,10 +15,11 @@ import numpy as np
 
 from granum.core import registry
 from granum.core.cards import Card
+from granum.core.conversion import convert
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
 from granum.core.written import read_number
 from granum.reports.mathml import mathml

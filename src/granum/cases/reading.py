@@ -14,11 +14,12 @@ from granum.cases.fitted import fits_of, fitted_values
 from granum.cases.line import Line
 from granum.cases.schema import Case, FeedTable, MixtureTable, SizeTable, StreamTable
 from granum.core import registry
+from granum.core.conversion import convert
 from granum.core.documents import read_toml
 from granum.core.errors import CaseError, GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.specifications import Target

@@ -87,3 +87,23 @@ def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
                 np.asarray(True), beyond[0], flags.OUTSIDE_DOMAIN, p.name, card, p.kind.lower, p.kind.upper, "", CONTRADICTION
             )
             raise ApplicabilityError(flags.describe([record])[0]["message"], name=p.name)
+
+
+def judged(outputs: Iterable[Parameter], out: Any, card: str, source: str) -> Any:
+    """What a law called on concrete numbers gives: one outside the bounds of its kind raises, elements of an array become NaN."""
+    outputs = tuple(outputs)
+    if all(np.all(kept_inside(p, value)) for p, value in figures(outputs, out)):
+        return out
+    with flags.collect(flags.OUTSIDE_DOMAIN) as records:
+        record_outside(outputs, out, card, source, 0)
+    told = flags.describe(records)
+    if told and all(np.ndim(value) == 0 for _p, value in figures(outputs, out)):
+        raise ApplicabilityError(told[0]["message"])
+    return without_impossible(outputs, out, records, False)
+
+
+def kept_inside(parameter: Parameter, value: Any) -> np.ndarray:
+    """Which elements of a computed value are finite and inside its bounds, or no number at all."""
+    low, high = limits(parameter)
+    array = np.asarray(value, dtype=float)
+    return np.isnan(array) | np.isfinite(array) & (array >= low) & (array <= high)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable
 from typing import Any, get_type_hints
 
+import jax
+
+from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
-from granum.core.parameters import REQUIRED, Binder, Parameter, outputs_of, parameter_of
+from granum.core.conversion import Binder, is_tracer
+from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of
 from granum.core.registry import register
 
 
@@ -66,13 +71,32 @@ def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted
     return cls
 
 
+def _judged(call: Callable[..., Any]) -> Callable[..., Any]:
+    """A law's call, whose value is judged where nobody else does: on concrete numbers, outside of a formula."""
+
+    @functools.wraps(call)
+    def judged(self: Any, *args: Any, **kwargs: Any) -> Any:
+        out = call(self, *args, **kwargs)
+        if flags.nested() or any(map(is_tracer, jax.tree.leaves(out))):
+            return out
+        return bounds.judged(self.card.outputs, out, self.card.key, self.card.source)
+
+    return judged
+
+
 def law(family: str, *, source: str, name: str, equation: str = "", fitted: Ranges | None = None,
         typical: Ranges | None = None, title: str = "") -> Callable[[type], type]:  # fmt: skip
     """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share the family.
     """
-    return lambda cls: _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
+
+    def declare(cls: type) -> type:
+        if any("__call__" in vars(base) for base in cls.__mro__):
+            type.__setattr__(cls, "__call__", _judged(cls.__call__))
+        return _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
+
+    return declare
 
 
 def equipment(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,

@@ -16,10 +16,11 @@ import numpy as np
 
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
+from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
-from granum.core.parameters import Binder, Parameter, convert, is_tracer, outputs_of, parameters_of
+from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
 

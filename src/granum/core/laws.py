@@ -28,7 +28,7 @@ class FormulaWith:
     @staticmethod
     def of(formula: Any, options: Mapping[str, Any], where: str = "") -> FormulaWith:
         """A formula with the options a user gave for it, converted and checked as inputs of the formula are."""
-        from granum.core.parameters import convert
+        from granum.core.conversion import convert
 
         known = {p.name: p for p in formula.card.parameters}
         for name in options:

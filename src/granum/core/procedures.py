@@ -10,7 +10,8 @@ import numpy as np
 
 from granum.core import bounds
 from granum.core.cards import Card, Ranges, key_of, make_card
-from granum.core.parameters import Binder, outputs_of, parameters_of
+from granum.core.conversion import Binder
+from granum.core.parameters import outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
 

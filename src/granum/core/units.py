@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import threading
 from contextvars import ContextVar
 from functools import cache
 from typing import Any
@@ -16,110 +15,20 @@ from granum.core.errors import InputError, UnitError
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.kinds import Kind
+from granum.core.unit_names import DEGREES, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
 from granum.core.written import apart, mixed, read_number, tidy
-
-_LONGEST_UNIT = 40
-
-
-_building = threading.Lock()
-
-
-def registry() -> Any:
-    """The one Pint registry, with the customary units of the field added."""
-    with _building:  # two threads must not each build one: their units would not mix
-        return _registry()
-
-
-@cache
-def _registry() -> Any:
-    import pint
-
-    ureg = pint.UnitRegistry(cache_folder=None)
-    for line in (
-        "barg = 1e5 * pascal; offset: 101325 = bar_gauge",
-        "svedberg = 1e-13 * second",
-        "mmH2O = 9.80665 * pascal",
-        "inwg = inH2O = inWC",
-        "psia = psi",
-        "psig = 6894.757293168361 * pascal; offset: 101325 = psi_gauge",
-        "bara = bar",
-        "@alias torr = Torr",
-        "lbm = pound",
-        "lbmol = 453.59237 * mole",
-        "btu = Btu",
-        "rev = revolution",
-        "tr = revolution",
-        "@alias day = j",
-        "@alias year = an",
-        "gpm = gallon / minute",
-        "gpd = gallon / day",
-        "mgd = 1e6 * gallon / day = MGD",
-        "cfs = foot ** 3 / second",
-        "cfm = foot ** 3 / minute",
-        "HP = horsepower",
-        "tph = tonne / hour",
-        "USD = [currency] = dollar",
-    ):
-        ureg.define(line)
-    return ureg
-
-
-_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "wt%": "%", "wt %": "%", "vol%": "%", "vol %": "%", "mol%": "%",
-              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "#": "1", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
-              "in. H2O": "inH2O", "in H2O": "inH2O", "in WC": "inH2O", "mm H2O": "mmH2O", "mm WC": "mmH2O", "mm water": "mmH2O",
-              "in. Hg": "inHg", "in Hg": "inHg", "mm Hg": "mmHg", "US gal": "gallon", "US gpm": "gpm",
-              "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
-_DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}  # read so only where a temperature is due
-
-
-@cache
-def parse_unit(text: str) -> Any:
-    """A Pint unit from text such as ``kg/m3``, ``µm``, ``%`` or ``°C``."""
-    spelled = text.strip()
-    if len(spelled) > _LONGEST_UNIT:
-        raise UnitError(_("Unit '{unit}…' is too long to be a unit.").format(unit=spelled[:_LONGEST_UNIT]))
-    for written, meant in _SPELLINGS.items():
-        spelled = spelled.replace(written, meant)
-    spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
-    # g/100 g of water, g per 100 g, g/(100 g)
-    spelled = re.sub(
-        r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled
-    )
-    # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
-    spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
-    try:
-        return registry().Unit(spelled) if spelled else registry().Unit("dimensionless")
-    except Exception as problem:  # Pint raises many kinds: tokenizer, undefined, assertion, attribute
-        if spelled in ("mesh", "mesh Tyler", "Tyler mesh", "mesh US"):
-            raise UnitError(
-                _("A mesh number belongs to a sieve series; 'particles.aperture' turns it into an opening."), unit=text
-            ) from problem
-        raise UnitError(_("Unit '{unit}' is not known.").format(unit=text), unit=text) from problem
-
-
-@cache
-def same_dimension(unit: str, kind_unit: str) -> bool:
-    """Whether two units measure the same sort of quantity."""
-    return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
-
-
-def _fits(unit: str, kind_unit: str) -> bool:
-    try:
-        return same_dimension(unit, kind_unit)
-    except UnitError:
-        return False
 
 
 @cache
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     """(factor, offset) such that SI = factor·value + offset."""
     ureg = registry()
-    if not _fits(unit, kind_unit):
+    if not fits(unit, kind_unit):
         above, _over, below = unit.partition("/")
         # as older books write them: in kg/m s all behind the stroke is below it, F and C there are degrees; lb/ft2 and kg/cm2 of a pressure are forces
         factors = re.split(r"[\s*.·/()-]+", re.sub("°|deg(?=[CF])", " ", below))
-        readings = (f"{above}/({'*'.join(_DEGREES.get(f, f) for f in factors if f)})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
-        meant = [text for text in readings if below and text != unit and _fits(text, kind_unit)]
+        readings = (f"{above}/({'*'.join(DEGREES.get(f, f) for f in factors if f)})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
+        meant = [text for text in readings if below and text != unit and fits(text, kind_unit)]
         if not meant:
             parse_unit(unit)  # says so where the unit itself is not known
             raise UnitError("dimension")
@@ -142,10 +51,10 @@ def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
     A frequency given for a rotation counts turns (65 Hz, 1000 1/min), and so does a rotation given for a frequency (300 rpm).
     """
     if kind.unit in ("K", "delta_degC"):
-        unit = _DEGREES.get(unit.strip(), unit)
+        unit = DEGREES.get(unit.strip(), unit)
     if kind.unit == "delta_degC":
         return _affine(unit, "K")[0], 0.0
-    if kind.name == "relative amount" and _fits(unit, "kg"):
+    if kind.name == "relative amount" and fits(unit, "kg"):
         return _affine(unit, "kg")
     factor, offset = _affine(unit, kind.unit)
     if kind.unit == "radian/s" and not _angles(unit):
@@ -263,7 +172,7 @@ def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
         found = read_number(word)
         if values and (found is None or re.match(r"1/[A-Za-z(]", word)):
             units[-1] = f"{units[-1]} {word}".strip()
-            if len(units[-1]) > _LONGEST_UNIT:
+            if len(units[-1]) > LONGEST_UNIT:
                 parse_unit(units[-1])
             continue
         values.append(found[0] if found else read_quantity(word, kind, name))

@@ -15,9 +15,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from granum.core import registry
+from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.parameters import REQUIRED, Parameter, convert, default_as_json, parameters_of
+from granum.core.parameters import REQUIRED, Parameter, default_as_json, parameters_of
 from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit
 from granum.estimation.losses import Loss

@@ -11,8 +11,7 @@ import jax.numpy as jnp
 import granum.humid_gas.relations as rel
 from granum.core import flags
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.errors import InputError
-from granum.core.i18n import _
+from granum.humid_gas.given import MOISTURE, NAMES, WET, check_pair_of_inputs
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
 from granum.numerics.blocks import blockwise
@@ -41,36 +40,6 @@ ALONG_WET = "The limits are those of saturated and of dry gas with this wet bulb
 ALONG_VOLUME = "The limits are those of dry and of saturated gas of this volume."
 DRY = "Dry gas has the relative humidity 0 at every temperature: give its temperature."
 NO_TEMPERATURE = "No temperature of this gas–vapor pair's range has these values."
-MOISTURE = ("humidity_ratio", "vapor_pressure", "dew_point_temperature")
-WET = ("wet_bulb_temperature", "adiabatic_saturation_temperature")
-NAMES = ("temperature", *MOISTURE, "relative_humidity", *WET, "enthalpy", "specific_volume")
-
-
-def check_pair_of_inputs(given: dict[str, Any]) -> None:
-    """One clear error when the state is not fixed by exactly two independent properties."""
-    names = list(given)
-    listed = ", ".join(NAMES)
-    if len(names) != 2:
-        raise InputError(
-            _("A humid-gas state needs exactly two of {allowed}; given: {names}.").format(
-                allowed=listed, names=", ".join(names) or _("none")
-            ),
-            given=names,
-        )
-    if all(name in MOISTURE for name in names):
-        raise InputError(
-            _("{first} and {second} say the same thing at a given pressure; give one of them and another property.").format(
-                first=names[0], second=names[1]
-            ),
-            given=names,
-        )
-    if all(name in WET for name in names):
-        raise InputError(
-            _("{first} and {second} nearly coincide and do not fix the state; give one of them and another property.").format(
-                first=names[0], second=names[1]
-            ),
-            given=names,
-        )
 
 
 class Solver:

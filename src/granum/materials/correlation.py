@@ -11,14 +11,14 @@ import numpy as np
 
 from granum.core import flags
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.conversion import convert
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import Kind, kind_of
-from granum.core.kinds import MassFraction as _MassFraction
 from granum.core.kinds import MassRatio as _MassRatio
 from granum.core.kinds import Pressure as _Pressure
 from granum.core.kinds import Temperature as _Temperature
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.numerics.interpolation import MonotoneCubic, slopes_steffen
 
 
@@ -32,7 +32,6 @@ def _reader(name: str, annotation: Any) -> Callable[[Any], Any]:
 as_temperature = _reader("temperature", _Temperature)
 as_pressure = _reader("pressure", _Pressure)
 as_solute_ratio = _reader("solute_per_solvent", _MassRatio)
-as_mass_fraction = _reader("solute_mass_fraction", _MassFraction)
 
 
 class Correlation(eqx.Module):

@@ -6,7 +6,7 @@ from typing import Any
 
 _HOME = {
     "find_root": "roots", "Root": "roots",
-    "fixed_point": "fixed_points", "settle": "fixed_points", "Settled": "fixed_points", "within_rounding": "fixed_points", "solve_system": "fixed_points", "Solution": "fixed_points",
+    "fixed_point": "fixed_points", "settle": "settled", "Settled": "settled", "within_rounding": "settled", "solve_system": "fixed_points", "Solution": "fixed_points",
     "AbstractMethod": "fixed_points", "Anderson": "fixed_points", "Newton": "fixed_points",
     "advance": "finite_volumes", "transport_rate": "finite_volumes", "ssp_rk3": "finite_volumes",
     "steps_for": "finite_volumes", "stationary_points": "finite_volumes", "Evolution": "finite_volumes",

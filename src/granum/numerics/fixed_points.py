@@ -1,9 +1,7 @@
 """Fixed points and roots of systems, for any pytree of unknowns, with implicit derivatives."""
 
-import math
 from abc import abstractmethod
 from collections.abc import Callable
-from itertools import accumulate
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -73,7 +71,7 @@ class Anderson(AbstractMethod):
         """The next state, given the residual at its first item."""
         x, best, base, points, residuals, rejected, number = carry
         slots = len(points)
-        size = _size(r)
+        size = largest(r)
         # the start is often an empty stream, whose residual says little: the first step from it may look far worse and be right
         second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * best[1])
         accepted = second | (size <= 2.0 * best[1])
@@ -121,7 +119,7 @@ class Newton(AbstractMethod):
         def step(carry: tuple) -> tuple:
             x, _, _, number = carry
             r, linear = jax.linearize(residual, x)
-            direction = -_solve_linear(linear, r)
+            direction = -solve_linear(linear, r)
 
             def shorten(trial: tuple) -> tuple:
                 length = 0.5 * trial[0]
@@ -137,7 +135,7 @@ class Newton(AbstractMethod):
             _, ahead, r_ahead, _ = lax.while_loop(too_long, shorten, first)
             better = _norm(r_ahead) < _norm(r)
             x, r = _choose(better, (ahead, r_ahead), (x, r))
-            return x, _size(r), ~better, number + 1
+            return x, largest(r), ~better, number + 1
 
         def unfinished(carry: tuple) -> jax.Array:
             _, size, stuck, number = carry
@@ -184,7 +182,7 @@ def fixed_point(
         >>> solution.state
         Array(0.73908513, dtype=float64)
     """
-    start = _as_real(start)
+    start = as_real(start)
     if scale is None:
         image = lax.stop_gradient(function(start, args))
         scale = jax.tree.map(_typical, start, image)
@@ -194,7 +192,7 @@ def fixed_point(
 
     found, scaled = _solve(residual, start, scale, scale, method, tolerance, max_steps)
     # A change smaller than the rounding of a state that ran away proves nothing.
-    rounding = jnp.finfo(scaled.dtype).eps * _size(scaled)
+    rounding = jnp.finfo(scaled.dtype).eps * largest(scaled)
     return found._replace(converged=found.converged & (rounding <= tolerance), residual=jnp.maximum(found.residual, rounding))
 
 
@@ -227,7 +225,7 @@ def solve_system(
         >>> solve_system(lambda x, a: x**2 - a, jnp.array([1.0, 1.0]), jnp.array([4.0, 9.0])).state
         Array([2., 3.], dtype=float64)
     """
-    start = _as_real(start)
+    start = as_real(start)
     if scale is None:
         scale = jax.tree.map(_typical, start, start)
     if residual_scale is None:
@@ -243,96 +241,6 @@ def solve_system(
         max_steps,
     )
     return found
-
-
-class Settled(NamedTuple):
-    """Outcome of `settle`: as for `fixed_point`, with what else the function made at the state."""
-
-    state: jax.Array
-    made: Any
-    converged: jax.Array
-    steps: jax.Array
-    residual: jax.Array
-
-
-def settle(
-    function: Callable[[jax.Array], tuple[jax.Array, Any]],
-    start: jax.Array,
-    *,
-    method: Anderson = Anderson(),
-    tolerance: float = 1e-10,
-    max_steps: int = 200,
-    watch: Callable[[jax.Array, jax.Array], jax.Array] | None = None,
-) -> Settled:
-    """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further results on the way.
-
-    The function is run once in Python and stands once in the compiled code, so that a large one compiles fast. Derivatives with
-    respect to closed-over values follow from the implicit function theorem, forward and reverse, for the state and what is made.
-
-    ``watch`` is called with the number of each pass and the best residual so far and says whether to stop. Of a function that never
-    gives a number, what the first pass made is kept: it shows where the numbers were lost.
-
-    Example:
-        >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
-        >>> found.state, found.made["sine"]
-        (Array([0.73908513], dtype=float64), Array([0.67361203], dtype=float64))
-    """
-    start = lax.stop_gradient(_as_real(start))
-    shape: list[Any] = []
-
-    def flat(state: jax.Array) -> tuple[jax.Array, jax.Array]:
-        image, made = function(state)
-        leaves, tree = jax.tree.flatten(made)
-        leaves = [jnp.asarray(leaf) for leaf in leaves]
-        shape[:] = [tree, [(leaf.shape, leaf.dtype) for leaf in leaves]]
-        # One vector: each array that a loop carries costs as much compilation as a formula.
-        return image, jnp.concatenate([jnp.ravel(leaf).astype(start.dtype) for leaf in leaves] or [jnp.zeros((0,), start.dtype)])
-
-    traced, closed_over = jax.closure_convert(flat, start)
-    tree, kinds = shape
-
-    @jax.custom_jvp
-    def search(closed_over: Any, start: jax.Array) -> tuple:
-        def advance(carry: tuple) -> tuple:
-            iteration, kept, _ = carry
-            image, made = traced(iteration[0], *closed_over)
-            following = method.proceed(iteration, image - iteration[0])
-            better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
-            stop = jnp.asarray(False) if watch is None else watch(following[-1], following[1][1])
-            return following, jnp.where(better, made, kept), stop
-
-        def unfinished(carry: tuple) -> jax.Array:
-            iteration, _, stop = carry
-            x, size = iteration[1]
-            return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps) & ~stop
-
-        blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
-        iteration, made, _ = lax.while_loop(unfinished, advance, (method.begin(start), blank, jnp.asarray(False)))
-        (x, size), number = iteration[1], iteration[-1]
-        return x, made, size, number.astype(x.dtype)
-
-    @search.defjvp
-    def _derivative(primals: tuple, tangents: tuple) -> tuple:
-        closed_over, start = primals
-        x, made, size, number = search(closed_over, start)
-        _, linear = jax.linearize(lambda x, c: traced(x, *c), x, closed_over)
-        still = jax.tree.map(jnp.zeros_like, closed_over)
-        pushed, _ = linear(jnp.zeros_like(x), tangents[0])
-        change = _solve_linear(lambda v: v - linear(v, still)[0], pushed)
-        _, along = linear(change, tangents[0])
-        return (x, made, size, number), (change, along, jnp.zeros_like(size), jnp.zeros_like(number))
-
-    x, packed, size, number = search(closed_over, start)
-    parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
-    made = jax.tree.unflatten(tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)])
-    size = lax.stop_gradient(size)
-    return Settled(x, made, size <= within_rounding(x, tolerance), number.astype(int), size)
-
-
-def within_rounding(x: jax.Array, tolerance: float) -> jax.Array:
-    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand tolerances."""
-    rounding = 32.0 * jnp.finfo(x.dtype).eps * _size(lax.stop_gradient(x))
-    return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)
 
 
 def _solve(
@@ -357,11 +265,12 @@ def _solve(
         # custom_root differentiates its second result too, hence not an integer.
         return u, (size, steps.astype(u.dtype))
 
-    u, (size, steps) = lax.custom_root(scaled, flat / unit, search, _solve_linear, has_aux=True)
+    u, (size, steps) = lax.custom_root(scaled, flat / unit, search, solve_linear, has_aux=True)
     return Solution(unflatten(unit * u), size <= tolerance, steps.astype(int), size), lax.stop_gradient(u)
 
 
-def _solve_linear(linear: Callable[[jax.Array], jax.Array], right: jax.Array) -> jax.Array:
+def solve_linear(linear: Callable[[jax.Array], jax.Array], right: jax.Array) -> jax.Array:
+    """The vector that a linear function turns into ``right``."""
     n = right.size
     if n <= DENSE_LIMIT:
         matrix = jax.vmap(linear, out_axes=1)(jnp.eye(n, dtype=right.dtype))
@@ -387,7 +296,8 @@ def _choose(condition: jax.Array, new: tuple, old: tuple) -> tuple:
     return tuple(jnp.where(condition, a, b) for a, b in zip(new, old, strict=True))
 
 
-def _size(r: jax.Array) -> jax.Array:
+def largest(r: jax.Array) -> jax.Array:
+    """The largest magnitude; infinite where one is not a number."""
     size = jnp.max(abs(r), initial=0.0)
     return jnp.where(jnp.isnan(size), jnp.inf, size)
 
@@ -397,7 +307,8 @@ def _norm(r: jax.Array) -> jax.Array:
     return jnp.where(jnp.isnan(norm), jnp.inf, norm)
 
 
-def _as_real(tree: Any) -> Any:
+def as_real(tree: Any) -> Any:
+    """A pytree of arrays of floats."""
     return jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), tree)
 
 

@@ -9,9 +9,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.conversion import is_tracer
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.parameters import is_tracer
 from granum.particles.in_class import InClassRule, UniformDensity
 
 Basis = Literal["number", "length", "surface", "volume", "mass"]

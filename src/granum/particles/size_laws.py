@@ -10,10 +10,10 @@ import jax.numpy as jnp
 from jax.scipy.special import gammaln, ndtr, ndtri
 
 from granum.core import law
+from granum.core.conversion import is_tracer
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, Law, Length, PositiveNumber, Within
-from granum.core.parameters import is_tracer
 from granum.numerics.quadrature import gauss_legendre
 from granum.numerics.roots import find_root
 from granum.particles.distributions import Basis, SizeDistribution, order_of

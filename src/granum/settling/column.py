@@ -17,9 +17,9 @@ import numpy as np
 from jax import lax
 
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.conversion import is_tracer
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
-from granum.core.parameters import is_tracer
 from granum.settling.flux import least
 
 COURANT = 0.98  # of a cell crossed in one step

@@ -208,8 +208,3 @@ def thickener_area_flux(
     1000.0
     """
     return mass_flow / limiting_flux_underflow(underflow_concentration, feed_concentration, settling).limiting_flux
-
-
-def slope_of_flux(concentration: Any, settling: Any) -> Any:
-    """``f'(C)``: the velocity, downwards, at which a concentration travels."""
-    return jax.jvp(lambda C: settling_flux(C, settling), (concentration,), (jnp.ones_like(concentration),))[1]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
 from granum.core.given import shown, whole_number
 from granum.core.i18n import _
-from granum.core.parameters import convert
 from granum.estimation import Fit
 from granum.studies.distributions import Marginal, Source, distribution, from_fits
 from granum.studies.subjects import FormulaSubject, Subject

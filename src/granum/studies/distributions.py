@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from scipy import special, stats
 
+from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.estimation import Fit
 
 EDGE = 1e-12

@@ -15,10 +15,11 @@ from typing import Any
 import jax.numpy as jnp
 
 from granum.core import registry, units
+from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.core.written import read_number
 
 Lookup = Callable[[str], Any]

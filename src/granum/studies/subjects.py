@@ -16,9 +16,10 @@ import numpy as np
 
 import granum
 from granum.core import flags, registry
+from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.estimation.cards import inputs_of
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 

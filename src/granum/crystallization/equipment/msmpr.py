@@ -10,6 +10,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.conversion import is_tracer
 from granum.core.errors import CaseError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
@@ -27,7 +28,6 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
-from granum.core.parameters import is_tracer
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr

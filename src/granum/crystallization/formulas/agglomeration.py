@@ -170,7 +170,7 @@ class PowerBreakage(Breakage):
     breakage_exponent: Ratio = 3.0
 
     def __call__(self, crystal_size: Length) -> Frequency:
-        return self.breakage_frequency * (crystal_size / self.reference_size) ** self.breakage_exponent
+        return self.breakage_frequency * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
         a, b = jnp.minimum(low, parent), jnp.minimum(high, parent)
@@ -191,7 +191,7 @@ class Attrition(Breakage):
     chip_fraction: Fraction = 0.01
 
     def __call__(self, crystal_size: Length) -> Frequency:
-        return self.breakage_frequency * (crystal_size / self.reference_size) ** self.breakage_exponent
+        return self.breakage_frequency * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
         w = self.chip_fraction

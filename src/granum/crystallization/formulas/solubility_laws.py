@@ -53,8 +53,9 @@ class PolynomialSolubility(SolubilityLaw):
 
 
 def from_mole_fraction(x: Any, solute: Any, solvent: Any) -> Any:
-    """Mass ratio of solute to solvent from the mole fraction of solute."""
-    return x * solute / ((1.0 - x) * solvent)
+    """Mass ratio of solute to solvent from the mole fraction of solute; none where an equation leaves no solvent."""
+    some = x < 1.0
+    return jnp.where(some, x * solute / ((1.0 - jnp.where(some, x, 0.0)) * solvent), jnp.nan)
 
 
 @law("solubility_law", name="apelblat_solubility", source="apelblat1999", title="Solubility by Apelblat's equation",

@@ -47,10 +47,17 @@ def population_densities(
     >>> round(float(n[0]) / 1e6)
     44207
     """
-    edges = jnp.asarray(class_edges)
+    edges, fractions = jnp.asarray(class_edges), jnp.asarray(class_fractions)
+    if edges.size != fractions.size + 1:
+        raise InputError(
+            _("{edges} class limits and {classes} fractions do not go together: n classes have n + 1 limits.").format(
+                edges=edges.size, classes=fractions.size
+            ),
+            name="class_edges",
+        )
     middle = 0.5 * (edges[1:] + edges[:-1])
     mass = volume_shape_factor * crystal_density * middle**3 * jnp.diff(edges)
-    return magma_density * jnp.asarray(class_fractions) / mass
+    return magma_density * fractions / mass
 
 
 @lab_test(

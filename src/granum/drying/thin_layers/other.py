@@ -51,6 +51,7 @@ class Midilli(_Called):
     source="babalis2006",
     title="Thin layer, four-parameter Weibull",
     equation=r"MR = a - b\,e^{-k t^n}",
+    typical={"model_factor": (-1.1, -0.9)},
 )
 class WeibullFour(_Called):
     """Weibull's curve between two free levels; b is negative for drying.
@@ -148,7 +149,14 @@ class WangSingh(_Called):
         return {"time_slope": -0.7 * k, "time_curvature": 0.12 * k * k}
 
 
-@law("thin_layer", name="thin_layer_parabolic", source="sharma2004", title="Thin layer, parabolic", equation=r"MR = a + b t + c t^2")
+@law(
+    "thin_layer",
+    name="thin_layer_parabolic",
+    source="sharma2004",
+    title="Thin layer, parabolic",
+    equation=r"MR = a + b t + c t^2",
+    typical={"model_offset": (0.9, 1.1)},
+)
 class Parabolic(_Called):
     """Parabola with a free start.
 

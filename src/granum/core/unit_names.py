@@ -1,0 +1,103 @@
+"""Units by name: the Pint registry with the units of the field added, and the ways people write a unit."""
+
+from __future__ import annotations
+
+import re
+import threading
+from functools import cache
+from typing import Any
+
+from granum.core.errors import UnitError
+from granum.core.i18n import _
+
+LONGEST_UNIT = 40
+
+
+_building = threading.Lock()
+
+
+def registry() -> Any:
+    """The one Pint registry, with the customary units of the field added."""
+    with _building:  # two threads must not each build one: their units would not mix
+        return _registry()
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    ureg = pint.UnitRegistry(cache_folder=None)
+    for line in (
+        "barg = 1e5 * pascal; offset: 101325 = bar_gauge",
+        "svedberg = 1e-13 * second",
+        "mmH2O = 9.80665 * pascal",
+        "inwg = inH2O = inWC",
+        "psia = psi",
+        "psig = 6894.757293168361 * pascal; offset: 101325 = psi_gauge",
+        "bara = bar",
+        "@alias torr = Torr",
+        "lbm = pound",
+        "lbmol = 453.59237 * mole",
+        "btu = Btu",
+        "rev = revolution",
+        "tr = revolution",
+        "@alias day = j",
+        "@alias year = an",
+        "gpm = gallon / minute",
+        "gpd = gallon / day",
+        "mgd = 1e6 * gallon / day = MGD",
+        "cfs = foot ** 3 / second",
+        "cfm = foot ** 3 / minute",
+        "HP = horsepower",
+        "tph = tonne / hour",
+        "USD = [currency] = dollar",
+    ):
+        ureg.define(line)
+    return ureg
+
+
+_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "wt%": "%", "wt %": "%", "vol%": "%", "vol %": "%", "mol%": "%",
+              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "#": "1", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
+              "in. H2O": "inH2O", "in H2O": "inH2O", "in WC": "inH2O", "mm H2O": "mmH2O", "mm WC": "mmH2O", "mm water": "mmH2O",
+              "in. Hg": "inHg", "in Hg": "inHg", "mm Hg": "mmHg", "US gal": "gallon", "US gpm": "gpm",
+              "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
+DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}  # read so only where a temperature is due
+
+
+@cache
+def parse_unit(text: str) -> Any:
+    """A Pint unit from text such as ``kg/m3``, ``µm``, ``%`` or ``°C``."""
+    spelled = text.strip()
+    if len(spelled) > LONGEST_UNIT:
+        raise UnitError(_("Unit '{unit}…' is too long to be a unit.").format(unit=spelled[:LONGEST_UNIT]))
+    for written, meant in _SPELLINGS.items():
+        spelled = spelled.replace(written, meant)
+    spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
+    # g/100 g of water, g per 100 g, g/(100 g)
+    spelled = re.sub(
+        r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled
+    )
+    # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
+    spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
+    try:
+        return registry().Unit(spelled) if spelled else registry().Unit("dimensionless")
+    except Exception as problem:  # Pint raises many kinds: tokenizer, undefined, assertion, attribute
+        if spelled in ("mesh", "mesh Tyler", "Tyler mesh", "mesh US"):
+            raise UnitError(
+                _("A mesh number belongs to a sieve series; 'particles.aperture' turns it into an opening."), unit=text
+            ) from problem
+        raise UnitError(_("Unit '{unit}' is not known.").format(unit=text), unit=text) from problem
+
+
+@cache
+def same_dimension(unit: str, kind_unit: str) -> bool:
+    """Whether two units measure the same sort of quantity."""
+    return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
+
+
+def fits(unit: str, kind_unit: str) -> bool:
+    """Whether a unit is known and measures the same sort of quantity."""
+    try:
+        return same_dimension(unit, kind_unit)
+    except UnitError:
+        return False
