@@ -12,8 +12,9 @@ import numpy as np
 
 from granum.app.forms import card_form
 from granum.core import registry
+from granum.core.conversion import convert
 from granum.core.errors import GranumError
-from granum.core.parameters import Parameter, convert
+from granum.core.parameters import Parameter
 from granum.core.units import from_si, pretty_unit, to_si
 
 ODD = (
