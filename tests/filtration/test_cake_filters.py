@@ -122,9 +122,9 @@ def test_cycle_of_a_press_by_hand():
 
 def test_wide_candle_is_a_flat_leaf():
     feed = stream(mixture(), 0.1, 0.6, 0.1)
-    flat = PressureLeafFilter(area=20.0, full_cake_thickness="1 cm", **BATCH).plan(feed)
-    wide = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius=300.0, **BATCH).plan(feed)
-    thin = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).plan(feed)
+    flat = PressureLeafFilter(area=20.0, full_cake_thickness="1 cm", **BATCH).inside(feed).plan
+    wide = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius=300.0, **BATCH).inside(feed).plan
+    thin = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).inside(feed).plan
     assert float(wide.formation_time) == pytest.approx(float(flat.formation_time), rel=1e-4)
     assert thin.dry_cake_mass_per_area > flat.dry_cake_mass_per_area
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Area, Distance, Fraction, Law, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
+from granum.core.limits import Limit
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.fluidization.formulas.two_phase import two_phase_bed
@@ -17,7 +17,7 @@ from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 LEAST, THIN = 1e-12, 1e-3  # of a stream without gas, so that the sheet says what fails
 GAS_DIFFUSIVITY = 2.5e-5  # m²/s, of water vapor in air near 20 °C: the bypass is that of a dryer
@@ -59,6 +59,12 @@ class FluidizedBed(Unit):
     minimum_fluidization: Annotated[Any, Law("minimum_fluidization_velocity")] = minimum_fluidization_velocity_wen_yu
     distributor_ratio: PositiveNumber = 0.3
 
+    limits: ClassVar[Limits] = {
+        "fluidized": Limit("gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"),
+        "carried": Limit("gas velocity over terminal velocity of the mean size", 0.0, 1.0, "dimensionless", "kunii1991"),
+        "distributor": Limit("distributor to bed pressure drop", 0.2, 0.4, "dimensionless", "kunii1991"),
+    }
+
     @classmethod
     def size(cls, gas_volume_flow: Any, superficial_velocity: Any, residence_time: Any, solid_mass_flow: Any, **more: Any) -> FluidizedBed:
         """The bed that gives a gas velocity and a residence time of the solid."""
@@ -80,7 +86,7 @@ class FluidizedBed(Unit):
         U = self._velocity(feed)
         return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), self._density(feed)), 0.0) * self.area
 
-    def entrained(self, feed: Stream) -> Any:
+    def inside(self, feed: Stream) -> Any:
         """Share of each species and size class that leaves with the gas."""
         rates, flows = self.rates(feed), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         total = jnp.maximum(jnp.sum(flows), LEAST)
@@ -93,9 +99,8 @@ class FluidizedBed(Unit):
         weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - self._density(feed) / feed.solid_density)
         return weight * (1.0 + self.distributor_ratio)
 
-    def __call__(self, feed: Stream) -> BedOutlets:
-        share = self.entrained(feed)
-        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+    def outlets(self, inside: Any, feed: Stream) -> BedOutlets:
+        share = inside.reshape(inside.shape + (1,) * len(feed.mixture.axes))
         carried = feed.solid * share
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)
         gas = feed.part(solid=share, liquid=moist, gas=1.0)
@@ -109,8 +114,7 @@ class FluidizedBed(Unit):
     def _minimum(self, feed: Stream) -> Any:
         return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> BedFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: Any, outlets: BedOutlets, feed: Stream) -> BedFigures:
         U, first = self._velocity(feed), self._minimum(feed)
         settled = self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
         bed = two_phase_bed(U, first, settled, GAS_DIFFUSIVITY, self.void_fraction, diameter=jnp.sqrt(4.0 * self.area / jnp.pi))
@@ -119,12 +123,11 @@ class FluidizedBed(Unit):
             disengaging_height_smolders(U, first, bed.bubble_diameter), safe_divide(outlets.gas.solid_flow, feed.solid_flow),
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        U = self._velocity(feed)
+    def measured(self, inside: Any, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
+        U = figures.superficial_velocity
         fall = terminal_velocity(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
-        return (
-            Check("gas velocity over minimum fluidization velocity", U / self._minimum(feed), 1.5, 100.0, "dimensionless", "kunii1991"),
-            Check("gas velocity over terminal velocity of the mean size", U / fall, 0.0, 1.0, "dimensionless", "kunii1991"),
-            Check("distributor to bed pressure drop", jnp.asarray(self.distributor_ratio), 0.2, 0.4, "dimensionless", "kunii1991"),
-        )
+        return {
+            "fluidized": U / figures.minimum_fluidization_velocity,
+            "carried": U / fall,
+            "distributor": jnp.asarray(self.distributor_ratio),
+        }
