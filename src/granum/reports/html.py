@@ -137,6 +137,7 @@ def line_report(run: Any) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     told = run.line.told
+    described = told.get("description")
     units = [_unit_sheet(run, name) for name in run.sheet.order]
     keys = {p for name in run.sheet.order for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
@@ -151,7 +152,7 @@ def line_report(run: Any) -> str:
     audit = run.audit
     numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
     return environment.get_template("line.html.j2").render(
-        _=_, lang=current_language(), run=run, description=_(told["description"]) if told.get("description") else "",
+        _=_, lang=current_language(), run=run, description=_(described) if described else "",
         title_block=[(label, value) for label, value in block if value], units=units,
         checks=sum(len(u["checks"]) for u in units),
         failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
