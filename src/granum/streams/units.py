@@ -19,8 +19,7 @@ from granum.streams.stream import Stream
 Limits = dict[str, Limit]
 
 
-def _text() -> Any:
-    return field(metadata={"static": True})
+STATIC = {"static": True}
 
 
 @jax.tree_util.register_dataclass
@@ -28,12 +27,12 @@ def _text() -> Any:
 class Check:
     """A practical limit with what was measured: passes when ``low ≤ value ≤ high``. Travels through jit."""
 
-    name: str = _text()
+    name: str = field(metadata=STATIC)
     value: Any
     low: Any
     high: Any
-    unit: str = _text()
-    source: str = _text()
+    unit: str = field(metadata=STATIC)
+    source: str = field(metadata=STATIC)
 
     @property
     def ok(self) -> bool:
