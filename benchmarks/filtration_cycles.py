@@ -65,7 +65,7 @@ def main() -> None:
     def press(depth, dead):
         unit = PlateAndFramePress(25.0, 3.4e5, 1.9e11, 0.55, chamber_depth=depth, dead_time=dead)
         out = unit(feed, wash)
-        return unit.plan(feed, wash).area_required, out.cake.moisture_dry_basis
+        return unit.inside(feed, wash).plan.area_required, out.cake.moisture_dry_basis
 
     depth = jnp.linspace(0.015, 0.05, COUNT)
     whole = median_of(lambda: press(depth, jnp.asarray(dead)), 3)

@@ -23,7 +23,7 @@ from granum.core.i18n import _, language
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import pretty_unit
 from granum.reports.mathml import mathml
-from granum.reports.quantities import value_text
+from granum.reports.quantities import limit_rows, value_text
 
 ROOT = Path(__file__).parent.parent
 WORDS = {
@@ -171,6 +171,13 @@ def _section(card: Card, words: list[str]) -> str:
     if card.outputs:
         shown = "; ".join(f"{html.escape(p.label)} {_symbol(p)}{_unit(p)}" for p in card.outputs)
         parts.append(f"<p><strong>{words[7]}</strong>: {shown}</p>\n")
+    if card.limits:
+        rows = "".join(
+            f"<tr><td>{html.escape(r.name)}</td><td>{html.escape(r.allowed)}</td><td>{html.escape(r.source)}</td></tr>"
+            for r in limit_rows(card)
+        )
+        head = "".join(f"<th>{word}</th>" for word in (_("practical limit"), _("allowed"), _("source")))
+        parts.append(f"<table class='limits'><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>\n")
     for name, limits in card.fitted.items():
         p = next((p for p in (*card.parameters, *card.outputs) if p.name == name), None)
         text = range_text(p, limits) if p else " … ".join(f"{x:g}" for x in limits)

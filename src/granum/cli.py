@@ -117,11 +117,13 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
         partial: Annotated[bool, typer.Option("--partial", help="Of a line without solution: print the last iterate all the same, marked as such.")] = False) -> None:  # fmt: skip
     """Solve a case file: streams, sizes, duties, checks, audit."""
     from granum.cases import read
+    from granum.flowsheet.watching import Watch
     from granum.reports.progress import watching, working
 
     with working(_("Reading {file}").format(file=case.name), quiet=as_json):
         line = read(case)
-    with watching(_("Solving {title}").format(title=line.title), 60.0 * minutes, quiet=as_json) as watch:
+    with watching(_("Solving {title}").format(title=line.title), quiet=as_json) as tell:
+        watch = Watch(tell, 60.0 * minutes)
         try:
             outcome = line.solve(watch)
         except ConvergenceError as problem:
@@ -162,7 +164,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
     from granum.core.errors import unknown_name
     from granum.core.files import check_writable
     from granum.reports.progress import advancing, working
-    from granum.reports.studies import stoppable
+    from granum.studies.report import stoppable
 
     case = Path(model)
     of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limit": limit or [], "output": output or [], "steps": steps}
@@ -205,7 +207,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
         outcomes.append(outcome)
     if report is not None:
         from granum.core.files import write_atomic
-        from granum.reports.studies import study_report
+        from granum.studies.report import study_report
 
         with working(_("Writing the report"), quiet=as_json):
             write_atomic(report, study_report(outcomes, text, known[picked[0].name].subject.title))
@@ -213,7 +215,7 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
     if as_json:
         emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})
     else:
-        from granum.reports.studies import print_study
+        from granum.studies.report import print_study
 
         for outcome in outcomes:
             print_study(outcome, saved=saved if outcome is outcomes[-1] else ())

@@ -67,14 +67,14 @@ def test_settling_balances_and_grade(name):
     grade = np.asarray(unit.grade(feed))
     assert np.all(np.diff(grade) >= -1e-12)
     assert grade[-1] == 1.0
-    figures = unit.results({"feed": feed}, out)
+    figures = unit.operate(feed=feed).figures
     assert 0 < figures.solids_recovery <= 1
     # the cut size is the one caught by half (dilute feed: hindrance is a few percent of a percent)
     dilute = stream(1e-7, 0.9, 0.1, median=1.5e-6)
     half = np.interp(0.5, np.asarray(unit.grade(dilute)), np.log(M.sizes))
-    cut = float(unit.results({"feed": dilute}, unit(dilute)).cut_size_centrifuge)
+    cut = float(unit.operate(feed=dilute).figures.cut_size_centrifuge)
     assert np.exp(half) == pytest.approx(cut, rel=0.05)
-    assert all(check.source for check in unit.checks({"feed": feed}, out))
+    assert all(check.source for check in unit.operate(feed=feed).checks)
     # the sediment holds its own volume fraction of solid
     assert float(out.sediment.solids_volume_fraction) == pytest.approx(0.5, rel=1e-12)
 
@@ -94,12 +94,12 @@ def test_filtering_balances_close(name, washed):
     found = closure(inlets.values(), out)
     assert float(found.mass) < 1e-14
     assert float(found.energy) < 1e-10
-    figures = unit.results(inlets, out)
+    figures = unit.operate(**inlets).figures
     # a spun cake of 0.2 mm crystals holds a few percent of liquid
     assert 0.01 < figures.moisture_dry_basis < 0.12
     if washed:
         assert figures.solute_remaining < 0.6
-    assert all(check.source for check in unit.checks(inlets, out))
+    assert all(check.source for check in unit.operate(**inlets).checks)
 
 
 def test_cycle_of_a_peeler_by_hand():
@@ -157,4 +157,4 @@ def test_what_moves_a_cake_over_a_cone():
     weak = VibratingScreen(vibration_acceleration=0.8 * a, **cone)
     tumbled = TumblingScreen(tumbling_angle="13 degree", **cone)
     for unit, moves in ((shaken, True), (weak, False), (tumbled, True)):
-        assert unit.checks({"feed": coal}, unit(coal))[-1].ok is moves
+        assert unit.operate(feed=coal).checks[-1].ok is moves

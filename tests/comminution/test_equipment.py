@@ -43,7 +43,7 @@ def assert_closed(unit, feed) -> None:
     assert float(found.energy) < 1e-9
     for s in streams:
         assert float(jnp.min(s.solid)) >= -1e-15
-    unit.results({"feed": feed}, outlets)
+    unit.operate(feed=feed)
 
 
 def test_every_machine_closes_its_balances(feed) -> None:
@@ -60,20 +60,20 @@ def test_every_machine_closes_its_balances(feed) -> None:
 def test_an_ideal_screen_cuts_at_its_size_and_is_fully_effective(feed) -> None:
     unit = Screen(IdealPartition(7e-4))
     outlets = unit(feed)
-    figures = unit.results({"feed": feed}, outlets)
+    figures = unit.operate(feed=feed).figures
     edges = feed.mixture.edges
     assert np.all(np.asarray(outlets.undersize.solid_by_size)[edges[:-1] >= 7e-4] == 0.0)
     assert np.all(np.asarray(outlets.oversize.solid_by_size)[edges[1:] <= 7e-4] == 0.0)
     assert float(figures.screening_recovery) > 0.8  # the class that holds the cut is split evenly
     sharp = Screen(IdealPartition(float(edges[10])))
-    figures = sharp.results({"feed": feed}, sharp(feed))
+    figures = sharp.operate(feed=feed).figures
     assert float(figures.screening_effectiveness) == pytest.approx(1.0, abs=1e-12)
 
 
 def test_effectiveness_of_a_screen_equals_the_three_analysis_formula(feed) -> None:
     unit = Screen(LogisticPartition(float(feed.mixture.edges[11]), 3.0))
     outlets = unit(feed)
-    figures = unit.results({"feed": feed}, outlets)
+    figures = unit.operate(feed=feed).figures
     size = unit.separation.cut_size
     x = [
         float(jnp.sum(jnp.where(feed.mixture.edges[1:] <= size * (1 + 1e-9), s.size_fractions, 0.0)))
@@ -96,7 +96,7 @@ def test_plug_flow_mill_is_a_batch_and_an_empty_mill_changes_nothing(feed) -> No
 def test_bond_mill_reaches_the_size_it_was_sized_for(feed) -> None:
     f80 = float(size_passing(feed))
     unit = BondMill.size(float(feed.solid_flow), f80, 0.4 * f80, 4.2e4)
-    figures = unit.results({"feed": feed}, unit(feed))
+    figures = unit.operate(feed=feed).figures
     # 80 % size of the product up to the width of a root-two class
     assert float(figures.product_size) == pytest.approx(0.4 * f80, rel=0.05)
     assert float(figures.specific_energy) == pytest.approx(4.2e4 * (np.sqrt(1e-4 / (0.4 * f80)) - np.sqrt(1e-4 / f80)), rel=1e-9)

@@ -73,10 +73,10 @@ def test_a_larger_screen_passes_more_and_loses_nothing() -> None:
     for area in (2.0, 5.0, 20.0, 1e4):
         unit = VibratingScreen(aperture=1e-3, screen_area=area, wetting="wet", deck_inclination=0.3, wire_diameter=0.3e-3)
         outlets = unit(feed)
-        figures = unit.results({"feed": feed}, outlets)
+        figures = unit.operate(feed=feed).figures
         assert float(closure([feed], list(outlets), 0.0).mass) < 1e-12
         seen.append((float(figures.screening_recovery), float(figures.cut_size), float(figures.screen_loading)))
-        assert unit.checks({"feed": feed}, outlets)[0].ok == (seen[-1][2] <= 1.0)
+        assert unit.operate(feed=feed).checks[0].ok == (seen[-1][2] <= 1.0)
     recovery, cut, load = map(np.array, zip(*seen, strict=True))
     assert np.all(np.diff(recovery) > 0)
     assert np.all(np.diff(cut) > 0)

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from tests.contracts.dryer_settings import BY_BALANCE, HUMID_GAS, MORE_AIR_DRIES, NUMBERS, PRODUCT, WITH_CELLS, Setting
 
-from granum.core import flags
 from granum.core.kinds import kind_of
 from granum.drying.contact.dryer import PLAIN
 from granum.drying.contact.kinetics import Meeting
@@ -30,11 +29,9 @@ SLACK = 1e-6
 
 def told(unit: Any, inlets: dict[str, Stream]) -> tuple[Any, Any, Any]:
     """What leaves, its figures, and whether the unit says that this is no solution."""
-    with flags.collect() as records:
-        out = unit(**inlets)
-        figures = unit.results(inlets, out)
-    lost = [jnp.any(r.mask) for r in records if r.bit & WRONG]
-    return out, figures, jnp.any(jnp.stack(lost)) if lost else jnp.asarray(False)
+    made = unit.operate(**inlets)
+    lost = [jnp.any(r.mask) for r in made.records if r.bit & WRONG]
+    return made.outlets, made.figures, jnp.any(jnp.stack(lost)) if lost else jnp.asarray(False)
 
 
 def general(inlets: dict[str, Stream], out: Any, figures: Any) -> dict[str, Any]:

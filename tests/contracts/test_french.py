@@ -14,6 +14,7 @@ from granum.core.glossary import glossary
 from granum.core.i18n import catalog
 from granum.core.kinds import KINDS
 from granum.core.registry import everything
+from granum.core.sources import cite
 
 SOURCE = Path(granum.__file__).parent
 MESSAGES = sorted(
@@ -69,3 +70,13 @@ def test_endings_of_labels_and_words_of_choices_have_french() -> None:
                 if (word := w.replace("_", " ")) and word not in catalog("fr") and not word.isdigit()
             }
     assert not missing
+
+
+def test_limits_have_french_and_a_known_source() -> None:
+    limits = {limit for thing in everything().values() for limit in thing.card.limits}
+    assert len(limits) > 60
+    assert {limit.name for limit in limits} - set(catalog("fr")) == set()
+    assert [limit for limit in limits if not cite(limit.source)] == []
+    assert [
+        limit for limit in limits if not isinstance(limit.low, str) and not isinstance(limit.high, str) and not limit.low < limit.high
+    ] == []

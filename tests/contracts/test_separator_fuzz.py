@@ -100,9 +100,9 @@ def test_light_solids_in_a_hydrocyclone_go_with_the_liquid_and_are_told() -> Non
     np.testing.assert_allclose(share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12)  # oil divides like the water
     alone = unit(feed.replace(solid=feed.solid.at[1].set(0.0)))
     assert float(jnp.max(alone.underflow.solid[0])) > 0.0
-    check = {c.name: c.ok for c in unit.checks({"feed": feed}, out)}
+    check = {c.name: c.ok for c in unit.operate(feed=feed).checks}
     assert not check["share of the solids that is heavier than the liquid"]
-    assert np.isfinite(float(unit.results({"feed": feed}, out).cut_size))
+    assert np.isfinite(float(unit.operate(feed=feed).figures.cut_size))
 
 
 def test_a_feed_thicker_than_the_underflow_passes_and_is_told() -> None:
@@ -111,8 +111,8 @@ def test_a_feed_thicker_than_the_underflow_passes_and_is_told() -> None:
 
     @jax.jit
     def run(stream):
-        inlets, out = {"feed": stream}, unit(stream)
-        return unit.results(inlets, out), unit.checks(inlets, out)[0].value
+        made = unit.operate(feed=stream)
+        return made.figures, made.checks[0].value
 
     figures, thinner = run(feed)
     assert all(np.isfinite(float(x)) for x in figures)

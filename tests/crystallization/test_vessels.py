@@ -118,7 +118,8 @@ def test_equipment_closes_its_balances(kind):
     found = closure([FEED], streams, out.heat_duty)
     assert float(found.mass) < 1e-12
     assert float(found.energy) < 1e-12
-    figures, checks = unit.results({"feed": FEED}, out), {c.name: c for c in unit.checks({"feed": FEED}, out)}
+    made = unit.operate(feed=FEED)
+    figures, checks = made.figures, {c.name: c for c in made.checks}
     if kind == "jacketed":
         # 17 K to the jacket with h/U = 5/3: the wall is 10 K colder than the suspension, too much for a zone of 5 K.
         assert not checks["undercooling at the cooled wall"].ok
@@ -349,5 +350,5 @@ def test_bad_input_is_told():
     unit = BatchCrystallizer(
         temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0), duration=10800.0, seed_mass_per_solvent=0.01, **LAWS
     )
-    failed = [c.name for c in unit.checks({"feed": feed}, unit(feed=feed)) if not c.ok]
+    failed = [c.name for c in unit.operate(feed=feed).checks if not c.ok]
     assert any("largest size class" in name for name in failed)

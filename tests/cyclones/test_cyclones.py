@@ -155,9 +155,9 @@ def test_gas_cyclone_closes_and_overload_helps() -> None:
     share = np.asarray(out.dust.solid / feed.solid)[0]
     assert np.all(np.diff(share) >= 0)
     assert float(out.gas.pressure) < float(feed.pressure)
-    figures = unit.results({"feed": feed}, out)
+    figures = unit.operate(feed=feed).figures
     assert all(np.isfinite(float(x)) for x in figures)
-    assert next(check.ok for check in unit.checks({"feed": feed}, out))
+    assert next(check.ok for check in unit.operate(feed=feed).checks)
     # a heavy load falls out at the inlet whatever its size: more of the finest class is collected
     assert float((run(dusty(1.0)).dust.solid / dusty(1.0).solid)[0, 0]) > share[0]
 
@@ -179,8 +179,8 @@ def test_hydrocyclone_closes() -> None:
     assert np.all(np.diff(share) >= 0)
     assert water_split < share[0] < water_split + 0.05
     assert share[-1] > 0.99
-    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed}, out))
-    assert unit.checks({"feed": feed}, out)
+    assert all(np.isfinite(float(x)) for x in unit.operate(feed=feed).figures)
+    assert unit.operate(feed=feed).checks
 
 
 def test_chart() -> None:
@@ -222,5 +222,5 @@ def test_empty_streams_give_numbers_and_failed_checks(dust: float, air: float) -
     unit = GasCyclone(1.0)
     out = unit(feed)
     assert all(np.all(np.isfinite(np.asarray(s.solid))) for s in out)
-    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed}, out))
-    assert air > 1.0 or not all(check.ok for check in unit.checks({"feed": feed}, out))
+    assert all(np.isfinite(float(x)) for x in unit.operate(feed=feed).figures)
+    assert air > 1.0 or not all(check.ok for check in unit.operate(feed=feed).checks)

@@ -25,7 +25,8 @@ def slurry(solid: float, water: float, T: float) -> Stream:
 def whole(dryer: ClosedDryer, feed: Stream):
     out = dryer(feed)
     closed = closure([feed], [out.product, out.vapor, out.condensate], out.heat_duty + out.shaft_power)
-    return closed, dryer.results({"feed": feed}, out), dryer.checks({"feed": feed}, out)
+    made = dryer.operate(feed=feed)
+    return closed, made.figures, made.checks
 
 
 def checked(dryer: ClosedDryer, feed: Stream):
@@ -132,7 +133,7 @@ def test_burner_beside_the_real_flue_gas() -> None:
     assert float(closed.energy) < 1e-12
     assert float(fired.product.temperature) == pytest.approx(T, rel=0.012)
     assert float(fired.product.gas[1]) == pytest.approx(2.0 * fuel * 0.018015, rel=1e-3)
-    figures = burner.results({"gas": gas, "fuel": methane}, fired)
+    figures = burner.operate(gas=gas, fuel=methane).figures
     assert float(figures.excess_air_ratio) == pytest.approx(n, rel=2e-3)
     assert float(figures.heat_duty_heater) == pytest.approx(fuel * 802.3e3, rel=1e-3)
     card = gr.humid_gas.combustion_gas(0.7487, 0.2513, 50.02e6, n, humidity_ratio=0.0)
@@ -140,7 +141,6 @@ def test_burner_beside_the_real_flue_gas() -> None:
     # without its heating value the gas stays as it came; propane burns too
     propane = empty(FIRED, 298.15).replace(gas=jnp.array([0.0, 0.0, 0.0, 0.01]))
     assert float(Burner(heat_loss_share=1.0)(gas, propane).product.temperature) == pytest.approx(298.15, abs=1e-3)
-    poor = burner(gas, propane.part(gas=8.0))
-    assert [c.ok for c in burner.checks({"gas": gas, "fuel": propane.part(gas=8.0)}, poor)] == [False, False]
+    assert [c.ok for c in burner.operate(gas=gas, fuel=propane.part(gas=8.0)).checks] == [False, False]
     with pytest.raises(InputError, match="fuel"):
         burner(empty(MIXTURE), empty(MIXTURE))

@@ -10,10 +10,10 @@ import pytest
 from tests.estimation.lab_data import data
 
 import granum as gr
-from granum.cases.fitted import fit_notices
 from granum.estimation import CardData, fit
 from granum.estimation.diagnostics import diagnose
 from granum.filtration.lab_tests.rate_tests import VariablePressureTest
+from granum.flowsheet.fitted import fit_notices
 from granum.settling import kynch
 from granum.settling.lab_tests import batch_test
 

@@ -74,7 +74,7 @@ def test_deep_bed_in_a_line() -> None:
     bed = DeepBedFilter(20.0, 1.0, 8e-4)
     out = eqx.filter_jit(bed)(feed)
     assert float(closure([feed], list(out)).mass) < 1e-12
-    figures = bed.results({"feed": feed}, out)
+    figures = bed.operate(feed=feed).figures
     assert 3600 * float(figures.superficial_velocity) == pytest.approx(10.0, rel=1e-4)
     # Kozeny by hand: 180 η U (1-ε)²/(ρ g d² ε³)
     clean = 180 * 1.14e-3 * (10 / 3600) * 0.58**2 / (999.1 * 9.80665 * (0.8 * 8e-4) ** 2 * 0.42**3)
@@ -88,4 +88,4 @@ def test_deep_bed_in_a_line() -> None:
     # a given coefficient is Iwasaki's law for every class
     plain = DeepBedFilter(20.0, 1.0, 8e-4, filter_coefficient=2.0)
     assert np.asarray(plain(feed).filtrate.solid / feed.solid) == pytest.approx(np.full((1, 8), np.exp(-2.0)))
-    assert [c.ok for c in plain.checks({"feed": feed}, plain(feed))] == [True] * 4
+    assert [c.ok for c in plain.operate(feed=feed).checks] == [True] * 4

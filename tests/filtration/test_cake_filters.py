@@ -46,7 +46,7 @@ def test_geankoplis_example_14_2_4_drum_area():
     assert drum.area == pytest.approx(6.66, abs=0.005)
     assert drum.area == pytest.approx(6.60, rel=0.01)
     out = drum(feed)
-    assert drum.results({"feed": feed}, out).capacity_use == pytest.approx(1.0, rel=1e-12)
+    assert drum.operate(feed=feed).figures.capacity_use == pytest.approx(1.0, rel=1e-12)
     assert out.filtrate.liquid_volume_flow > 4.8e-4
 
 
@@ -86,7 +86,7 @@ def test_balances_close_and_figures_make_sense(name, washed):
     found = closure(inlets.values(), out)
     assert float(found.mass) < 1e-14
     assert float(found.energy) < 1e-10
-    figures = unit.results(inlets, out)
+    figures = unit.operate(**inlets).figures
     assert 0.0 < figures.cake_saturation <= 1.0
     assert out.cake.moisture_dry_basis > 0
     if washed:
@@ -96,14 +96,14 @@ def test_balances_close_and_figures_make_sense(name, washed):
         assert left < float(unit.slurry(feed).void_volume_flow / feed.liquid_volume_flow)
     else:
         assert float(out.washings.mass_flow) == 0.0
-    assert all(check.source and check.name for check in unit.checks(inlets, out))
+    assert all(check.source and check.name for check in unit.operate(**inlets).checks)
 
 
 def test_cycle_of_a_press_by_hand():
     m = mixture(2600.0, 1e-3, 1000.0)
     feed, wash = stream(m, 0.1, 0.9), stream(m, water=0.05)
     unit = PlateAndFramePress(area=30.0, chamber_depth=0.04, pressure_drop=2e5, cake_resistance=1e10, void_fraction=0.5, dead_time=900)
-    figures = unit.results({"feed": feed, "wash": wash}, unit(feed, wash))
+    figures = unit.operate(feed=feed, wash=wash).figures
     loading = 0.02 * 0.5 * 2600
     void = 0.1 / 2600  # equal to the solid volume at ε = 0.5, m3/s
     W = 0.1 / (0.9e-3 - void)
@@ -122,9 +122,9 @@ def test_cycle_of_a_press_by_hand():
 
 def test_wide_candle_is_a_flat_leaf():
     feed = stream(mixture(), 0.1, 0.6, 0.1)
-    flat = PressureLeafFilter(area=20.0, full_cake_thickness="1 cm", **BATCH).plan(feed)
-    wide = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius=300.0, **BATCH).plan(feed)
-    thin = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).plan(feed)
+    flat = PressureLeafFilter(area=20.0, full_cake_thickness="1 cm", **BATCH).inside(feed).plan
+    wide = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius=300.0, **BATCH).inside(feed).plan
+    thin = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).inside(feed).plan
     assert float(wide.formation_time) == pytest.approx(float(flat.formation_time), rel=1e-4)
     assert thin.dry_cake_mass_per_area > flat.dry_cake_mass_per_area
 
@@ -153,6 +153,6 @@ def test_precoat_limits_the_rate_of_a_clear_feed():
     flux = 6e4 / (0.8937e-3 * 0.04 / 1e-13)
     assert float(drum.area) == pytest.approx(2.0 / 996.9 / (0.5 * flux), rel=0.1)
     out = drum(feed)
-    checks = {c.name: c for c in drum.checks({"feed": feed}, out)}
+    checks = {c.name: c for c in drum.operate(feed=feed).checks}
     assert checks["life of the precoat"].value == pytest.approx(1600 * 120)
     assert float(closure([feed], out).mass) < 1e-14

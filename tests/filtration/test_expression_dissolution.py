@@ -79,7 +79,7 @@ def test_wash_takes_up_crystals_until_saturated() -> None:
     assert float(closure([feed, wash], list(lossy)).mass) < 1e-12
     assert float(closure([feed, wash], list(lossy)).energy) < 1e-9
     assert float(lossy.cake.temperature) < float(plain.cake.temperature)  # it takes heat to dissolve
-    figures = belt(wash_dissolution=law).results({"feed": feed, "wash": wash}, lossy)
+    figures = belt(wash_dissolution=law).operate(feed=feed, wash=wash).figures
     assert float(figures.dissolved_share) == pytest.approx(0.06 / 0.5, rel=1e-9)
     # half the approach loses half; a saturated wash nothing; no wash nothing
     half = belt(wash_dissolution=SaturatingWash("salt", "water", 0.3, approach=0.5))(feed, wash)
@@ -122,7 +122,7 @@ def test_membrane_press_squeezes_towards_its_end() -> None:
     assert wet[1] == pytest.approx(0.5 * (wet[0] + wet[2]), rel=2e-3)
     assert wet[2] == pytest.approx(float(MembranePress(**fields)(feed).cake.moisture_dry_basis), rel=1e-6)
     short = MembranePress(**fields, squeezing_time=60.0, consolidation_coefficient=5e-8)
-    assert not next(c for c in short.checks({"feed": feed}, short(feed)) if "reached" in c.name).ok
+    assert not next(c for c in short.operate(feed=feed).checks if "reached" in c.name).ok
 
 
 @pytest.mark.parametrize(("solid", "water"), [(0.0, 1.0), (0.1, 0.0), (0.0, 0.0)])
@@ -130,6 +130,6 @@ def test_empty_feeds_give_numbers(solid: float, water: float) -> None:
     feed, wash = empty(SALT).replace(solid=jnp.full((1, 5), solid), liquid=jnp.array([water, 0.3 * water])), feed_and_wash()[1]
     unit = belt(wash_dissolution=SaturatingWash("salt", "water", 0.3))
     out = unit(feed, wash)
-    assert all(np.isfinite(float(x)) for x in unit.results({"feed": feed, "wash": wash}, out))
+    assert all(np.isfinite(float(x)) for x in unit.operate(feed=feed, wash=wash).figures)
     assert float(closure([feed, wash], list(out)).mass) < 1e-12
     assert all(float(s.liquid.min()) >= 0.0 for s in out)

@@ -10,11 +10,11 @@ import pytest
 from typer.testing import CliRunner
 
 import granum as gr
-from granum.cases.line import Line
 from granum.cli import app
 from granum.core import flags
 from granum.core.errors import ApplicabilityError, ConvergenceError, GranumError
 from granum.flowsheet import Flowsheet
+from granum.flowsheet.run import Line
 from granum.flowsheet.watching import Watch
 from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
 from granum.streams.mixture import Mixture, Species

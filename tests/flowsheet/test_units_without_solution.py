@@ -8,11 +8,11 @@ import jax.numpy as jnp
 import pytest
 
 import granum as gr
-from granum.cases.line import Line
 from granum.core import registry
 from granum.core.errors import ConvergenceError
 from granum.crystallization.equipment import msmpr
 from granum.flowsheet import Flowsheet
+from granum.flowsheet.run import Line
 from granum.streams.equipment import agglomerator
 from granum.streams.equipment.agglomerator import settle
 from granum.streams.equipment.basics import Heater, Mixer, Single

@@ -34,12 +34,12 @@ def test_balance_and_entrainment() -> None:
     # what is entrained of a class is K* A times its fraction in the bed, which is that of the product
     fraction = np.asarray(out.product.solid / jnp.sum(out.product.solid))[0]
     np.testing.assert_allclose(np.asarray(out.gas.solid)[0], np.asarray(bed.rates(feed))[0] * fraction, rtol=1e-6)
-    figures = bed.results({"feed": feed}, out)
+    figures = bed.operate(feed=feed).figures
     assert all(np.isfinite(float(x)) for x in figures)
     assert figures.minimum_fluidization_velocity < figures.superficial_velocity
     # weight on the grid by hand, 30 % more for the plate
     assert abs(float(figures.pressure_drop) / (800 * 9.80665 / 1.5 * 1.3) - 1.0) < 1e-3
-    assert len(bed.checks({"feed": feed}, out)) == 3
+    assert len(bed.operate(feed=feed).checks) == 3
 
 
 def test_sizing() -> None:
@@ -52,6 +52,6 @@ def test_empty_streams_give_numbers() -> None:
     for solid, gas in ((0.0, 1.2), (0.05, 0.0), (0.0, 0.0)):
         feed = empty(MIXTURE).replace(solid=jnp.full((1, 10), solid), gas=jnp.array([gas]))
         out = bed(feed)
-        assert all(np.isfinite(float(x)) for x in bed.results({"feed": feed}, out))
+        assert all(np.isfinite(float(x)) for x in bed.operate(feed=feed).figures)
         assert np.all(np.isfinite(np.asarray(out.product.solid)))
-        assert gas > 0 or not all(check.ok for check in bed.checks({"feed": feed}, out))
+        assert gas > 0 or not all(check.ok for check in bed.operate(feed=feed).checks)

@@ -133,12 +133,12 @@ def test_liquid_bed_of_coulson_and_richardson() -> None:
     for U in (0.01, 0.0364, 0.1, 0.2):
         feed = empty(oil).replace(liquid=jnp.array([1100.0 * U * 0.01]), pressure=jnp.asarray(2e5))
         out = bed(feed)
-        figures = bed.results({"feed": feed}, out)
+        figures = bed.operate(feed=feed).figures
         assert figures.minimum_fluidization_velocity == pytest.approx(0.0364, abs=1e-4)
         assert figures.height_expanded * (1 - figures.bed_void_fraction) == pytest.approx(figures.height_settled * 0.6)
         assert float(feed.pressure - out.liquid.pressure) == pytest.approx(float(figures.pressure_drop))
         drops.append(float(figures.pressure_drop))
-        assert [c.ok for c in bed.checks({"feed": feed}, out)] == [U > 0.0364, True]
+        assert [c.ok for c in bed.operate(feed=feed).checks] == [U > 0.0364, True]
     assert drops[0] < drops[1] == pytest.approx(weight, rel=2e-3)
     assert drops[2:] == pytest.approx([weight, weight])
     sized = LiquidFluidizedBed.size(1e-3, 0.7, 0.36, 2.4, 10.0, 3e-3, 4200.0)

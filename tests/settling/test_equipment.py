@@ -58,9 +58,9 @@ def test_every_unit_conserves_mass_and_energy(unit):
     for outlet in outlets:
         assert float(jnp.min(outlet.solid)) >= 0.0
         assert float(jnp.min(outlet.liquid)) >= 0.0
-    figures = unit.results({"feed": stream}, outlets)
+    figures = unit.operate(feed=stream).figures
     assert all(np.isfinite(float(x)) for x in figures)
-    assert all(check.name and check.source for check in unit.checks({"feed": stream}, outlets))
+    assert all(check.name and check.source for check in unit.operate(feed=stream).checks)
 
 
 def test_clarifier_removes_each_class_in_the_ratio_of_its_velocity():
@@ -81,10 +81,10 @@ def test_thickener_passes_the_limit_and_spills_the_rest():
     small = Thickener(0.5 * unit.area, 10.0, sludge)
     out = small(stream)
     assert float(out.underflow.solid_flow) == pytest.approx(0.3, rel=1e-2)
-    figures = small.results({"feed": stream}, out)
+    figures = small.operate(feed=stream).figures
     assert float(figures.loading_ratio) == pytest.approx(2.0, rel=1e-2)
     assert float(out.underflow.solid_flow / out.underflow.slurry_volume_flow) == pytest.approx(10.0, rel=1e-9)
-    assert not unit.checks({"feed": stream}, exact)[0].ok or figures.limiting_flux > 0
+    assert not unit.operate(feed=stream).checks[0].ok or figures.limiting_flux > 0
     # More area never gives less underflow, by the exact derivative.
     slope = jax.grad(lambda a: Thickener(a, 10.0, sludge)(stream).underflow.solid_flow)(0.5 * unit.area)
     assert float(slope) == pytest.approx(0.3 / (0.5 * float(unit.area)), rel=1e-6)
@@ -97,7 +97,7 @@ def test_api_separator_skims_all_oil_of_the_design_globule():
     stream = empty(mixture).replace(solid=jnp.full((1, 1), 1e-4), liquid=jnp.array([59.9]))
     out = unit(stream)
     assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(1.0, abs=0.1)  # Stokes in the design, full drag here
-    assert all(check.ok for check in unit.checks({"feed": stream}, out))
+    assert all(check.ok for check in unit.operate(feed=stream).checks)
 
 
 def test_continuous_simulation_answers_bad_input():
@@ -130,17 +130,14 @@ def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation
         solid=jnp.zeros((2, 12)).at[0].set(2.5 * 800 / 3600 / 12), liquid=jnp.array([(1 - 2.5 / 2650) * 800 / 3.6])
     )
     unit = ClarifierThickener(1000.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
-    out = unit(feed=slurry)
-    figures = unit.results({"feed": slurry}, out)
+    out, figures, checks, course, _records = unit.operate(feed=slurry)
     assert float(figures.underflow_concentration) == pytest.approx(2.5 * 800 / 300, rel=1e-9)
     assert float(out.underflow.slurry_volume_flow) * 3600 == pytest.approx(300.0, rel=1e-9)
-    course = unit.course(slurry)
     assert float(course.underflow_concentration[-1]) == pytest.approx(float(figures.underflow_concentration), rel=1e-3)
     assert float(figures.retention_time) == pytest.approx(float(figures.solids_held) / float(slurry.solid_flow))
-    assert all(check.ok for check in unit.checks({"feed": slurry}, out))
+    assert all(check.ok for check in checks)
     small = ClarifierThickener(300.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
-    spilled = small(feed=slurry)
-    figures = small.results({"feed": slurry}, spilled)
+    spilled, figures, checks, *_rest = small.operate(feed=slurry)
     assert float(figures.loading_ratio) > 1.0
     assert float(spilled.overflow.solid_flow) == pytest.approx(float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9)
-    assert not all(check.ok for check in small.checks({"feed": slurry}, spilled))
+    assert not all(check.ok for check in checks)

@@ -41,7 +41,7 @@ def test_mixing_of_the_course_notes() -> None:
     first, second = (float(state(enthalpy=h, humidity_ratio=w).temperature) for h, w in ((100e3, 0.027), (160e3, 0.04)))
     inlets = {"first": air(first, 0.027, 1.5), "second": air(second, 0.04, 2.5)}
     out = HumidMixer()(**inlets)
-    figures = HumidMixer().results(inlets, out)
+    figures = HumidMixer().operate(**inlets).figures
     assert float(figures.humidity_ratio) == pytest.approx(0.035, rel=5e-3)
     assert float(figures.temperature) == pytest.approx(46.5 + C, abs=0.6)
     assert float(state(temperature=figures.temperature, humidity_ratio=figures.humidity_ratio).enthalpy) == pytest.approx(137.5e3, rel=2e-3)
@@ -51,7 +51,7 @@ def test_mixing_of_the_course_notes() -> None:
 def test_fog_and_injected_steam() -> None:
     inlets = {"warm": air(35 + C, 0.03), "cold": air(-10 + C, 0.001)}
     fog = HumidMixer()(**inlets)
-    figures = HumidMixer().results(inlets, fog)
+    figures = HumidMixer().operate(**inlets).figures
     assert float(figures.relative_humidity) == pytest.approx(1.0)
     assert float(figures.condensate_flow) > 0.003
     closes(list(inlets.values()), [fog.product])
@@ -70,7 +70,7 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     gas = air(30 + C, 0.02, 2.0)
     out = CondenserCooler(10 + C)(gas)
     expected = processes.cooling(30 + C, 0.02, 10 + C, 2.0)
-    figures = CondenserCooler(10 + C).results({"gas": gas}, out)
+    figures = CondenserCooler(10 + C).operate(gas=gas).figures
     assert float(figures.humidity_ratio) == pytest.approx(0.00766, rel=5e-3)  # ASHRAE table, saturated at 10 °C
     assert float(out.heat_duty) == pytest.approx(expected.heat_duty, rel=1e-3)
     assert float(figures.condensate_flow) == pytest.approx(expected.condensate_flow, rel=1e-3)
@@ -84,9 +84,9 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     out = coil(gas)
     expected = processes.dehumidifying(30 + C, 0.016, 8 + C, 0.1)
     assert float(out.product.temperature) == pytest.approx(expected.temperature, abs=0.02)
-    assert float(coil.results({"gas": gas}, out).humidity_ratio) == pytest.approx(expected.humidity_ratio, rel=1e-3)
+    assert float(coil.operate(gas=gas).figures.humidity_ratio) == pytest.approx(expected.humidity_ratio, rel=1e-3)
     closes([gas], [out.product, out.condensate], float(out.heat_duty))
-    assert not CondenserCooler(-5 + C).checks({"gas": gas}, CondenserCooler(-5 + C)(gas))[0].ok
+    assert not CondenserCooler(-5 + C).operate(gas=gas).checks[0].ok
 
 
 def test_humidifier_follows_the_wet_bulb_line() -> None:
@@ -102,7 +102,7 @@ def test_humidifier_follows_the_wet_bulb_line() -> None:
     assert float(part.product.temperature) == pytest.approx(80 + C + 0.6 * (wet_bulb - 80 - C), abs=0.6)
     thirsty = AdiabaticHumidifier(1.0)(gas=hot, water=water(wet_bulb, 0.004))
     assert float(thirsty.drain.liquid_flow) == pytest.approx(0.0, abs=1e-15)
-    assert not AdiabaticHumidifier(1.0).checks({"gas": hot, "water": water(wet_bulb, 0.004)}, thirsty)[0].ok
+    assert not AdiabaticHumidifier(1.0).operate(gas=hot, water=water(wet_bulb, 0.004)).checks[0].ok
     foggy = AdiabaticHumidifier(1.0)(gas=air(20 + C, 0.02), water=water(20 + C, 0.01))
     assert float(foggy.drain.liquid_flow) == pytest.approx(0.01)
 

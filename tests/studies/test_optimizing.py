@@ -88,7 +88,7 @@ def test_infeasible_is_said() -> None:
     )
     assert not found.feasible
     assert found.ends[0]["violation"] > 0.1
-    from granum.reports.studies import warnings_of
+    from granum.studies.report import warnings_of
 
     assert any("not a solution" in line for line in warnings_of(found))
 

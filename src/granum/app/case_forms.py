@@ -61,13 +61,14 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
     try:
         card = registry.find(str(table.get("model", ""))).card
     except GranumError as fault:
-        return {"model": str(table.get("model", "")), "title": "", "summary": fault.message, "parameters": [], "values": {}}
+        return {"model": str(table.get("model", "")), "title": "", "summary": fault.message, "parameters": [], "limits": [], "values": {}}
     form = card_form(card.key)
     return {
         "model": card.key,
         "title": form["title"],
         "summary": form["summary"],
         "parameters": form["parameters"],
+        "limits": form["limits_shown"],
         "values": {p.name: _text(table[p.name]) for p in card.parameters if p.name in table},
     }
 

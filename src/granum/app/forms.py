@@ -23,13 +23,14 @@ from granum.core.parameters import Parameter
 from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
 from granum.core.written import read_number
 from granum.reports.mathml import mathml
-from granum.reports.quantities import law_label
+from granum.reports.quantities import law_label, limit_rows
 
 
 def card_form(key: str) -> dict[str, Any]:
     """One card with everything a form needs."""
     card = registry.find(key).card
     data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
+    data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     examples = docstring_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)

@@ -160,7 +160,7 @@ def _not_too_many(table: Mapping[str, Any]) -> None:
 
 def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
     """Run it; finished chunks lie in the folder ``parts``, from which ``collect`` reads them without computing more."""
-    from granum.reports.studies import warnings_of
+    from granum.studies.report import warnings_of
     from granum.studies.store import forget
 
     parts = Path(str(payload["parts"])) if declared.kept_in_parts and payload.get("parts") else None

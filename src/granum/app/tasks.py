@@ -182,8 +182,6 @@ def _watch(tell: Tell) -> Watch:
 
 def run(payload: dict[str, Any], tell: Tell) -> bytes:
     """Solve the text of a case file."""
-    from granum.flowsheet.drawing import draw
-
     outcome = _outcome(payload, tell)
     tell(0.8, _("drawing"))
     data = outcome.as_json()
@@ -196,9 +194,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
         ]
     for name, stream in outcome.streams.items():
         data["streams"][name]["shown"] = stream_figures(stream)
-    return packed(
-        data | {"flags": noticed(data["flags"]), "diagram": draw(outcome.sheet, outcome.streams), "stream_table": stream_table(outcome)}
-    )
+    return packed(data | {"flags": noticed(data["flags"]), "diagram": outcome.drawing(), "stream_table": stream_table(outcome)})
 
 
 def report(payload: dict[str, Any], tell: Tell) -> bytes:

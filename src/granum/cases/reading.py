@@ -11,8 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from granum.cases.fitted import fits_of, fitted_values
-from granum.cases.line import Line
-from granum.cases.schema import Case, FeedTable, MixtureTable, SizeTable, StreamTable
+from granum.cases.schema import Case, DynamicTable, FeedTable, MixtureTable, SizeTable, StreamTable
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import read_toml
@@ -22,6 +21,7 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.dynamics import Profile, check_profiles, check_start
+from granum.flowsheet.run import Line, Movement
 from granum.flowsheet.specifications import Target
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
@@ -126,9 +126,8 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
         sheet = sheet.with_values(fitted_values(fits))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
     _require_independent(case, targets)
-    if case.dynamic is not None:
-        movement(case, sheet)  # so that a mistake shows at once
-    return Line(title=case.title, sheet=sheet, targets=targets, case=case, text=text, fits=fits)
+    told = {"description": case.description, "project": case.report.project, "author": case.report.author, "date": case.report.date}
+    return Line(case.title, sheet, targets, None if case.dynamic is None else movement(case.dynamic, sheet), text, fits, told)
 
 
 def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
@@ -299,11 +298,8 @@ def _require_independent(case: Case, targets: tuple[Target, ...]) -> None:
             raise CaseError(_("[specifications.{name}] 'lower' must be below 'upper'.").format(name=name), specification=name)
 
 
-def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, ...], str | dict[str, str]]:
+def movement(table: DynamicTable, sheet: Flowsheet) -> Movement:
     """Times, disturbances and start of a run in time."""
-    table = case.dynamic
-    if table is None:
-        raise CaseError(_("The case has no [dynamic] table: give it 'duration' and 'step'."))
     where = _("in [dynamic]")
     duration, step = (quantity(getattr(table, n), "Time", n, where) for n in ("duration", "step"))
     if not 0.0 < step <= duration:
@@ -329,4 +325,4 @@ def movement(case: Case, sheet: Flowsheet) -> tuple[np.ndarray, tuple[Profile, .
         times = convert(change.times, Parameter("times", KINDS["Time"], series="points"), " " + place)
         profiles.append(Profile(change.vary, np.asarray(times, dtype=float), np.asarray(values, dtype=float)))
     check_profiles(sheet, tuple(profiles))
-    return np.arange(0.0, duration + 0.5 * step, step), tuple(profiles), table.start
+    return Movement(np.arange(0.0, duration + 0.5 * step, step), tuple(profiles), table.start)

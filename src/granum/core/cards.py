@@ -9,6 +9,7 @@ from typing import Any
 
 from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _
+from granum.core.limits import Limit
 from granum.core.parameters import Parameter
 
 Ranges = Mapping[str, tuple[float, float]]
@@ -26,6 +27,7 @@ class Card:
     source: key in ``references`` with equation, table or page.
     equation: LaTeX.
     family: what it can be passed as, for laws (``drag_coefficient``).
+    limits: practical limits, for equipment.
     """
 
     key: str
@@ -39,6 +41,7 @@ class Card:
     given_title: str
     doc: str
     module: str
+    limits: tuple[Limit, ...] = ()
 
     @property
     def domain(self) -> str:
@@ -99,6 +102,7 @@ class Card:
             "citation": self.citation,
             "fitted": {k: [float(a), float(b)] for k, (a, b) in self.fitted.items()},
             "family": self.family,
+            "limits": [limit.as_json() for limit in self.limits],
             "doc": self.doc,
         }
 
@@ -116,7 +120,7 @@ def key_of(thing: Any, name: str) -> str:
 
 def make_card(
     thing: Callable[..., Any], name: str, sort: str, *, parameters: tuple[Parameter, ...], outputs: tuple[Parameter, ...],
-    source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "",
+    source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "", limits: tuple[Limit, ...] = (),
 ) -> Card:  # fmt: skip
     """The card of a declared function or class."""
     return Card(
@@ -131,4 +135,5 @@ def make_card(
         given_title=title,
         doc=inspect.cleandoc(thing.__doc__ or ""),
         module=thing.__module__,
+        limits=limits,
     )

@@ -54,7 +54,8 @@ def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted
             elif sort == "law":
                 outputs = outputs_of(returned, family, fitted)
         return make_card(cls, name, sort, parameters=field_parameters(cls, fitted, typical), outputs=outputs,
-                         source=source, equation=equation, fitted=fitted, family=family, title=title)  # fmt: skip
+                         source=source, equation=equation, fitted=fitted, family=family, title=title,
+                         limits=tuple(getattr(cls, "limits", {}).values()))  # fmt: skip
 
     original = cls.__init__
     binder: list[Binder] = []
@@ -101,8 +102,10 @@ def law(family: str, *, source: str, name: str, equation: str = "", fitted: Rang
 
 def equipment(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
               typical: Ranges | None = None) -> Callable[[type], type]:  # fmt: skip
-    """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``results`` its outputs."""
-    return lambda cls: _declare(cls, name, "equipment", source, equation, fitted or {}, typical or {}, "", title, cls.results)
+    """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``figures`` its outputs."""
+    return lambda cls: _declare(
+        cls, name, "equipment", source, equation, fitted or {}, typical or {}, "", title, getattr(cls, "results", cls.figures)
+    )
 
 
 def lab_test(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,

@@ -107,6 +107,13 @@ def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -
         collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed, without))
 
 
+def hand_on(records: list[Record]) -> None:
+    """Tell what another collector kept to the one that listens at this trace level, if any."""
+    collector = _active.get()
+    if collector is not None and collector.accepts():
+        collector.records += [r for r in records if collector.only in (0, r.bit)]
+
+
 def nested() -> bool:
     """Whether a formula is running, so that a call made now stands inside another one."""
     return _current.get() is not None

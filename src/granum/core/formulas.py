@@ -300,7 +300,8 @@ class Formula:
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
         nested = flags.nested()
-        if not args and not nested and _steps.get() is None:
+        heard = flags.listening()
+        if not args and not nested and not heard and _steps.get() is None:
             quick = self._quick(kwargs)
             if quick is not _DYNAMIC:
                 return self._told(quick, kwargs)
@@ -310,6 +311,11 @@ class Formula:
         if _steps.get() is not None:
             return self._evaluate(values).value
         key, dynamic = self._split(values)
+        if heard:
+            with self._fitting(values):
+                out, records = self._compile(key, "checked")(*dynamic)
+            flags.hand_on(records)
+            return out if batched else self._told(_floats(out), kwargs, args)
         if batched:
             with self._fitting(values):
                 return self._compile(key, "masked")(*dynamic)
@@ -337,6 +343,7 @@ class Formula:
         key, dynamic = self._split(values)
         with self._fitting(values):
             out, records = self._compile(key, "checked")(*dynamic)
+        flags.hand_on(records)
         inputs = {p.name: value for p, value in zip(self.card.parameters, values, strict=True)}
         shape = (
             np.broadcast_shapes(*(np.shape(x) for x in jax.tree.leaves(out)))

@@ -14,17 +14,10 @@ from granum.core.units import show
 from granum.flowsheet.plan import Link
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.symbols import symbol_of
+from granum.streams.stream import main_phase
 
 ROW, BOX, LANE, MARGIN, LETTER, ASIDE = 130, 60, 22, 34, 6.0, 26
 PHASE_COLORS = {"solid": "#b7791f", "liquid": "#2b6cb0", "gas": "#6b7f99", "": "#1c2430"}
-
-
-def main_phase(stream: Any) -> str:
-    """``gas`` for a gas stream, ``solid`` for a cake or powder, else ``liquid``."""
-    solid, liquid, gas = (float(x) for x in (stream.solid_flow, stream.liquid_flow, stream.gas_flow))
-    if gas > 0.5 * (solid + liquid + gas):
-        return "gas"
-    return "solid" if solid > 0.5 * (solid + liquid) else "liquid"
 
 
 def _columns(line: Flowsheet) -> dict[str, int]:

@@ -13,14 +13,16 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core import flags
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.flowsheet.passing import Made, pass_through, told
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import TOLERANCE, _pack, _unpack, solve
 from granum.numerics import settle
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Dynamic
+from granum.streams.units import Dynamic, Operated
 
 
 class Profile(NamedTuple):
@@ -43,6 +45,7 @@ class Course(NamedTuple):
     times: s. streams: by name, arrays with a leading axis of times.
     holdups: the state of each unit that has one, at the end.
     converged: whether the loops converged at each time, all streams being finite. balance: relative mass imbalance of feeds, products and holdups over the whole run.
+    records: what each unit's formulas flagged, with a leading axis of times.
     """
 
     times: Any
@@ -50,10 +53,21 @@ class Course(NamedTuple):
     holdups: dict[str, Any]
     converged: Any
     balance: Any
+    records: dict[str, list[flags.Record]]
+
+    @property
+    def flags(self) -> list[dict[str, Any]]:
+        """What was flagged at any time, with the unit's name."""
+        return told(self.records)
 
 
 class _Instant(NamedTuple):
     streams: dict[str, Stream]
+    states: dict[str, Any]
+
+
+class _Step(NamedTuple):
+    made: Made
     states: dict[str, Any]
 
 
@@ -129,22 +143,24 @@ def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, st
     prepared, still = ({n: u.prepare(_mixture(line), h) for n, u in holding.items()} for h in (step, 0.0 * step))
     torn = {n for block in line.blocks for n in block.tears}
 
-    def advance(carry: tuple[_Instant, Any, dict[str, Stream]], given: tuple[Any, Any]) -> tuple[Any, tuple[dict[str, Stream], Any]]:
+    def advance(carry: tuple[_Instant, Any, dict[str, Stream]], given: tuple[Any, Any]) -> tuple[Any, tuple[Any, ...]]:
         """One step, or, at first, no step: the streams that belong to the holdups at the start."""
         before, passed, earlier = carry
         time, begins = given
         now, h = _with_profiles(line, profiles, time), (1.0 - begins) * step
         ready = _chosen(begins, still, prepared)
         ahead = {n: _ahead(earlier[n], before.streams[n]) for n in torn}
-        after, converged = _instant(now, before, begins, ready, h, ahead, scale)
+        after, records, converged = _instant(now, before, begins, ready, h, ahead, scale)
         passed = passed + 0.5 * h * (_net(line, before.streams) + _net(line, after.streams))
-        return (after, passed, {n: _chosen(begins, after, before).streams[n] for n in torn}), (after.streams, converged)
+        return (after, passed, {n: _chosen(begins, after, before).streams[n] for n in torn}), (after.streams, converged, records)
 
     begin = _Instant(streams, jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), states))
     carry = (begin, jnp.zeros(()), {n: streams[n] for n in torn})
-    (last, passed, _torn), (whole, converged) = jax.lax.scan(advance, carry, (times, jnp.where(jnp.arange(len(times)) == 0, 1.0, 0.0)))
+    (last, passed, _torn), (whole, converged, records) = jax.lax.scan(
+        advance, carry, (times, jnp.where(jnp.arange(len(times)) == 0, 1.0, 0.0))
+    )
     held = sum((line.units[n].held_mass(last.states[n]) - line.units[n].held_mass(states[n]) for n in states), jnp.zeros(()))  # type: ignore[attr-defined]
-    return Course(times, whole, last.states, converged, jnp.abs(passed - held) / (scale * (times[-1] - times[0])))
+    return Course(times, whole, last.states, converged, jnp.abs(passed - held) / (scale * (times[-1] - times[0])), records)
 
 
 def _floats(stream: Stream) -> Stream:
@@ -175,28 +191,28 @@ def _net(line: Flowsheet, streams: Mapping[str, Stream]) -> Any:
 
 def _instant(
     line: Flowsheet, before: _Instant, begins: Any, prepared: dict[str, Any], step: Any, torn: dict[str, Stream], scale: Any,
-) -> tuple[_Instant, Any]:  # fmt: skip
-    """All streams and holdups at the end of a step."""
-    found = _Instant(dict(line.feeds), {})
+) -> tuple[_Instant, dict[str, list[flags.Record]], Any]:  # fmt: skip
+    """All streams and holdups at the end of a step, what was flagged on the way, and whether the loops came to rest."""
+    found, records = _Instant(dict(line.feeds), {}), {}
     good = jnp.asarray(True)
 
-    def one_pass(block: Block, known: dict[str, Stream]) -> _Instant:
-        streams, made = dict(known), _Instant({}, {})
-        for name in block.units:
-            thing, inlets = line.units[name], line.inlets_of(name, streams)
-            if isinstance(thing, Dynamic):
-                earlier = _chosen(begins, inlets, line.inlets_of(name, before.streams))
-                made.states[name], out = thing.advance(before.states[name], earlier, inlets, step, prepared[name])
-            else:
-                out = thing(**inlets)
-            new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == name}
-            made.streams.update(new)
-            streams |= {n: s for n, s in new.items() if n not in block.tears}
-        return made
+    def one_pass(block: Block, known: dict[str, Stream]) -> _Step:
+        states: dict[str, Any] = {}
+
+        def operate(name: str, inlets: dict[str, Stream]) -> Operated:
+            thing = line.units[name]
+            if not isinstance(thing, Dynamic):
+                return thing.operate(**inlets)
+            earlier = _chosen(begins, inlets, line.inlets_of(name, before.streams))
+            with flags.collect() as told_here:
+                states[name], outlets = thing.advance(before.states[name], earlier, inlets, step, prepared[name])
+            return Operated(outlets, None, (), None, told_here)
+
+        return _Step(pass_through(line, block, known, operate), states)
 
     for block in line.blocks:
         if not block.tears:
-            made = one_pass(block, found.streams)
+            now = one_pass(block, found.streams)
         else:
             guess = {n: torn[n] for n in block.tears}
 
@@ -204,15 +220,17 @@ def _instant(
                 rows = vector.reshape(len(guess), -1)
                 return {n: _unpack(rows[i], s.mixture, s.pressure, scale) for i, (n, s) in enumerate(guess.items())}
 
-            def once(vector: Any, block: Block = block, unpacked: Any = unpacked) -> tuple[Any, _Instant]:
-                made = one_pass(block, found.streams | unpacked(vector))
-                return jnp.concatenate([_pack(made.streams[n], scale) for n in block.tears]), made
+            def once(vector: Any, block: Block = block, unpacked: Any = unpacked) -> tuple[Any, _Step]:
+                now = one_pass(block, found.streams | unpacked(vector))
+                return jnp.concatenate([_pack(now.made.streams[n], scale) for n in block.tears]), now
 
             solved = settle(once, jnp.concatenate([_pack(s, scale) for s in guess.values()]), tolerance=1e2 * TOLERANCE)
-            made = solved.made._replace(streams=solved.made.streams | unpacked(solved.state))
+            now = solved.made
+            now.made.streams.update(unpacked(solved.state))
             good = good & solved.converged
-        found.streams.update(made.streams)
-        found.states.update(made.states)
+        found.streams.update(now.made.streams)
+        found.states.update(now.states)
+        records |= now.made.records
     streams = {k.name: _floats(found.streams[k.name]) for k in line.links}
     finite = jnp.isfinite(jnp.stack([s.mass_flow + s.temperature for s in streams.values()]))  # too long a step may burst a holdup
-    return _Instant(streams, found.states), good & jnp.all(finite)
+    return _Instant(streams, found.states), records, good & jnp.all(finite)

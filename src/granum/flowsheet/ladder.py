@@ -51,8 +51,8 @@ def _by_newton(sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, to
 
 @compiled
 def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
-    solution = solve(sheet)
-    return figure(sheet, solution, path), solution.converged
+    solution = solve(sheet, sheets={path.partition(".")[0]})
+    return figure(solution, path), solution.converged
 
 
 def climb(sheet: Flowsheet, targets: tuple[Target, ...] = (), watch: Watch | None = None) -> tuple[Tried, list[Fault]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 
@@ -12,6 +12,11 @@ from granum.core.i18n import _
 from granum.flowsheet.plan import Block, Link, plan
 from granum.streams.stream import Stream
 from granum.streams.units import Unit
+
+if TYPE_CHECKING:
+    from granum.flowsheet.run import Run
+    from granum.flowsheet.specifications import Target
+    from granum.flowsheet.watching import Watch
 
 
 class Flowsheet(eqx.Module):
@@ -107,6 +112,16 @@ class Flowsheet(eqx.Module):
                         unit=unit,
                         port=port,
                     )
+
+    def solve(self, targets: tuple[Target, ...] = (), watch: Watch | None = None, title: str = "") -> Run:
+        """Solve, check and audit: figures, checks, flags, closures, note and report. Raises for whatever is not a solution, see ``Line.solve``.
+
+        ``targets`` are design specifications; ``watch`` is told of each pass through a loop, and may limit the time or stop.
+        For a pure function of the parameters, to batch or to differentiate, see ``granum.flowsheet.solve``.
+        """
+        from granum.flowsheet.run import Line
+
+        return Line(title, self, targets).solve(watch)
 
     @property
     def blocks(self) -> tuple[Block, ...]:

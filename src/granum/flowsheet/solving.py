@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -12,17 +11,15 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags
-from granum.core.errors import GranumError
-from granum.core.i18n import _
+from granum.flowsheet.passing import Made, is_known, known_or, pass_through, where
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.watching import reporter
 from granum.numerics import Anderson, Newton, Settled, fixed_point, settle, within_rounding
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
-from granum.streams.sharing import sharing
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Check
+from granum.streams.units import Check, Operated
 
 TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the size of the scaled flows
 TOLERANCE = 1e-12
@@ -64,71 +61,21 @@ def _unpack(vector: Any, mixture: Mixture, pressure: Any, scale: Any) -> Stream:
     return Stream(solid.reshape(shape), liquid, gas, vector[-1] * TEMPERATURE_SCALE, pressure, mixture)
 
 
-@contextmanager
-def named(unit: str) -> Iterator[None]:
-    """Whatever a unit refuses inside the block is told with its name."""
-    try:
-        yield
-    except GranumError as problem:
-        if "unit" not in problem.details:
-            problem.message = _("Unit '{unit}': {problem}").format(unit=unit, problem=problem.message)
-            problem.args, problem.details["unit"] = (problem.message,), unit
-        raise
-
-
-class _Made(NamedTuple):
-    streams: dict[str, Stream]
-    powers: dict[str, dict[str, Any]]
-    records: dict[str, list[flags.Record]]
-    sheets: dict[str, tuple[Any, tuple[Check, ...]]]
-
-
-def _known(stream: Stream) -> Any:
-    """Whether it carries numbers."""
-    return jnp.isfinite(stream.mass_flow + stream.temperature)
-
-
-def _where(known: Any, stream: Stream, instead: Stream) -> Stream:
-    return jax.tree.map(lambda here, spare: jnp.where(known, here, spare), stream, instead)
-
-
-def _run_block(line: Flowsheet, block: Block, streams: dict[str, Stream], sheets: bool, instead: Stream | None = None) -> _Made:
-    """One pass through the units of a block. Torn streams are read as given and made anew; ``instead`` goes on where a stream has no numbers."""
-    streams = dict(streams)
-    made = _Made({}, {}, {}, {})
-    for unit in block.units:
-        thing, inlets = line.units[unit], line.inlets_of(unit, streams)
-        with named(unit), sharing(), flags.collect() as records:
-            out = thing(**inlets)
-            if sheets:
-                made.sheets[unit] = (thing.results(inlets, out), thing.checks(inlets, out))
-        made.powers[unit] = {name: getattr(out, name) for name in thing.power_names()}
-        made.records[unit] = records
-        new = {k.name: getattr(out, k.origin.partition(".")[2]) for k in line.links if k.source_unit == unit}
-        made.streams.update(new)
-        onward = {name: s for name, s in new.items() if name not in block.tears}
-        streams |= onward if instead is None else {name: _where(_known(s), s, instead) for name, s in onward.items()}
-    return made
-
-
-def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, sheets: bool, method: Anderson | Newton, max_steps: int, watched: bool) -> tuple[_Made, Settled]:  # fmt: skip
+def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, asked: Any, method: Anderson | Newton, max_steps: int, watched: bool) -> tuple[Made, Settled]:  # fmt: skip
     """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
-    words: list[Any] = []  # names and sources among what is made, which are no numbers
     # nothing flows from a unit that has no answer yet, such as a dryer whose gas is still to come round
     first = next(iter(line.feeds.values()))
     nothing = empty(first.mixture, first.temperature, first.pressure)
-    guess = {n: _where(_known(s), s, nothing) for n, s in guess.items()}
+    guess = {n: known_or(s, nothing) for n, s in guess.items()}
 
     def torn(vector: Any) -> dict[str, Stream]:
         rows = vector.reshape(len(block.tears), -1)
         return {n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)}
 
     def once(vector: Any) -> tuple[Any, Any]:
-        made = _run_block(line, block, streams | torn(vector), sheets, nothing)
-        numbers, others = eqx.partition(made, eqx.is_array)
-        words[:] = [others]
-        come_round = (made.streams[n] for n in block.tears)
-        return jnp.concatenate([_pack(_where(_known(s), s, nothing), scale) for s in come_round]), numbers
+        made = pass_through(line, block, streams | torn(vector), asked, nothing)
+        come_round = (known_or(made.streams[n], nothing) for n in block.tears)
+        return jnp.concatenate([_pack(s, scale) for s in come_round]), made
 
     start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
     if isinstance(method, Anderson):
@@ -138,9 +85,9 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
         root = fixed_point(lambda x, _args: once(x)[0], start, method=method, tolerance=TOLERANCE, max_steps=max_steps, scale=1.0)
         good = root.residual <= within_rounding(root.state, TOLERANCE)
         found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
-    made = eqx.combine(found.made, words[0])
-    known = {n: _known(s) for n, s in made.streams.items()}
-    at_rest = {n: _where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
+    made = found.made
+    known = {n: is_known(s) for n, s in made.streams.items()}
+    at_rest = {n: where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
     return made._replace(streams=made.streams | at_rest), found._replace(converged=found.converged & jnp.all(jnp.stack([*known.values()])))
 
 
@@ -148,7 +95,7 @@ def solve(
     line: Flowsheet,
     start: Mapping[str, Stream] | None = None,
     *,
-    sheets: bool = False,
+    sheets: bool | Collection[str] = False,
     method: Anderson | Newton = Anderson(),
     max_steps: int = 200,
     watched: bool = False,
@@ -159,28 +106,33 @@ def solve(
     ----------
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
-    sheets: also work out figures and checks of every unit (then jit with ``eqx.filter_jit``: checks carry words).
+    sheets: also work out figures and checks: of every unit, of none, or of those named.
     method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn numbers), which compiles longer and
         solves some loops that do not contract. max_steps: most passes through a loop, or steps of Newton.
     watched: whether Anderson's method tells the ``Watch`` of each pass and stops when that asks for it.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
-    whole = _Made(streams, {}, {}, {})
+    whole = Made(streams, {}, {}, {})
     converged, steps, residual = jnp.asarray(True), [], []
     any_feed = next(iter(line.feeds.values()))
+    of = line.units if sheets is True else sheets or ()
+
+    def asked(unit: str, inlets: dict[str, Stream]) -> Operated:
+        return line.units[unit].operate(unit in of, **inlets)
+
     scale = sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(()))
     scale = jax.lax.stop_gradient(jnp.where(scale > 0, scale, 1.0))
     for block in line.blocks:
         if block.tears:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears}
-            made, found = _run_loop(line, block, streams, guess, scale, sheets, method, max_steps, watched)
+            made, found = _run_loop(line, block, streams, guess, scale, asked, method, max_steps, watched)
             converged = converged & found.converged
             steps.append(found.steps)
             residual.append(found.residual)
         else:
-            made = _run_block(line, block, streams, sheets)
+            made = pass_through(line, block, streams, asked)
         whole.streams.update(made.streams)
         whole.powers.update(made.powers)
         whole.records.update(made.records)

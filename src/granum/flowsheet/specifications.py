@@ -30,18 +30,10 @@ class Designed(NamedTuple):
     converged: Any
 
 
-def figure(line: Flowsheet, solution: Solution, path: str) -> Any:
-    """One result of a unit, ``unit.result``, from a solution."""
+def figure(solution: Solution, path: str) -> Any:
+    """One result of a unit, ``unit.result``, from a solution with the sheet of that unit."""
     unit, _dot, name = path.partition(".")
-    thing = line.units[unit]
-    return getattr(thing.results(line.inlets_of(unit, solution.streams), outlets_of(line, solution, unit)), name)
-
-
-def outlets_of(line: Flowsheet, solution: Solution, unit: str) -> Any:
-    """The outlets of a unit as its named tuple, rebuilt from a solution."""
-    thing = line.units[unit]
-    made = {k.origin.partition(".")[2]: solution.streams[k.name] for k in line.links if k.source_unit == unit}
-    return thing.outlet_type()(**made, **solution.powers[unit])
+    return getattr(solution.sheets[unit][0], name)
 
 
 def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False, **how: Any) -> Designed:
@@ -52,12 +44,13 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
     if not targets:
         solution = solve(line, sheets=sheets, **how)
         return Designed(line, solution, {}, solution.converged)
+    asked = {t.so_that.partition(".")[0] for t in targets}
     if len(targets) == 1:
         target = targets[0]
 
         def miss(x: Any) -> Any:
             changed = line.with_values({target.vary: x})
-            return (figure(changed, solve(changed, **how), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
+            return (figure(solve(changed, sheets=asked, **how), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
 
         root = find_root(miss, target.lower, target.upper)
         values, found = {target.vary: root.value}, root.converged
@@ -67,8 +60,8 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
 
         def misses(x: Any, _args: Any) -> Any:
             changed = line.with_values({t.vary: low[i] + width[i] * x[i] for i, t in enumerate(targets)})
-            solution = solve(changed, **how)
-            return jnp.stack([(figure(changed, solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets])
+            solution = solve(changed, sheets=asked, **how)
+            return jnp.stack([(figure(solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets])
 
         outcome = solve_system(misses, jnp.full((len(targets),), 0.5))
         inside = jnp.all((outcome.state >= 0) & (outcome.state <= 1))

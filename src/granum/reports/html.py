@@ -18,7 +18,6 @@ from granum.core.registry import find
 from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number, from_si
-from granum.flowsheet.drawing import draw, main_phase
 from granum.reports.mathml import mathml
 from granum.reports.quantities import (
     check_row,
@@ -30,6 +29,7 @@ from granum.reports.quantities import (
     stream_table,
     value_text,
 )
+from granum.streams.stream import main_phase
 
 
 def _row(p: Parameter, value: Any) -> dict[str, str]:
@@ -109,7 +109,7 @@ def size_chart(run: Any) -> Any:
 
 def course_chart(run: Any) -> Any:
     """Mass flow of every stream over the time of a run; None for a line that only stands."""
-    if run.line.case is None or run.line.case.dynamic is None:
+    if run.line.movement is None:
         return None
     course = run.line.march()
     flows = {
@@ -136,9 +136,7 @@ def _charts(run: Any) -> list[tuple[str, str]]:
         _("Run in time"): course_chart(run),
         _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
     }
-    for name in run.sheet.order:
-        inside = run.sheet.units[name].charts(run.sheet.inlets_of(name, run.streams))
-        found |= {f"{name} · {heading}": figure.update_layout(title_text="", margin_t=30) for heading, figure in inside.items()}
+    found |= {heading: figure.update_layout(title_text="", margin_t=30) for heading, figure in run.charts().items()}
     drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
     return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
 
@@ -147,14 +145,15 @@ def line_report(run: Any) -> str:
     """HTML of the report."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    case = run.line.case
+    told = run.line.told
+    described = told.get("description")
     units = [_unit_sheet(run, name) for name in run.sheet.order]
     keys = {p for name in run.sheet.order for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
-        (_("Project"), case.report.project if case else ""),
-        (_("Author"), case.report.author if case else ""),
-        (_("Date"), (case.report.date if case else "") or datetime.date.today().isoformat()),
+        (_("Project"), told.get("project", "")),
+        (_("Author"), told.get("author", "")),
+        (_("Date"), told.get("date") or datetime.date.today().isoformat()),
         (_("Program"), f"Granum {granum.__version__}"),
         (_("Inputs"), "sha256 " + hashlib.sha256(run.line.text.encode()).hexdigest()[:12]),
     ]
@@ -162,13 +161,13 @@ def line_report(run: Any) -> str:
     audit = run.audit
     numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
     return environment.get_template("line.html.j2").render(
-        _=_, lang=current_language(), run=run, description=_(case.description) if case and case.description else "",
+        _=_, lang=current_language(), run=run, description=_(described) if described else "",
         title_block=[(label, value) for label, value in block if value], units=units,
         checks=sum(len(u["checks"]) for u in units),
         failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
         flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
         audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
-        diagram=draw(run.sheet, run.streams), streams=stream_table(run), fits=_fit_sheets(run),
+        diagram=run.drawing(), streams=stream_table(run), fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=_charts(run),
         sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,

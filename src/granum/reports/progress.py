@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from granum.flowsheet.watching import Watch
+from typing import Any
 
 
 @contextmanager
@@ -24,17 +21,16 @@ def working(what: str, quiet: bool = False) -> Iterator[None]:
 
 
 @contextmanager
-def watching(what: str, seconds: float, quiet: bool = False) -> Iterator[Watch]:
-    """Shows how far each loop of a line is while the block solves it under the watch."""
+def watching(what: str, quiet: bool = False) -> Iterator[Callable[[str, int, float], None] | None]:
+    """Shows how far each loop of a line is while the block solves it: gives the function to tell; None as for ``advancing``."""
     from rich.console import Console
 
     from granum.core.i18n import _
     from granum.core.units import format_number
-    from granum.flowsheet.watching import Watch
 
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
-        yield Watch(seconds=seconds)
+        yield None
         return
     with console.status(what + " …") as status:
 
@@ -42,7 +38,7 @@ def watching(what: str, seconds: float, quiet: bool = False) -> Iterator[Watch]:
             told = _("loop through '{stream}': pass {number}, residual {residual}")
             status.update(f"{what} · {told.format(stream=loop, number=number, residual=format_number(residual, 2))}")
 
-        yield Watch(tell, seconds)
+        yield tell
 
 
 @contextmanager

@@ -13,7 +13,9 @@ from granum.core.cards import Card
 from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind, kind_of
+from granum.core.limits import Limit
 from granum.core.parameters import Parameter, default_as_json
+from granum.core.sources import cite
 from granum.core.units import field_units, format_number, from_si, pretty_unit, show
 from granum.streams.stream import median_size
 
@@ -172,21 +174,52 @@ class CheckRow(NamedTuple):
 
 def check_row(check: Any) -> CheckRow:
     """A check as people read it."""
-    kind = _kind_in(check.unit)
     value, low, high = float(check.value), float(check.low), float(check.high)
-    unit = check.unit
-    sized = value or next((x for x in (high, low) if math.isfinite(x)), 0.0)
-    if kind is not None and (kind.unit == "K" or field_units(kind) or not 0.05 <= abs(sized) < 1e4):
-        unit = Parameter("", kind).display_unit(sized)
-        value, low, high = (float(from_si(x, unit, kind)) for x in (value, low, high))
+    tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
     far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
     low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
-    tail = f" {pretty_unit(unit)}".rstrip()
-    if not math.isfinite(low) or not math.isfinite(high):
-        allowed = f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
-    else:
-        allowed = f"{format_number(low)} … {format_number(high)}"
-    return CheckRow(_(check.name), check.ok, format_number(value) + tail, allowed + tail)
+    return CheckRow(_(check.name), check.ok, format_number(value) + tail, _between(low, high) + tail)
+
+
+class LimitRow(NamedTuple):
+    """A practical limit of a unit before anything is calculated: what is allowed, and its source spelled out."""
+
+    name: str
+    allowed: str
+    source: str
+
+
+def limit_rows(card: Card) -> list[LimitRow]:
+    """The practical limits of a piece of equipment as people read them."""
+    return [LimitRow(_(limit.name), _allowed(limit, card), cite(limit.source)) for limit in card.limits]
+
+
+def _allowed(limit: Limit, card: Card) -> str:
+    words = [f"{sign} {card.parameter(end).label}" for sign, end in (("≥", limit.low), ("≤", limit.high)) if isinstance(end, str)]
+    low, high = -math.inf if isinstance(limit.low, str) else limit.low, math.inf if isinstance(limit.high, str) else limit.high
+    if math.isfinite(low) or math.isfinite(high):
+        tail, (low, high) = _shown(limit.unit, _end(low, high), low, high)
+        words.append(_between(low, high) + tail)
+    return ", ".join(words)
+
+
+def _end(low: float, high: float) -> float:
+    return next((x for x in (high, low) if math.isfinite(x)), 0.0)
+
+
+def _shown(unit: str, sized: float, *numbers: float) -> tuple[str, tuple[float, ...]]:
+    """The unit in which a number of this size is read, after a space, and numbers in it."""
+    kind = _kind_in(unit)
+    if kind is not None and (kind.unit == "K" or field_units(kind) or not 0.05 <= abs(sized) < 1e4):
+        unit = Parameter("", kind).display_unit(sized)
+        numbers = tuple(float(from_si(x, unit, kind)) for x in numbers)
+    return f" {pretty_unit(unit)}".rstrip(), numbers
+
+
+def _between(low: float, high: float) -> str:
+    if math.isfinite(low) and math.isfinite(high):
+        return f"{format_number(low)} … {format_number(high)}"
+    return f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
 
 
 def stream_figures(stream: Any) -> list[tuple[str, str]]:

@@ -24,6 +24,7 @@ from granum.reports.quantities import (
     estimate_rows,
     figure_named,
     label_of,
+    limit_rows,
     ranges_text,
     statistics_text,
     stream_table,
@@ -134,6 +135,11 @@ def print_card(card: Card) -> None:
         table = _table((_("output"), "left"), (_("quantity, unit"), "left"))
         for p in card.outputs:
             table.add_row(p.name, " · ".join(filter(None, (p.label, pretty_unit(p.kind.unit) if p.kind else ""))))
+        console.print(table)
+    if card.limits:
+        table = _table((_("practical limit"), "left"), (_("allowed"), "left"), (_("source"), "left"))
+        for row in limit_rows(card):
+            table.add_row(*row)
         console.print(table)
     if card.equation:
         console.print(Text(card.equation, style="cyan"))

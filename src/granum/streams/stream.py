@@ -281,3 +281,11 @@ def median_size(stream: Stream) -> float | None:
         return None
     edges = np.maximum(stream.mixture.edges, 1e-12)
     return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
+
+
+def main_phase(stream: Any) -> str:
+    """``gas`` for a gas stream, ``solid`` for a cake or powder, else ``liquid``."""
+    solid, liquid, gas = (float(x) for x in (stream.solid_flow, stream.liquid_flow, stream.gas_flow))
+    if gas > 0.5 * (solid + liquid + gas):
+        return "gas"
+    return "solid" if solid > 0.5 * (solid + liquid) else "liquid"

@@ -1,64 +1,139 @@
-"""``Unit``: what every piece of equipment is. Checks with their source; figures as named tuples."""
+"""``Unit``: what every piece of equipment is. It solves itself once and hands on one record; whatever else is told of it reads that record."""
 
 from __future__ import annotations
 
 import abc
 import inspect
 from collections.abc import Mapping
-from typing import Any, NamedTuple, get_type_hints
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, NamedTuple, final, get_type_hints
 
 import equinox as eqx
+import jax
 
+from granum.core import flags
+from granum.core.limits import Limit
+from granum.streams.sharing import sharing
 from granum.streams.stream import Stream
 
+Limits = dict[str, Limit]
 
-class Check(NamedTuple):
-    """A practical limit: passes when ``low ≤ value ≤ high``. ``name`` is an English phrase that has a French translation."""
 
-    name: str
+STATIC = {"static": True}
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class Check:
+    """A practical limit with what was measured: passes when ``low ≤ value ≤ high``. Travels through jit."""
+
+    name: str = field(metadata=STATIC)
     value: Any
-    low: float
-    high: float
-    unit: str
-    source: str
+    low: Any
+    high: Any
+    unit: str = field(metadata=STATIC)
+    source: str = field(metadata=STATIC)
 
     @property
     def ok(self) -> bool:
         """Whether the limit is kept."""
-        return bool(self.low <= float(self.value) <= self.high)
+        return bool(float(self.low) <= float(self.value) <= float(self.high))
+
+
+class Operated(NamedTuple):
+    """What a unit hands on: all that is ever told of it.
+
+    Parameters
+    ----------
+    outlets: streams and powers. figures: the data sheet (None, as ``checks`` are none, where only outlets were asked for).
+    checks: the limits of the class with what was measured. inside: what was worked out on the way, for charts and holdups.
+    records: what formulas flagged meanwhile.
+    """
+
+    outlets: Any
+    figures: Any
+    checks: tuple[Check, ...]
+    inside: Any
+    records: list[flags.Record]
 
 
 class Unit(eqx.Module):
     """Abstract equipment. A final subclass is a frozen module declared with ``@equipment``.
 
-    * ``__call__(self, feed, …) -> Outlets``: named inlets in; a ``NamedTuple`` out whose fields are streams, or powers in W
+    * ``inside(self, feed, …)``: the only place that solves anything; its result is handed to the other three.
+    * ``outlets(self, inside, feed, …) -> Outlets``: named inlets in; a ``NamedTuple`` out whose fields are streams, or powers in W
       that the unit takes up from outside (``heat_duty``, ``shaft_power``; negative when it gives them off). The audit
       closes enthalpy in + powers = enthalpy out.
-    * ``results(self, inlets, outlets) -> NamedTuple`` annotated with kinds: the figures of the data sheet.
-    * ``checks(self, inlets, outlets)``: practical limits.
+    * ``figures(self, inside, outlets, feed, …) -> NamedTuple`` annotated with kinds: the data sheet.
+    * ``limits``: practical limits by name; ``measured(self, inside, outlets, figures, feed, …)`` gives a number for each that applies.
     * ``Type.size(...)`` (class method) where sizing has a closed statement: the same equations, another unknown.
     """
 
-    @abc.abstractmethod
-    def __call__(self, *args: Stream, **inlets: Stream) -> Any:
+    limits: ClassVar[Limits] = {}
+
+    def inside(self, *args: Any, **inlets: Any) -> Any:
+        """What outlets, figures and limits have in common, worked out once; nothing by default."""
+        return None
+
+    def outlets(self, inside: Any, *args: Any, **inlets: Any) -> Any:
         """Outlet streams and powers."""
+        raise NotImplementedError
 
-    @abc.abstractmethod
-    def results(self, inlets: Mapping[str, Stream], outlets: Any) -> Any:
+    def figures(self, inside: Any, outlets: Any, *args: Any, **inlets: Any) -> Any:
         """Figures of the data sheet."""
+        raise NotImplementedError
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Any) -> tuple[Check, ...]:
-        """Practical limits; none by default."""
-        return ()
+    def measured(self, inside: Any, outlets: Any, figures: Any, *args: Any, **inlets: Any) -> dict[str, Any]:
+        """One number for each limit that applies."""
+        return {}
 
-    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+    @final
+    def operate(self, whole: bool = True, /, **inlets: Stream) -> Operated:
+        """The one pass: everything about this unit for these inlets; without figures and checks where not ``whole``."""
+        figures: Any = None
+        checks: tuple[Check, ...] = ()
+        with sharing(), flags.collect() as records:
+            if type(self).__call__ is not Unit.__call__:  # a unit that still answers each question by itself
+                inside, outlets = None, self(**inlets)
+                if whole:
+                    figures = self.results(inlets, outlets)  # type: ignore[attr-defined]
+                    checks = tuple(self.checks(inlets, outlets)) if hasattr(self, "checks") else ()  # type: ignore[attr-defined]
+            else:
+                inside = self.inside(**inlets)
+                outlets = self.outlets(inside, **inlets)
+                if whole:
+                    figures = self.figures(inside, outlets, **inlets)
+                    measured = self.measured(inside, outlets, figures, **inlets)
+                    checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
+        flags.hand_on(records)
+        return Operated(outlets, figures, checks, inside, records)
+
+    def __call__(self, *args: Stream, **inlets: Stream) -> Any:
+        """Outlet streams and powers, of ``operate``."""
+        named = dict(zip(self.inlet_names() or (), args, strict=False))
+        return self.operate(False, **named, **inlets).outlets
+
+    def _checked(self, limit: Limit, value: Any) -> Check:
+        low, high = (getattr(self, end) if isinstance(end, str) else end for end in (limit.low, limit.high))
+        return Check(limit.name, value, low, high, limit.unit, limit.source)
+
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         """Pictures of what happens inside, by their heading, for the report; none by default."""
         return {}
 
     @classmethod
+    def _balance(cls) -> Any:
+        """The method whose signature names the ports."""
+        return cls.outlets if cls.__call__ is Unit.__call__ else cls.__call__
+
+    @classmethod
+    def _ports(cls) -> list[inspect.Parameter]:
+        return [p for name, p in inspect.signature(cls._balance()).parameters.items() if name not in ("self", "inside")]
+
+    @classmethod
     def inlet_names(cls) -> tuple[str, ...] | None:
         """Names of the inlet ports; None when any number of any name is taken (a mixer)."""
-        found = [p for name, p in inspect.signature(cls.__call__).parameters.items() if name != "self"]
+        found = cls._ports()
         if any(p.kind is inspect.Parameter.VAR_KEYWORD for p in found):
             return None
         return tuple(p.name for p in found)
@@ -66,12 +141,12 @@ class Unit(eqx.Module):
     @classmethod
     def optional_inlets(cls) -> tuple[str, ...]:
         """Inlet ports that may stay open."""
-        return tuple(name for name, p in inspect.signature(cls.__call__).parameters.items() if p.default is None)
+        return tuple(p.name for p in cls._ports() if p.default is None)
 
     @classmethod
     def outlet_type(cls) -> type:
         """The named tuple of outlets."""
-        return get_type_hints(cls.__call__)["return"]
+        return get_type_hints(cls._balance())["return"]
 
     @classmethod
     def outlet_names(cls) -> tuple[str, ...]:

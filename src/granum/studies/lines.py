@@ -23,7 +23,7 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
-from granum.flowsheet.specifications import Designed, Target, design, outlets_of
+from granum.flowsheet.specifications import Designed, Target, design
 from granum.streams.stream import Stream
 from granum.studies.expressions import Lookup
 from granum.studies.subjects import (
@@ -170,12 +170,10 @@ class LineSubject(Subject):
         return self.sheet
 
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
-        found = design(self._changed(arrays, values), self.targets)
+        found = design(self._changed(arrays, values), self.targets, sheets=True)
         code = verdict(found)
         line, streams = found.line, found.solution.streams
-        for found_here in (r for records in found.solution.records.values() for r in records):
-            flags.record(found_here.bit, found_here.mask, found_here.value, found_here.name, found_here.card)
-        results: dict[str, Any] = {}
+        flags.hand_on([r for records in found.solution.records.values() for r in records])
 
         def lookup(path: str) -> Any:
             plain, index = split_index(path)
@@ -186,9 +184,7 @@ class LineSubject(Subject):
                     value = getattr(thing, name)
                     return value if index is None else value[index]
                 if name in {p.name for p in type(thing).card.outputs}:
-                    if unit not in results:
-                        results[unit] = thing.results(line.inlets_of(unit, streams), outlets_of(line, found.solution, unit))
-                    value = getattr(results[unit], name)
+                    value = getattr(found.solution.sheets[unit][0], name)
                     return value if index is None else value[index]
                 if name in thing.power_names():
                     return found.solution.powers[unit][name]

@@ -12,10 +12,10 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.cases.line import Line
 from granum.core.errors import ConvergenceError
 from granum.flowsheet import Flowsheet, closures, solve
 from granum.flowsheet.packing import compiled
+from granum.flowsheet.run import Line
 from granum.flowsheet.specifications import Target
 from granum.numerics import Anderson, Newton
 from granum.streams.equipment.basics import Mixer, Splitter

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -36,20 +35,16 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )
+from granum.core.limits import Limit
 from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.dissolution import dissolved_share
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 RPM = 0.10471975511965977  # radian/s
 TRICKLE, THIN = 1e-15, 1e-12  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
-_USE = "share of the capacity in use"
-_FLOOD = "filtrate over the critical flow (flooding)"
-_COARSE = "particle diameter"
-_RICH = "solids in the feed by volume"
-_EFFECT = "centrifugal effect"
-_LAYER = "cake thickness"
+Ends = tuple[float, float]
 
 
 class Spin(NamedTuple):
@@ -81,6 +76,30 @@ class SpinFigures(NamedTuple):
     moisture_dry_basis: MoistureDryBasis
     dissolved_share: Fraction
     shaft_power: Power
+
+
+class Spun(NamedTuple):
+    """The cake of a machine: its cycle, thickness, wash liquor per void volume, mother liquor that washing leaves, saturation at discharge."""
+
+    spin: Spin
+    thickness: Any
+    wash_ratio: Any
+    left: Any
+    saturation: Any
+
+
+def machine_limits(*, diameter: float, solids: Ends, effect: Ends, layer: Ends) -> Limits:
+    """Limits that every machine has, with its own ends."""
+    source = "perry2008, § 18"
+    return {
+        "coarse": Limit("particle diameter", diameter, 1e-2, "m", source),
+        "rich": Limit("solids in the feed by volume", *solids, "dimensionless", source),
+        "effect": Limit("centrifugal effect", *effect, "dimensionless", source),
+        "layer": Limit("cake thickness", *layer, "m", source),
+    }
+
+
+FLOODING: Limits = {"flood": Limit("filtrate over the critical flow (flooding)", 0.0, 1.0, "dimensionless", "storrow1957")}
 
 
 class FilteringCentrifuge(Unit):
@@ -162,42 +181,45 @@ class FilteringCentrifuge(Unit):
             lowest,
         )
 
-    def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
+    def inside(self, feed: Stream, wash: Stream | None = None) -> Spun:
+        spin = self.spin(feed, wash)
+        left, wet = self.solute_left(feed, wash), self.saturation(feed, spin)
+        return Spun(spin, jnp.asarray(self.thickness(feed), dtype=float), self.wash_ratio(feed, wash), left, wet)
+
+    def outlets(self, inside: Spun, feed: Stream, wash: Stream | None = None) -> Filtered:
         parted = part_cake(
-            feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction,
-            saturation=self.saturation(feed, self.spin(feed, wash)), left=self.solute_left(feed, wash),
-        )  # fmt: skip
+            feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=inside.saturation, left=inside.left
+        )
         return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> SpinFigures:
-        feed, wash = inlets["feed"], inlets.get("wash")
-        spin = self.spin(feed, wash)
+    def figures(self, inside: Spun, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> SpinFigures:
+        spin = inside.spin
         return SpinFigures(
             capacity_use=spin.capacity_use,
-            cake_thickness=jnp.asarray(self.thickness(feed), dtype=float),
+            cake_thickness=inside.thickness,
             loading_time=spin.loading_time,
             wash_time=spin.wash_time,
             spin_off_time=spin.spin_off_time,
             drainage_time=spin.drainage_time,
             cycle_time=spin.cycle_time,
             centrifugal_effect=centrifugal_effect(self.radius_outer, self.rotation_speed),
-            wash_ratio=self.wash_ratio(feed, wash),
-            solute_remaining=self.solute_left(feed, wash),
-            cake_saturation=self.saturation(feed, spin),
+            wash_ratio=inside.wash_ratio,
+            solute_remaining=inside.left,
+            cake_saturation=inside.saturation,
             moisture_dry_basis=outlets.cake.moisture_dry_basis,
             dissolved_share=dissolved_share(feed, self.solids_recovery, outlets.cake),
             shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
         )
 
-    def limits(self, feed: Stream, *, diameter: float, solids: tuple[float, float], effect: tuple[float, float], layer: tuple[float, float],
-               source: str) -> tuple[Check, ...]:  # fmt: skip
-        """Checks that every machine has, with its own ends."""
-        return (
-            Check(_COARSE, solid_diameter(feed, self.particle_diameter), diameter, 1e-2, "m", source),
-            Check(_RICH, feed.solids_volume_fraction, *solids, "dimensionless", source),
-            Check(_EFFECT, centrifugal_effect(self.radius_outer, self.rotation_speed), *effect, "dimensionless", source),
-            Check(_LAYER, self.thickness(feed), *layer, "m", source),
-        )
+    def measured(self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return {
+            "use": inside.spin.capacity_use,
+            "flood": inside.spin.flooding,
+            "coarse": solid_diameter(feed, self.particle_diameter),
+            "rich": feed.solids_volume_fraction,
+            "effect": figures.centrifugal_effect,
+            "layer": inside.thickness,
+        }
 
 
 class SetCake(FilteringCentrifuge):
@@ -228,6 +250,11 @@ class Peeler(SetCake):
     dead_time: Time = 60.0
     basket_number: PositiveNumber = 1.0
 
+    limits: ClassVar[Limits] = {
+        "use": Limit("share of the capacity in use", 0.0, 1.0, "dimensionless", "grace1953"),
+        **machine_limits(diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2)),
+    }
+
     @property
     def height(self) -> Any:
         return self.basket_height
@@ -247,13 +274,6 @@ class Peeler(SetCake):
         use = cake_flow * cycle / (self.cake_volume * self.basket_number)
         return Spin(loading, washing, falling, jnp.asarray(self.drainage_time, dtype=float), cycle, use, jnp.zeros(()))
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        return (
-            Check(_USE, self.spin(feed, inlets.get("wash")).capacity_use, 0.0, 1.0, "dimensionless", "grace1953"),
-            *self.limits(feed, diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2), source="perry2008, § 18"),
-        )
-
 
 @equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")
 class Pusher(SetCake):
@@ -265,6 +285,8 @@ class Pusher(SetCake):
     basket_length: Length
     feed_share: Fraction = 0.25
     wash_share: Fraction = 0.25
+
+    limits: ClassVar[Limits] = FLOODING | machine_limits(diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08))
 
     @property
     def height(self) -> Any:
@@ -281,10 +303,3 @@ class Pusher(SetCake):
         flooding = jnp.maximum(forming, washing)
         wash_time = jnp.zeros(()) if wash is None else self.wash_share * stay
         return Spin(self.feed_share * stay, wash_time, jnp.zeros(()), drain, stay, flooding, flooding)
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        return (
-            Check(_FLOOD, self.spin(feed, inlets.get("wash")).flooding, 0.0, 1.0, "dimensionless", "storrow1957"),
-            *self.limits(feed, diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08), source="perry2008, § 18"),
-        )

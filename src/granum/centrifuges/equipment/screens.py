@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
+import math
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
-from granum.centrifuges.equipment.filtering import FilteringCentrifuge, Spin
+from granum.centrifuges.equipment.filtering import FLOODING, FilteringCentrifuge, Spin, SpinFigures, Spun, machine_limits
 from granum.centrifuges.formulas.conveying import sliding_ratio, stay_time_scroll, tumbling_angle_least, vibration_acceleration_least
 from granum.centrifuges.formulas.spinning import filtrate_flow_critical
 from granum.core import equipment
 from granum.core.kinds import Acceleration, Angle, Fraction, Length, RotationSpeed, Time, Within
+from granum.core.limits import Limit
 from granum.streams.cakes import Filtered, void_flow
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
 
 LEAST, THINNEST = 1e-12, 1e-9
-_FLOOD = "filtrate over the critical flow (flooding)"
-_SLIDES = "slope of the cone over the friction of the cake"
-_SHAKES = "vibration over the least that moves the cake"
-_TUMBLES = "tumbling angle over the least that moves the cake"
 ConeAngle = Annotated[Angle, Within(0.0, 1.2)]
+
+
+def _screen_limits(finest: float, effect: tuple[float, float]) -> Limits:
+    return FLOODING | machine_limits(diameter=finest, solids=(0.1, 0.65), effect=effect, layer=(0.0, 0.04))
 
 
 class ConicalScreen(FilteringCentrifuge):
@@ -36,8 +37,6 @@ class ConicalScreen(FilteringCentrifuge):
     _: KW_ONLY
     feed_share: Fraction = 0.3
     wash_share: Fraction = 0.2
-    finest: ClassVar[float]
-    effects: ClassVar[tuple[float, float]]
 
     @property
     @abc.abstractmethod
@@ -62,13 +61,6 @@ class ConicalScreen(FilteringCentrifuge):
         stay, flooding = jnp.asarray(self.stay, dtype=float), jnp.maximum(forming, washing)
         return Spin(self.feed_share * stay, washed * stay, jnp.zeros(()), (1.0 - self.feed_share - washed) * stay, stay, flooding, flooding)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        return (
-            Check(_FLOOD, self.spin(feed, inlets.get("wash")).flooding, 0.0, 1.0, "dimensionless", "storrow1957"),
-            *self.limits(feed, diameter=self.finest, solids=(0.1, 0.65), effect=self.effects, layer=(0.0, 0.04), source="perry2008, § 18"),
-        )
-
 
 @equipment("scroll_screen", source="records2001; perry2008, § 18; storrow1957", title="Scroll-screen centrifuge")
 class ScrollScreen(ConicalScreen):
@@ -76,8 +68,8 @@ class ScrollScreen(ConicalScreen):
 
     scroll_pitch: Length
     differential_speed: RotationSpeed
-    finest: ClassVar[float] = 6e-5
-    effects: ClassVar[tuple[float, float]] = (300.0, 3000.0)
+
+    limits: ClassVar[Limits] = _screen_limits(6e-5, (300.0, 3000.0))
 
     @property
     def stay(self) -> Any:
@@ -96,17 +88,24 @@ class SlidingScreen(ConicalScreen):
     def stay(self) -> Any:
         return self.stay_time
 
+    @abc.abstractmethod
+    def mobility(self) -> Any:
+        """What moves the cake over the least that does."""
+
+    def measured(self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"moves": self.mobility()}
+
 
 @equipment("sliding_screen", source="leung1998; perry2008, § 18", title="Conical sliding-cake centrifuge")
 class SlidingCakeScreen(SlidingScreen):
     """Conical screen steep enough that the cake slides out by itself; the cone must fit the product."""
 
-    finest: ClassVar[float] = 2e-4
-    effects: ClassVar[tuple[float, float]] = (300.0, 3000.0)
+    limits: ClassVar[Limits] = _screen_limits(2e-4, (300.0, 3000.0)) | {
+        "moves": Limit("slope of the cone over the friction of the cake", 1.0, 1.5, "dimensionless", "leung1998")
+    }
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        slope = sliding_ratio(self.cone_angle, self.friction_angle)
-        return (*super().checks(inlets, outlets), Check(_SLIDES, slope, 1.0, 1.5, "dimensionless", "leung1998"))
+    def mobility(self) -> Any:
+        return sliding_ratio(self.cone_angle, self.friction_angle)
 
 
 @equipment("vibrating_screen", source="leung1998; perry2008, § 18", title="Vibrating-screen centrifuge")
@@ -114,13 +113,14 @@ class VibratingScreen(SlidingScreen):
     """Flat conical screen shaken along its axis, so that the cake steps forward: coarse, rich feeds, coal above all."""
 
     vibration_acceleration: Acceleration
-    finest: ClassVar[float] = 3e-4
-    effects: ClassVar[tuple[float, float]] = (30.0, 200.0)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
+    limits: ClassVar[Limits] = _screen_limits(3e-4, (30.0, 200.0)) | {
+        "moves": Limit("vibration over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998")
+    }
+
+    def mobility(self) -> Any:
         least = vibration_acceleration_least(self.rotation_speed, self.radius_outer, self.cone_angle, self.friction_angle)
-        ratio = self.vibration_acceleration / jnp.maximum(least, LEAST)
-        return (*super().checks(inlets, outlets), Check(_SHAKES, ratio, 1.0, jnp.inf, "dimensionless", "leung1998"))
+        return self.vibration_acceleration / jnp.maximum(least, LEAST)
 
 
 @equipment("tumbling_screen", source="leung1998; perry2008, § 18", title="Tumbling centrifuge")
@@ -128,9 +128,10 @@ class TumblingScreen(SlidingScreen):
     """Flat conical screen whose axis tumbles, so that each side in turn is steep enough for the cake to slide."""
 
     tumbling_angle: ConeAngle
-    finest: ClassVar[float] = 5e-4
-    effects: ClassVar[tuple[float, float]] = (30.0, 400.0)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        ratio = self.tumbling_angle / jnp.maximum(tumbling_angle_least(self.cone_angle, self.friction_angle), LEAST)
-        return (*super().checks(inlets, outlets), Check(_TUMBLES, ratio, 1.0, jnp.inf, "dimensionless", "leung1998"))
+    limits: ClassVar[Limits] = _screen_limits(5e-4, (30.0, 400.0)) | {
+        "moves": Limit("tumbling angle over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998")
+    }
+
+    def mobility(self) -> Any:
+        return self.tumbling_angle / jnp.maximum(tumbling_angle_least(self.cone_angle, self.friction_angle), LEAST)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -35,18 +34,14 @@ from granum.core.kinds import (
     RotationSpeed,
     Within,
 )
+from granum.core.limits import Limit
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 RPM = 0.10471975511965977  # radian/s
 HINDRANCE = 4.65  # Richardson and Zaki's exponent for slow settling
-_SLENDER = "bowl length over radius"
-_SOLIDS = "solids in the feed by volume"
-_FLOW = "feed flow"
-_EFFECT = "centrifugal effect"
-_SPEED = "rotation speed"
-_POND = "inner over outer radius"
+Ends = tuple[float, float]
 
 
 class Clarified(NamedTuple):
@@ -66,6 +61,19 @@ class ClarifierFigures(NamedTuple):
     shaft_power: Power
     moisture_dry_basis: MoistureDryBasis
     mass_flow_sediment: MassFlow
+
+
+def _machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Limits:
+    """Limits that every machine has, with its own ends."""
+    return {
+        "solids": Limit("solids in the feed by volume", *solids, "dimensionless", source),
+        "flow": Limit("feed flow", *flow, "m^3/s", source),
+        "effect": Limit("centrifugal effect", *effect, "dimensionless", source),
+    }
+
+
+def _slender(low: float, high: float) -> Limits:
+    return {"slender": Limit("bowl length over radius", low, high, "dimensionless", "robatel1989")}
 
 
 class SettlingCentrifuge(Unit):
@@ -108,7 +116,7 @@ class SettlingCentrifuge(Unit):
         hindered = velocity / effect * (1.0 - feed.solids_volume_fraction) ** HINDRANCE
         return self.efficiency(self.sigma_efficiency * hindered, jnp.maximum(feed.slurry_volume_flow, 1e-300))
 
-    def __call__(self, feed: Stream) -> Clarified:
+    def outlets(self, inside: None, feed: Stream) -> Clarified:
         caught = feed.part(solid=feed.by_size(self.grade(feed)))
         void = caught.solid_flow / feed.solid_density * (1.0 / self.sediment_solids_fraction - 1.0)
         flow = feed.liquid_volume_flow
@@ -117,8 +125,7 @@ class SettlingCentrifuge(Unit):
         overflow = feed.replace(solid=feed.solid - sediment.solid, liquid=feed.liquid - sediment.liquid)
         return Clarified(sediment, overflow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Clarified) -> ClarifierFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> ClarifierFigures:
         total = feed.solid_flow
         return ClarifierFigures(
             solids_recovery=outlets.sediment.solid_flow / jnp.where(total > 0, total, 1.0),
@@ -134,15 +141,14 @@ class SettlingCentrifuge(Unit):
             mass_flow_sediment=outlets.sediment.mass_flow,
         )  # fmt: skip
 
-    def limits(
-        self, feed: Stream, *, solids: tuple[float, float], flow: tuple[float, float], effect: tuple[float, float], source: str
-    ) -> tuple[Check, ...]:
-        """Checks that every machine has, with its own ends."""
-        return (
-            Check(_SOLIDS, feed.solids_volume_fraction, *solids, "dimensionless", source),
-            Check(_FLOW, feed.slurry_volume_flow, *flow, "m^3/s", source),
-            Check(_EFFECT, centrifugal_effect(self.radius_outer, self.rotation_speed), *effect, "dimensionless", source),
-        )
+    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
+        return {
+            "solids": feed.solids_volume_fraction,
+            "flow": feed.slurry_volume_flow,
+            "effect": figures.centrifugal_effect,
+            "speed": self.rotation_speed,
+            "pond": self.radius_inner / self.radius_outer,
+        }
 
 
 @equipment("tubular_bowl", source="ambler1959; svarovsky2001", title="Tubular bowl centrifuge",
@@ -154,17 +160,18 @@ class TubularBowl(SettlingCentrifuge):
     _: KW_ONLY
     sigma_efficiency: PositiveNumber = 0.9
 
+    limits: ClassVar[Limits] = _machine_limits(
+        solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"
+    ) | _slender(8.0, 16.0)
+
+    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {"slender": self.bowl_length / self.radius_outer}
+
     def sigma(self) -> Any:
         return sigma_factor_tubular_half_area(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
 
     def efficiency(self, velocity: Any, flow: Any) -> Any:
         return grade_efficiency_tubular(velocity, flow, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
-        return (
-            *self.limits(inlets["feed"], solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"),
-            Check(_SLENDER, self.bowl_length / self.radius_outer, 8.0, 16.0, "dimensionless", "robatel1989"),
-        )
 
 
 @equipment("disc_stack", source="ambler1959; svarovsky2001", title="Disc stack centrifuge",
@@ -177,14 +184,12 @@ class DiscStack(SettlingCentrifuge):
     _: KW_ONLY
     sigma_efficiency: PositiveNumber = 0.55
 
+    limits: ClassVar[Limits] = _machine_limits(
+        solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"
+    ) | {"speed": Limit("rotation speed", 0.0, 12000 * RPM, "radian/s", "robatel1989")}
+
     def sigma(self) -> Any:
         return sigma_factor_disc(self.disc_number, self.radius_inner, self.radius_outer, self.rotation_speed, self.disc_angle)
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
-        return (
-            *self.limits(inlets["feed"], solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"),
-            Check(_SPEED, self.rotation_speed, 0.0, 12000 * RPM, "radian/s", "robatel1989"),
-        )
 
 
 @equipment("scroll_decanter", source="ambler1959; records2001", title="Scroll decanter",
@@ -195,14 +200,15 @@ class ScrollDecanter(SettlingCentrifuge):
     bowl_length: Length
     beach_length: Distance = 0.0
 
+    limits: ClassVar[Limits] = _machine_limits(
+        solids=(0.02, 0.5), flow=(0.0, 200.0 / 3600), effect=(300.0, 3000.0), source="robatel1989"
+    ) | _slender(3.0, 7.0)
+
+    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {"slender": self.bowl_length / self.radius_outer}
+
     def sigma(self) -> Any:
         return sigma_factor_scroll(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed, self.beach_length)
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
-        return (
-            *self.limits(inlets["feed"], solids=(0.02, 0.5), flow=(0.0, 200.0 / 3600), effect=(300.0, 3000.0), source="robatel1989"),
-            Check(_SLENDER, self.bowl_length / self.radius_outer, 3.0, 7.0, "dimensionless", "robatel1989"),
-        )
 
 
 @equipment("solid_basket", source="ambler1959; svarovsky2001", title="Solid-basket centrifuge")
@@ -211,6 +217,10 @@ class SolidBasket(SettlingCentrifuge):
 
     bowl_length: Length
     working_share: Annotated[Fraction, Within(0.01, 1.0)] = 0.8
+
+    limits: ClassVar[Limits] = _machine_limits(
+        solids=(0.0, 0.1), flow=(0.0, 20.0 / 3600), effect=(300.0, 2000.0), source="perry2008, § 18"
+    ) | {"pond": Limit("inner over outer radius", 0.5, 0.95, "dimensionless", "perry2008, § 18")}
 
     @property
     def flow_multiple(self) -> Any:
@@ -222,10 +232,4 @@ class SolidBasket(SettlingCentrifuge):
     def efficiency(self, velocity: Any, flow: Any) -> Any:
         return grade_efficiency_tubular(
             velocity, flow / self.working_share, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
-        )
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: Clarified) -> tuple[Check, ...]:
-        return (
-            *self.limits(inlets["feed"], solids=(0.0, 0.1), flow=(0.0, 20.0 / 3600), effect=(300.0, 2000.0), source="perry2008, § 18"),
-            Check(_POND, self.radius_inner / self.radius_outer, 0.5, 0.95, "dimensionless", "perry2008, § 18"),
         )

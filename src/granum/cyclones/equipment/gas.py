@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Law, Length, MassRatio, PositiveNumber, Pressure, PressureDrop, Speed, Within
+from granum.core.limits import Limit
 from granum.cyclones.formulas.efficiency import (
     cut_size_muschelknautz,
     cyclone_efficiency_muschelknautz,
@@ -19,7 +19,7 @@ from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_v
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 LEAST = 1e-9
 MILD_STEEL = 1.2e9  # Pa, flow stress near the Vickers hardness
@@ -47,6 +47,18 @@ class CycloneFigures(NamedTuple):
     wear_velocity: Speed
 
 
+class Swirl(NamedTuple):
+    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by the swirl, saltation velocity, wear, m/s."""
+
+    velocity: Any
+    cut: Any
+    loading: Any
+    carried: Any
+    pressure_drop: Any
+    saltation: Any
+    wear: Any
+
+
 @equipment("gas_cyclone", source="hoffmann2008; muschelknautz1972; stairmand1949", title="Gas cyclone")
 class GasCyclone(Unit):
     """One or several equal cyclones in parallel: a grade efficiency for every size class, and the overload that falls out at the inlet.
@@ -63,6 +75,12 @@ class GasCyclone(Unit):
     inlet_heads: Annotated[Any, Law("inlet_heads")] = inlet_heads_stairmand
     wall_hardness: Pressure = MILD_STEEL
 
+    limits: ClassVar[Limits] = {
+        "velocity": Limit("inlet velocity", 10.0, 27.0, "m/s", "hoffmann2008"),
+        "saltation": Limit("inlet velocity over saltation velocity", 0.8, 1.36, "dimensionless", "kalen1974"),
+        "wear": Limit("wear of the wall in a year of operation", 0.0, ALLOWANCE, "mm", OWN_LIMIT),
+    }
+
     @property
     def dimensions(self) -> Dimensions:
         """Lengths of each cyclone."""
@@ -75,12 +93,6 @@ class GasCyclone(Unit):
         rho = feed.gas_density
         return jnp.where(rho > 0.0, rho, LEAST)  # without gas nothing is carried
 
-    def _loading(self, feed: Stream) -> Any:
-        return safe_divide(feed.solid_flow, feed.gas_flow)
-
-    def _velocity(self, feed: Stream) -> Any:
-        return self._flow(feed) / (self.dimensions.inlet_height * self.dimensions.inlet_width)
-
     def grade(self, feed: Stream) -> Any:
         """Share of each species and size class collected by the inner vortex."""
         m = feed.mixture
@@ -88,62 +100,47 @@ class GasCyclone(Unit):
         size = jnp.asarray(m.sizes) + 0.0 * density
         return self.cyclone_efficiency(size, self._flow(feed), density, self._density(feed), feed.gas_viscosity, *self.dimensions)
 
-    def limit(self, feed: Stream) -> tuple[Any, Any]:
-        """Cut size of the swirl with this dust, and the dust per gas that the swirl carries."""
-        loading = self._loading(feed)
-        cut = cut_size_muschelknautz(
-            self._flow(feed), feed.solid_density, self._density(feed), feed.gas_viscosity, *self.dimensions, loading
-        )
+    def inside(self, feed: Stream) -> Swirl:
+        shape, density = self.dimensions, self._density(feed)
+        velocity = self._flow(feed) / (shape.inlet_height * shape.inlet_width)
+        loading = safe_divide(feed.solid_flow, feed.gas_flow)
+        cut = cut_size_muschelknautz(self._flow(feed), feed.solid_density, density, feed.gas_viscosity, *shape, loading)
         below = jnp.cumsum(feed.size_fractions)
         edges = jnp.asarray(feed.mixture.edges)
         median = jnp.exp(jnp.interp(0.5, below, jnp.log(jnp.maximum(edges[1:], LEAST))))
-        return cut, limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median)
+        saltation = saltation_velocity_kalen_zenz(
+            velocity, self.diameter, shape.inlet_width, feed.solid_density, density, feed.gas_viscosity
+        )
+        return Swirl(
+            velocity, cut, loading, limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
+            self.inlet_heads(*shape) * 0.5 * density * velocity**2, saltation, self._wear(feed, velocity),
+        )  # fmt: skip
 
-    def collected(self, feed: Stream) -> Any:
-        """Share of each species and size class collected, the overload included."""
-        _cut, carried = self.limit(feed)
-        loading = self._loading(feed)
-        share = jnp.clip(safe_divide(carried, loading, otherwise=1.0), 0.0, 1.0)  # of the dust that stays with the gas past the inlet
-        return 1.0 - share * (1.0 - self.grade(feed))
-
-    def _pressure_drop(self, feed: Stream) -> Any:
-        return self.inlet_heads(*self.dimensions) * 0.5 * self._density(feed) * self._velocity(feed) ** 2
-
-    def __call__(self, feed: Stream) -> CycloneOutlets:
-        share = self.collected(feed)
+    def outlets(self, inside: Swirl, feed: Stream) -> CycloneOutlets:
+        passes = jnp.clip(
+            safe_divide(inside.carried, inside.loading, otherwise=1.0), 0.0, 1.0
+        )  # of the dust that stays with the gas past the inlet
+        share = 1.0 - passes * (1.0 - self.grade(feed))
         share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
         total = safe_divide(jnp.sum(feed.solid * share), feed.solid_flow)
         dust = feed.part(solid=share, liquid=total)
         gas = feed.replace(solid=feed.solid - dust.solid, liquid=feed.liquid - dust.liquid)
-        return CycloneOutlets(gas.replace(pressure=jnp.maximum(feed.pressure - self._pressure_drop(feed), 1.0)), dust)
+        return CycloneOutlets(gas.replace(pressure=jnp.maximum(feed.pressure - inside.pressure_drop, 1.0)), dust)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: CycloneOutlets) -> CycloneFigures:
-        feed = inlets["feed"]
-        cut, carried = self.limit(feed)
+    def figures(self, inside: Swirl, outlets: CycloneOutlets, feed: Stream) -> CycloneFigures:
         return CycloneFigures(
-            self._velocity(feed), safe_divide(outlets.dust.solid_flow, feed.solid_flow), cut, self._pressure_drop(feed),
-            self._saltation(feed), self._loading(feed), carried, self._wear(feed),
+            inside.velocity, safe_divide(outlets.dust.solid_flow, feed.solid_flow), inside.cut, inside.pressure_drop,
+            inside.saltation, inside.loading, inside.carried, inside.wear,
         )  # fmt: skip
 
-    def _saltation(self, feed: Stream) -> Any:
-        return saltation_velocity_kalen_zenz(
-            self._velocity(feed), self.diameter, self.dimensions.inlet_width, feed.solid_density, self._density(feed), feed.gas_viscosity
-        )
+    def measured(self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream) -> dict[str, Any]:
+        return {"velocity": inside.velocity, "saltation": inside.velocity / inside.saltation, "wear": 1e3 * YEAR * inside.wear}
 
-    def _wear(self, feed: Stream) -> Any:
+    def _wear(self, feed: Stream, velocity: Any) -> Any:
         shape, m = self.dimensions, feed.mixture
         dust = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         flux = dust / (self.parallel_number * shape.inlet_height * shape.inlet_width)
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * dust
         size = jnp.asarray(m.sizes) + 0.0 * dust
-        return jnp.sum(wear_velocity_cyclone_inlet(self._velocity(feed), flux, self.diameter, shape.inlet_width, size, density,
+        return jnp.sum(wear_velocity_cyclone_inlet(velocity, flux, self.diameter, shape.inlet_width, size, density,
                                                    feed.gas_viscosity, self.wall_hardness))  # fmt: skip
-
-    def checks(self, inlets: Mapping[str, Stream], outlets: CycloneOutlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        v = self._velocity(feed)
-        return (
-            Check("inlet velocity", v, 10.0, 27.0, "m/s", "hoffmann2008"),
-            Check("inlet velocity over saltation velocity", v / self._saltation(feed), 0.8, 1.36, "dimensionless", "kalen1974"),
-            Check("wear of the wall in a year of operation", 1e3 * YEAR * self._wear(feed), 0.0, ALLOWANCE, "mm", OWN_LIMIT),
-        )

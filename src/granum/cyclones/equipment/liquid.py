@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Length, PositiveNumber, PressureDrop, Within
+from granum.core.limits import Limit
 from granum.cyclones.formulas.hydrocyclones import HydrocycloneFigures, hydrocyclone_castilho_medronho, hydrocyclone_efficiency
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 
 class Split(NamedTuple):
@@ -43,7 +43,13 @@ class Hydrocyclone(Unit):
     underflow_diameter: Length
     parallel_number: Annotated[PositiveNumber, Within(1.0, 1000.0)] = 1.0
 
-    def figures(self, feed: Stream, density: Any) -> HydrocycloneFigures:
+    limits: ClassVar[Limits] = {
+        "drop": Limit("pressure drop", 3e4, 4e5, "Pa", "svarovsky2001"),
+        "solids": Limit("solids by volume in the feed", 0.0, 0.1, "dimensionless", "castilho2000"),
+        "sinking": Limit("share of the solids that is heavier than the liquid", 1.0 - 1e-3, 1.0, "dimensionless", "castilho2000"),
+    }
+
+    def cut(self, feed: Stream, density: Any) -> HydrocycloneFigures:
         """Cut, pressure drop, split and sharpness for solids of a density."""
         flow = jnp.maximum(feed.slurry_volume_flow, 1e-12) / self.parallel_number
         return hydrocyclone_castilho_medronho(flow, self.diameter, self.underflow_diameter, jnp.minimum(feed.solids_volume_fraction, 0.999),
@@ -58,11 +64,16 @@ class Hydrocyclone(Unit):
         mean = jnp.where(some, jnp.sum(sinking), 1.0) / jnp.where(some, jnp.sum(sinking / density), 1.0)
         return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(some, mean, feed.solid_density)
 
-    def __call__(self, feed: Stream) -> Split:
+    def inside(self, feed: Stream) -> tuple[HydrocycloneFigures, Any]:
+        """Cut and split of the solids that sink, and their share of all solids."""
+        sinking, density = self._sinking(feed)
+        return self.cut(feed, density), sinking
+
+    def outlets(self, inside: tuple[HydrocycloneFigures, Any], feed: Stream) -> Split:
         m = feed.mixture
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         heavy = density > feed.liquid_density
-        found = self.figures(feed, jnp.where(heavy, density, 2.0 * feed.liquid_density))
+        found = self.cut(feed, jnp.where(heavy, density, 2.0 * feed.liquid_density))
         share = hydrocyclone_efficiency(jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share)
         share = jnp.where(heavy, share, found.underflow_share)
         share = share.reshape(share.shape + (1,) * len(m.axes))
@@ -71,16 +82,8 @@ class Hydrocyclone(Unit):
         lower = jnp.maximum(feed.pressure - jnp.ravel(found.pressure_drop)[0], 1e3)
         return Split(under.replace(pressure=lower), over.replace(pressure=lower))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Split) -> SplitFigures:
-        feed = inlets["feed"]
-        return SplitFigures(*self.figures(feed, self._sinking(feed)[1]), safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
+    def figures(self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, feed: Stream) -> SplitFigures:
+        return SplitFigures(*inside[0], safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Split) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        sinking, density = self._sinking(feed)
-        drop = self.figures(feed, density).pressure_drop
-        return (
-            Check("pressure drop", drop, 3e4, 4e5, "Pa", "svarovsky2001"),
-            Check("solids by volume in the feed", feed.solids_volume_fraction, 0.0, 0.1, "dimensionless", "castilho2000"),
-            Check("share of the solids that is heavier than the liquid", sinking, 1.0 - 1e-3, 1.0, "dimensionless", "castilho2000"),
-        )
+    def measured(self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream) -> dict[str, Any]:
+        return {"drop": figures.pressure_drop, "solids": feed.solids_volume_fraction, "sinking": inside[1]}

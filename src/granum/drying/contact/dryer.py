@@ -25,7 +25,7 @@ from granum.drying.contact.liquor import composition, counted, moistened
 from granum.drying.contact.matter import Matter, temperature_at
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Check, Operated, Unit
 
 WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
@@ -160,7 +160,7 @@ class Dryer(Unit):
             rows.append(Check("product temperature over its limit", beyond, -jnp.inf, 0.0, "delta_degC", "keey1978"))
         return (*rows, *self.ranges(inlets, outlets, figures))
 
-    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         from granum.drying.profile_charts import drawn_profile
 
         return {_("Profiles in a dryer"): drawn_profile(self.profile(**inlets))}

@@ -43,7 +43,7 @@ from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import Root, find_root, safe_divide
 from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Check, Operated, Unit
 
 STEPS, PASTY_STEPS = 40, 10
 LIQUID_HEAT, LIQUID_DENSITY = 4187.0, 958.0
@@ -229,7 +229,7 @@ class PaddleDryer(Unit):
             energy_per_water=safe_divide(outlets.heat_duty, water),
         )
 
-    def charts(self, inlets: Mapping[str, Stream]) -> dict[str, Any]:
+    def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         bed = self.curve(inlets["feed"])
         return {_("Profiles in a dryer"): contact_chart(bed.time, bed.moisture, bed.temperature)}
 

@@ -3,31 +3,20 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Any
+from typing import Any, ClassVar
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Diffusivity, Length, Time, VoidFraction
-from granum.filtration.equipment.cake_filter import CakeFilter, Plan, Slurry
+from granum.core.limits import Limit
+from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
 from granum.filtration.formulas.expression import consolidation_ratio_terzaghi, consolidation_time
 from granum.streams.cakes import Filtered
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check
-
-_PRESS = "pressure drop of a press"
-_LEAF = "pressure drop of a pressure vessel filter"
-_NUTSCHE = "pressure drop of a Nutsche"
-_CHAMBER = "chamber depth"
-_LEAF_CAKE = "cake thickness on a leaf"
-_NUTSCHE_CAKE = "cake thickness in a Nutsche"
-_CANDLE = "cake thickness over candle radius"
-_REACHED = "share of the possible squeezing reached"
-_SQUEEZED = "void fraction after squeezing over before"
+from granum.streams.units import Limits
 
 
 class BatchFilter(CakeFilter):
@@ -58,12 +47,10 @@ class BatchFilter(CakeFilter):
             s.dry_cake_per_filtrate, self.medium_resistance,
         )  # fmt: skip
 
-    @shared
-    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
-        s = self.slurry(feed)
+    def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         loading, formation = self.loading(s), self.formation_time(s)
         void = self.full_thickness * self.void_fraction
-        wash_time = self.wash_ratio(feed, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, feed, wash))
+        wash_time = self.wash_ratio(s, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, feed, wash))
         cycle = formation + wash_time + self.deliquoring_time + self.dead_time
         return Plan(
             loading, jnp.asarray(self.full_thickness, dtype=float), formation, wash_time, jnp.asarray(self.deliquoring_time, dtype=float),
@@ -76,16 +63,17 @@ class Press(BatchFilter):
 
     chamber_depth: Length
 
+    limits: ClassVar[Limits] = BatchFilter.limits | {
+        "pressure": Limit("pressure drop of a press", 1e5, 2.5e6, "Pa", "wakeman2005"),
+        "chamber": Limit("chamber depth", 0.01, 0.06, "m", "wakeman2005"),
+    }
+
     @property
     def full_thickness(self) -> Any:
         return 0.5 * self.chamber_depth
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            Check(_PRESS, self.pressure_drop, 1e5, 2.5e6, "Pa", "wakeman2005"),
-            Check(_CHAMBER, self.chamber_depth, 0.01, 0.06, "m", "wakeman2005"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "chamber": self.chamber_depth}
 
 
 @equipment("plate_and_frame_press", source="geankoplis2003, § 14.2", title="Plate-and-frame filter press")
@@ -120,6 +108,11 @@ class MembranePress(Press):
     squeezing_time: Time = 600.0
     consolidation_coefficient: Diffusivity | None = None
 
+    limits: ClassVar[Limits] = Press.limits | {
+        "squeezed": Limit("void fraction after squeezing over before", 0.3, 1.0, "dimensionless", "wakeman2005"),
+        "reached": Limit("share of the possible squeezing reached", 0.8, 1.0, "dimensionless", "shirato1974"),
+    }
+
     @property
     def consolidation_ratio(self) -> Any:
         """Share of the possible squeezing that its time reaches."""
@@ -133,18 +126,16 @@ class MembranePress(Press):
         whole = (after / (1.0 - after)) / (before / (1.0 - before))
         return 1.0 - self.consolidation_ratio * (1.0 - whole)
 
-    @shared
-    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
-        plan = super().plan(feed, wash)
+    def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
+        plan = super().plan(s, feed, wash)
         longer = (plan.cycle_time + self.squeezing_time) / plan.cycle_time
         return plan._replace(cycle_time=plan.cycle_time * longer, area_required=plan.area_required * longer)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            Check(_SQUEEZED, self.void_fraction_squeezed / self.void_fraction, 0.3, 1.0, "dimensionless", "wakeman2005"),
-            Check(_REACHED, self.consolidation_ratio, 0.8, 1.0, "dimensionless", "shirato1974"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "squeezed": self.void_fraction_squeezed / self.void_fraction,
+            "reached": self.consolidation_ratio,
+        }
 
 
 @equipment("nutsche", source="wakeman2005", title="Nutsche filter")
@@ -153,16 +144,17 @@ class Nutsche(BatchFilter):
 
     full_cake_thickness: Length
 
+    limits: ClassVar[Limits] = BatchFilter.limits | {
+        "pressure": Limit("pressure drop of a Nutsche", 5e4, 6e5, "Pa", "wakeman2005"),
+        "cake": Limit("cake thickness in a Nutsche", 0.05, 0.5, "m", "wakeman2005"),
+    }
+
     @property
     def full_thickness(self) -> Any:
         return self.full_cake_thickness
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            Check(_NUTSCHE, self.pressure_drop, 5e4, 6e5, "Pa", "wakeman2005"),
-            Check(_NUTSCHE_CAKE, self.full_cake_thickness, 0.05, 0.5, "m", "wakeman2005"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "cake": self.full_cake_thickness}
 
 
 @equipment("pressure_leaf_filter", source="wakeman2005", title="Pressure leaf filter")
@@ -171,16 +163,17 @@ class PressureLeafFilter(BatchFilter):
 
     full_cake_thickness: Length
 
+    limits: ClassVar[Limits] = BatchFilter.limits | {
+        "pressure": Limit("pressure drop of a pressure vessel filter", 1e5, 6e5, "Pa", "wakeman2005"),
+        "cake": Limit("cake thickness on a leaf", 0.005, 0.04, "m", "wakeman2005"),
+    }
+
     @property
     def full_thickness(self) -> Any:
         return self.full_cake_thickness
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            Check(_LEAF, self.pressure_drop, 1e5, 6e5, "Pa", "wakeman2005"),
-            Check(_LEAF_CAKE, self.full_cake_thickness, 0.005, 0.04, "m", "wakeman2005"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "cake": self.full_cake_thickness}
 
 
 @equipment("candle_filter", source="wakeman2005", title="Candle filter",
@@ -191,6 +184,11 @@ class CandleFilter(BatchFilter):
 
     full_cake_thickness: Length
     candle_radius: Length
+
+    limits: ClassVar[Limits] = BatchFilter.limits | {
+        "pressure": Limit("pressure drop of a pressure vessel filter", 1e5, 6e5, "Pa", "wakeman2005"),
+        "curved": Limit("cake thickness over candle radius", 0.0, 1.0, "dimensionless", "wakeman2005"),
+    }
 
     @property
     def full_thickness(self) -> Any:
@@ -206,9 +204,8 @@ class CandleFilter(BatchFilter):
         cake = self.resistance * packed**2 * (0.5 * r**2 * jnp.log(r / r0) - 0.25 * (r**2 - r0**2))
         return s.dynamic_viscosity / (self.pressure_drop * s.dry_cake_per_filtrate) * (cake + self.medium_resistance * self.loading(s))
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            Check(_LEAF, self.pressure_drop, 1e5, 6e5, "Pa", "wakeman2005"),
-            Check(_CANDLE, self.full_cake_thickness / self.candle_radius, 0.0, 1.0, "dimensionless", "wakeman2005"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "pressure": self.pressure_drop,
+            "curved": self.full_cake_thickness / self.candle_radius,
+        }

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -26,21 +25,18 @@ from granum.core.kinds import (
     VoidFraction,
     VolumeFlow,
 )
+from granum.core.limits import Limit
 from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
 from granum.filtration.quantities import MassPerArea
 from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.dissolution import dissolved_share
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 # so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it, resistance 1/m of nothing
 TRICKLE, THIN, OPEN = 1e-15, 1e-9, 1e3
-_CAPACITY = "share of the filtration capacity in use"
-_WASH = "share of the washing capacity in use"
-_TOO_THICK = "solids in the feed over those of a packed cake"
 
 
 class Plan(NamedTuple):
@@ -87,6 +83,16 @@ class Slurry(NamedTuple):
     void_volume_flow: Any
 
 
+class Caked(NamedTuple):
+    """The cake of a filter: its slurry and cycle, wash liquor per void volume, mother liquor that washing leaves in it, saturation at discharge."""
+
+    slurry: Slurry
+    plan: Plan
+    wash_ratio: Any
+    left: Any
+    saturation: Any
+
+
 class CakeFilter(Unit):
     """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle goes.
 
@@ -108,8 +114,14 @@ class CakeFilter(Unit):
     particle_diameter: Length | None = None
     wash_dissolution: Annotated[Any, Law("wash_dissolution")] | None = None
 
+    limits: ClassVar[Limits] = {
+        "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
+        "wash": Limit("share of the washing capacity in use", 0.0, 1.0, "dimensionless", "mccabe2005, ch. 29"),
+        "packed": Limit("solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"),
+    }
+
     @abc.abstractmethod
-    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
+    def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         """The cycle of one cake at this feed."""
 
     @property
@@ -121,7 +133,6 @@ class CakeFilter(Unit):
         """Resistance of what carries the cake."""
         return self.medium_resistance
 
-    @shared
     def slurry(self, feed: Stream) -> Slurry:
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
@@ -143,24 +154,21 @@ class CakeFilter(Unit):
         """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not squeeze."""
         return 1.0
 
-    def wash_ratio(self, feed: Stream, wash: Stream | None) -> Any:
+    def wash_ratio(self, s: Slurry, wash: Stream | None) -> Any:
         """Wash liquor per void volume."""
-        void = self.slurry(feed).void_volume_flow
+        void = s.void_volume_flow
         return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
 
-    @shared
-    def solute_left(self, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
+    def solute_left(self, s: Slurry, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
         """Fraction of the mother liquor that washing leaves in the cake, by dispersion but never better than practice."""
         if wash is None:
             return jnp.ones(())
         pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, feed, wash) / self.void_fraction
         number = practical_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), self._diameter(feed), self.diffusivity)
-        return remaining_fraction(self.wash_ratio(feed, wash), number)
+        return remaining_fraction(self.wash_ratio(s, wash), number)
 
-    @shared
-    def saturation(self, feed: Stream, plan: Plan) -> Any:
+    def saturation(self, s: Slurry, feed: Stream, plan: Plan) -> Any:
         """Saturation of the cake at discharge."""
-        s = self.slurry(feed)
         thick = jnp.maximum(plan.cake_thickness, 1e-9)
         capillary = capillary_number_cake(
             self._diameter(feed), self.void_fraction, thick, self.pressure_drop, s.liquid_density, self.surface_tension
@@ -178,16 +186,18 @@ class CakeFilter(Unit):
     def _diameter(self, feed: Stream) -> Any:
         return solid_diameter(feed, self.particle_diameter)
 
-    def __call__(self, feed: Stream, wash: Stream | None = None) -> Filtered:
-        plan = self.plan(feed, wash)
-        wet = self.saturation(feed, plan) * self.squeezed()
-        left = self.solute_left(feed, wash, plan)
-        parted = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=left)
+    def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
+        s = self.slurry(feed)
+        plan = self.plan(s, feed, wash)
+        return Caked(s, plan, self.wash_ratio(s, wash), self.solute_left(s, feed, wash, plan), self.saturation(s, feed, plan))
+
+    def outlets(self, inside: Caked, feed: Stream, wash: Stream | None = None) -> Filtered:
+        wet = inside.saturation * self.squeezed()
+        parted = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=inside.left)
         return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Filtered) -> CakeFigures:
-        feed, wash = inlets["feed"], inlets.get("wash")
-        plan, cake = self.plan(feed, wash), outlets.cake
+    def figures(self, inside: Caked, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> CakeFigures:
+        plan, cake = inside.plan, outlets.cake
         return CakeFigures(
             area_required=plan.area_required,
             capacity_use=plan.area_required / self.area,
@@ -198,25 +208,20 @@ class CakeFilter(Unit):
             wash_time=plan.wash_time,
             deliquoring_time=plan.deliquoring_time,
             filtrate_flow=outlets.filtrate.liquid_volume_flow,
-            wash_ratio=self.wash_ratio(feed, wash),
+            wash_ratio=inside.wash_ratio,
             wash_use=plan.wash_use,
-            solute_remaining=self.solute_left(feed, wash, plan),
-            cake_saturation=self.saturation(feed, plan),
+            solute_remaining=inside.left,
+            cake_saturation=inside.saturation,
             moisture_dry_basis=cake.moisture_dry_basis,
             dissolved_share=dissolved_share(feed, self.solids_recovery, cake),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        plan = self.plan(feed, inlets.get("wash"))
-        return (
-            Check(_CAPACITY, plan.area_required / self.area, 0.0, 1.0, "dimensionless", "ruth1935"),
-            Check(_WASH, plan.wash_use, 0.0, 1.0, "dimensionless", "mccabe2005, ch. 29"),
-            Check(_TOO_THICK, feed.solids_volume_fraction / (1.0 - self.void_fraction), 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        packed = feed.solids_volume_fraction / (1.0 - self.void_fraction)
+        return {"capacity": figures.capacity_use, "wash": inside.plan.wash_use, "packed": packed}
 
     @classmethod
     def size(cls, feed: Stream, wash: Stream | None = None, *, capacity_use: float = 1.0, **fields: Any) -> Any:
         """The filter whose area this feed just fills to the share ``capacity_use``, everything else given."""
         trial = cls(area=1.0, **fields)
-        return cls(area=trial.plan(feed, wash).area_required / capacity_use, **fields)
+        return cls(area=trial.plan(trial.slurry(feed), feed, wash).area_required / capacity_use, **fields)

@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
-from typing import Any
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, Length, Permeability, RotationSpeed, Speed
-from granum.filtration.equipment.cake_filter import CakeFilter, Plan
+from granum.core.limits import Limit
+from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure
 from granum.streams.cakes import Filtered
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
 
-_THIN = "cake thickness for discharge"
-_TURN = "rotation speed"
-_SUBMERGED = "submerged share of the drum"
-_SECTORS = "sum of the shares of the cycle"
 RPM = 0.10471975511965977  # radian/s
-_BELT = "belt speed"
-_KNIFE = "knife advance over cake thickness"
-_LIFE = "life of the precoat"
-_VACUUM = "pressure drop under vacuum"
 
 
 class ContinuousFilter(CakeFilter):
@@ -41,9 +33,8 @@ class ContinuousFilter(CakeFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         """Shares of the turn for forming, washing and draining."""
 
-    @shared
-    def plan(self, feed: Stream, wash: Stream | None = None) -> Plan:
-        s, turn = self.slurry(feed), self.turn_time
+    def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
+        turn = self.turn_time
         form, washed, drained = (share * turn for share in self.shares)
         filtrate = filtrate_volume_constant_pressure(
             form, 1.0, self.pressure_drop, s.dynamic_viscosity, self.resistance, s.dry_cake_per_filtrate, self.media_resistance()
@@ -55,17 +46,29 @@ class ContinuousFilter(CakeFilter):
         return Plan(loading, self.thickness(loading, s.solid_density), form, washed, drained, turn, s.solid_flow * turn / most, use)
 
 
-def _limits(unit: Any, feed: Stream, wash: Stream | None, thinnest: Any, source: str) -> tuple[Check, ...]:
-    return (
-        Check(_THIN, unit.plan(feed, wash).cake_thickness, thinnest, jnp.inf, "m", source),
-        Check(_SECTORS, sum(unit.shares), 0.0, 1.0, "dimensionless", source),
-        Check(_VACUUM, unit.pressure_drop, 1e4, 8.5e4, "Pa", source),
-    )
+class VacuumFilter(ContinuousFilter):
+    """Abstract continuous filter that sucks, and drops a cake thick enough to come off."""
+
+    if TYPE_CHECKING:
+        discharge_thickness: Any
+
+    limits: ClassVar[Limits] = ContinuousFilter.limits | {
+        "thin": Limit("cake thickness for discharge", "discharge_thickness", math.inf, "m", "perry2008, § 18"),
+        "sectors": Limit("sum of the shares of the cycle", 0.0, 1.0, "dimensionless", "perry2008, § 18"),
+        "vacuum": Limit("pressure drop under vacuum", 1e4, 8.5e4, "Pa", "perry2008, § 18"),
+    }
+
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "thin": inside.plan.cake_thickness,
+            "sectors": sum(self.shares),
+            "vacuum": self.pressure_drop,
+        }
 
 
 @equipment("rotary_vacuum_drum", source="geankoplis2003, § 14.2; mccabe2005, ch. 29", title="Rotary vacuum drum filter",
            equation=r"\frac{V}{\Omega\,t_c} = \sqrt{\frac{2 f \Delta p}{t_c\,\eta\,\alpha\,W} + \left(\frac{R_s}{\alpha W t_c}\right)^2} - \frac{R_s}{\alpha W t_c}")  # fmt: skip
-class RotaryVacuumDrum(ContinuousFilter):
+class RotaryVacuumDrum(VacuumFilter):
     """Drum that dips into the slurry, sucks its cake on, washes it with sprays, sucks it dry and scrapes it off.
 
     The cake carries all solids of the feed; ``capacity_use`` says whether the submerged share has time enough to form it.
@@ -77,6 +80,11 @@ class RotaryVacuumDrum(ContinuousFilter):
     deliquoring_share: Fraction = 0.2
     discharge_thickness: Length = 0.006
 
+    limits: ClassVar[Limits] = VacuumFilter.limits | {
+        "turn": Limit("rotation speed", 0.1 * RPM, 3.0 * RPM, "radian/s", "perry2008, § 18"),
+        "submerged": Limit("submerged share of the drum", 0.1, 0.4, "dimensionless", "perry2008, § 18"),
+    }
+
     @property
     def turn_time(self) -> Any:
         return 2.0 * jnp.pi / self.rotation_speed
@@ -85,18 +93,12 @@ class RotaryVacuumDrum(ContinuousFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.submergence, self.wash_share, self.deliquoring_share
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        feed, wash = inlets["feed"], inlets.get("wash")
-        return (
-            *super().checks(inlets, outlets),
-            *_limits(self, feed, wash, self.discharge_thickness, "perry2008, § 18"),
-            Check(_TURN, self.rotation_speed, 0.1 * RPM, 3.0 * RPM, "radian/s", "perry2008, § 18"),
-            Check(_SUBMERGED, self.submergence, 0.1, 0.4, "dimensionless", "perry2008, § 18"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"turn": self.rotation_speed, "submerged": self.submergence}
 
 
 @equipment("rotary_disc_filter", source="wakeman2005", title="Rotary vacuum disc filter")
-class RotaryDiscFilter(ContinuousFilter):
+class RotaryDiscFilter(VacuumFilter):
     """Vertical discs on a shaft, cake on both faces: much area in little room, thin cakes, poor washing.
 
     The area is that of all disc faces.
@@ -108,6 +110,10 @@ class RotaryDiscFilter(ContinuousFilter):
     deliquoring_share: Fraction = 0.4
     discharge_thickness: Length = 0.01
 
+    limits: ClassVar[Limits] = VacuumFilter.limits | {
+        "submerged": Limit("submerged share of the drum", 0.1, 0.5, "dimensionless", "perry2008, § 18"),
+    }
+
     @property
     def turn_time(self) -> Any:
         return 2.0 * jnp.pi / self.rotation_speed
@@ -116,16 +122,12 @@ class RotaryDiscFilter(ContinuousFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.submergence, self.wash_share, self.deliquoring_share
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            *_limits(self, inlets["feed"], inlets.get("wash"), self.discharge_thickness, "perry2008, § 18"),
-            Check(_SUBMERGED, self.submergence, 0.1, 0.5, "dimensionless", "perry2008, § 18"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"submerged": self.submergence}
 
 
 @equipment("horizontal_belt_filter", source="wakeman2005", title="Horizontal belt filter")
-class HorizontalBeltFilter(ContinuousFilter):
+class HorizontalBeltFilter(VacuumFilter):
     """Vacuum belt fed on top: quick-settling, coarse crystals and thorough washing; the cake forms with gravity, not against it."""
 
     belt_length: Length
@@ -135,6 +137,8 @@ class HorizontalBeltFilter(ContinuousFilter):
     deliquoring_share: Fraction = 0.3
     discharge_thickness: Length = 0.004
 
+    limits: ClassVar[Limits] = VacuumFilter.limits | {"belt": Limit("belt speed", 0.01, 0.8, "m/s", "wakeman2005")}
+
     @property
     def turn_time(self) -> Any:
         return self.belt_length / self.belt_speed
@@ -143,12 +147,8 @@ class HorizontalBeltFilter(ContinuousFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.formation_share, self.wash_share, self.deliquoring_share
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        return (
-            *super().checks(inlets, outlets),
-            *_limits(self, inlets["feed"], inlets.get("wash"), self.discharge_thickness, "perry2008, § 18"),
-            Check(_BELT, self.belt_speed, 0.01, 0.8, "m/s", "wakeman2005"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {"belt": self.belt_speed}
 
 
 @equipment("precoat_drum", source="perry2008, § 18; wakeman2005", title="Rotary precoat drum filter",
@@ -166,6 +166,11 @@ class PrecoatDrum(ContinuousFilter):
     submergence: Fraction = 0.5
     deliquoring_share: Fraction = 0.3
 
+    limits: ClassVar[Limits] = ContinuousFilter.limits | {
+        "knife": Limit("knife advance over cake thickness", 1.0, math.inf, "dimensionless", "perry2008, § 18"),
+        "life": Limit("life of the precoat", 8 * 3600.0, math.inf, "s", "perry2008, § 18"),
+    }
+
     @property
     def turn_time(self) -> Any:
         return 2.0 * jnp.pi / self.rotation_speed
@@ -177,11 +182,8 @@ class PrecoatDrum(ContinuousFilter):
     def media_resistance(self) -> Any:
         return self.medium_resistance + 0.5 * self.precoat_thickness / self.precoat_permeability
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Filtered) -> tuple[Check, ...]:
-        plan = self.plan(inlets["feed"], inlets.get("wash"))
-        life = self.precoat_thickness / self.knife_advance * self.turn_time
-        return (
-            *super().checks(inlets, outlets),
-            Check(_KNIFE, self.knife_advance / jnp.maximum(plan.cake_thickness, 1e-12), 1.0, jnp.inf, "dimensionless", "perry2008, § 18"),
-            Check(_LIFE, life, 8 * 3600.0, jnp.inf, "s", "perry2008, § 18"),
-        )
+    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "knife": self.knife_advance / jnp.maximum(inside.plan.cake_thickness, 1e-12),
+            "life": self.precoat_thickness / self.knife_advance * self.turn_time,
+        }

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import KW_ONLY
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -23,18 +22,15 @@ from granum.core.kinds import (
     VoidFraction,
     Within,
 )
+from granum.core.limits import Limit
 from granum.filtration.formulas.backwash import backwash_velocity
 from granum.filtration.formulas.depth import collector_efficiency_tufenkji, filter_coefficient, head_loss_clean_bed
 from granum.filtration.quantities import HeadLossPerDeposit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 HOUR = 3600.0
-_RATE = "filtration rate of a deep bed"
-_RUN = "run time between backwashes"
-_WASH = "wash water over filtrate"
-_THIN = "solids by volume in the feed"
 
 
 class DeepBedOutlets(NamedTuple):
@@ -53,6 +49,16 @@ class DeepBedFigures(NamedTuple):
     run_time: Time
     backwash_velocity: Speed
     wash_water_share: Fraction
+
+
+class Cycle(NamedTuple):
+    """Share caught of each species and class, clean head loss, run time, backwash velocity, share of the filtrate that the backwash takes."""
+
+    caught: Any
+    clean: Any
+    run: Any
+    wash: Any
+    water: Any
 
 
 @equipment("deep_bed_filter", source="iwasaki1937; ives1970; tufenkji2004; fair1933", title="Deep bed filter",
@@ -78,6 +84,13 @@ class DeepBedFilter(Unit):
     particle_density: Density = 2650.0
     sphericity: Sphericity = 0.8
 
+    limits: ClassVar[Limits] = {
+        "rate": Limit("filtration rate of a deep bed", 2.0, 25.0, "m/hour", "ives1970"),
+        "run": Limit("run time between backwashes", 8.0, 100.0, "hour", "ives1970"),
+        "wash": Limit("wash water over filtrate", 0.0, 0.06, "dimensionless", "ives1970"),
+        "thin": Limit("solids by volume in the feed", 0.0, 5e-4, "dimensionless", "svarovsky2001"),
+    }
+
     def _velocity(self, feed: Stream) -> Any:
         return jnp.maximum(feed.slurry_volume_flow / self.area, 1e-12)
 
@@ -94,39 +107,30 @@ class DeepBedFilter(Unit):
         coefficient = filter_coefficient(jnp.minimum(one, 1.0), self.collector_diameter, self.void_fraction, self.attachment_efficiency)
         return -jnp.expm1(-coefficient * self.bed_depth)
 
-    def _cycle(self, feed: Stream) -> tuple[Any, Any, Any, Any]:
-        """Clean head loss, run time, backwash velocity, share of the filtrate that the backwash takes."""
+    def inside(self, feed: Stream) -> Cycle:
         U = self._velocity(feed)
         clean = head_loss_clean_bed(
             self.bed_depth, self.sphericity * self.collector_diameter, U, self.void_fraction, feed.liquid_viscosity, feed.liquid_density
         )
         share = self.caught(feed)
-        kept = jnp.sum(feed.solid * share.reshape(share.shape + (1,) * len(feed.mixture.axes))) / self.area
+        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+        kept = jnp.sum(feed.solid * share) / self.area
         run = safe_divide(jnp.maximum(self.head_loss_allowed - clean, 0.0), self.head_loss_per_deposit * kept, otherwise=1e9)
         wash = backwash_velocity(
             self.bed_expansion, jnp.reshape(self.collector_diameter, (1,)), jnp.ones(1), self.particle_density, feed.liquid_density,
             feed.liquid_viscosity, self.void_fraction,
         )  # fmt: skip
-        return clean, run, wash, jnp.minimum(safe_divide(wash * self.backwash_time, U * (run + self.backwash_time)), 0.999)
+        water = jnp.minimum(safe_divide(wash * self.backwash_time, U * (run + self.backwash_time)), 0.999)
+        return Cycle(share, clean, run, wash, water)
 
-    def __call__(self, feed: Stream) -> DeepBedOutlets:
-        share = self.caught(feed)
-        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
-        water = self._cycle(feed)[3]
-        washings = feed.part(solid=share, liquid=water)
+    def outlets(self, inside: Cycle, feed: Stream) -> DeepBedOutlets:
+        washings = feed.part(solid=inside.caught, liquid=inside.water)
         return DeepBedOutlets(feed.replace(solid=feed.solid - washings.solid, liquid=feed.liquid - washings.liquid), washings)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: DeepBedOutlets) -> DeepBedFigures:
-        feed = inlets["feed"]
-        clean, run, wash, water = self._cycle(feed)
-        return DeepBedFigures(self._velocity(feed), safe_divide(outlets.washings.solid_flow, feed.solid_flow), clean, run, wash, water)
+    def figures(self, inside: Cycle, outlets: DeepBedOutlets, feed: Stream) -> DeepBedFigures:
+        removed = safe_divide(outlets.washings.solid_flow, feed.solid_flow)
+        return DeepBedFigures(self._velocity(feed), removed, inside.clean, inside.run, inside.wash, inside.water)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: DeepBedOutlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        _clean, run, _wash, water = self._cycle(feed)
-        return (
-            Check(_RATE, HOUR * self._velocity(feed), 2.0, 25.0, "m/hour", "ives1970"),
-            Check(_RUN, run / HOUR, 8.0, 100.0, "hour", "ives1970"),
-            Check(_WASH, water, 0.0, 0.06, "dimensionless", "ives1970"),
-            Check(_THIN, feed.solids_volume_fraction, 0.0, 5e-4, "dimensionless", "svarovsky2001"),
-        )
+    def measured(self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream) -> dict[str, Any]:
+        rate, run = HOUR * figures.superficial_velocity, inside.run / HOUR
+        return {"rate": rate, "run": run, "wash": inside.water, "thin": feed.solids_volume_fraction}

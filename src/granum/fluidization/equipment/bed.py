@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -11,6 +10,7 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.flags import unsolved
 from granum.core.kinds import Area, Distance, Fraction, Law, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
+from granum.core.limits import Limit
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.fluidization.formulas.two_phase import two_phase_bed
@@ -18,7 +18,7 @@ from granum.numerics import find_root
 from granum.numerics.smooth import safe_divide
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 _UNSOLVED = "The overflow that leaves the bed with its mass was not found: check the solid, the gas and the area."
 LEAST, THIN = 1e-12, 1e-3  # of a stream without gas, so that the sheet says what fails
@@ -61,6 +61,12 @@ class FluidizedBed(Unit):
     minimum_fluidization: Annotated[Any, Law("minimum_fluidization_velocity")] = minimum_fluidization_velocity_wen_yu
     distributor_ratio: PositiveNumber = 0.3
 
+    limits: ClassVar[Limits] = {
+        "fluidized": Limit("gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"),
+        "carried": Limit("gas velocity over terminal velocity of the mean size", 0.0, 1.0, "dimensionless", "kunii1991"),
+        "distributor": Limit("distributor to bed pressure drop", 0.2, 0.4, "dimensionless", "kunii1991"),
+    }
+
     @classmethod
     def size(cls, gas_volume_flow: Any, superficial_velocity: Any, residence_time: Any, solid_mass_flow: Any, **more: Any) -> FluidizedBed:
         """The bed that gives a gas velocity and a residence time of the solid."""
@@ -82,8 +88,8 @@ class FluidizedBed(Unit):
         U = self._velocity(feed)
         return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), self._density(feed)), 0.0) * self.area
 
-    def _entrained(self, feed: Stream) -> tuple[Any, Any]:
-        """Share of each species and size class that leaves with the gas, and whether the overflow that goes with it was found."""
+    def inside(self, feed: Stream) -> Any:
+        """Share of each species and size class that leaves with the gas."""
         rates, flows = self.rates(feed), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         total = jnp.maximum(jnp.sum(flows), LEAST)
 
@@ -94,16 +100,15 @@ class FluidizedBed(Unit):
         emptied = surplus(0.0) <= 0.0
         root = find_root(surplus, 0.0, total, start=0.5 * total)
         overflow = jnp.where(emptied, 0.0, root.value)
-        return rates / (overflow + rates + LEAST * total), root.converged | emptied
+        unsolved(root.converged | emptied, type(self).card, reason=_UNSOLVED)
+        return rates / (overflow + rates + LEAST * total)
 
     def _drop(self, feed: Stream) -> Any:
         weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - self._density(feed) / feed.solid_density)
         return weight * (1.0 + self.distributor_ratio)
 
-    def __call__(self, feed: Stream) -> BedOutlets:
-        share, solved = self._entrained(feed)
-        unsolved(solved, type(self).card, reason=_UNSOLVED)
-        share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
+    def outlets(self, inside: Any, feed: Stream) -> BedOutlets:
+        share = inside.reshape(inside.shape + (1,) * len(feed.mixture.axes))
         carried = feed.solid * share
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)
         gas = feed.part(solid=share, liquid=moist, gas=1.0)
@@ -117,8 +122,7 @@ class FluidizedBed(Unit):
     def _minimum(self, feed: Stream) -> Any:
         return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> BedFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: Any, outlets: BedOutlets, feed: Stream) -> BedFigures:
         U, first = self._velocity(feed), self._minimum(feed)
         settled = self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
         bed = two_phase_bed(U, first, settled, GAS_DIFFUSIVITY, self.void_fraction, diameter=jnp.sqrt(4.0 * self.area / jnp.pi))
@@ -127,12 +131,11 @@ class FluidizedBed(Unit):
             disengaging_height_smolders(U, first, bed.bubble_diameter), safe_divide(outlets.gas.solid_flow, feed.solid_flow),
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: BedOutlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        U = self._velocity(feed)
+    def measured(self, inside: Any, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
+        U = figures.superficial_velocity
         fall = terminal_velocity(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
-        return (
-            Check("gas velocity over minimum fluidization velocity", U / self._minimum(feed), 1.5, 100.0, "dimensionless", "kunii1991"),
-            Check("gas velocity over terminal velocity of the mean size", U / fall, 0.0, 1.0, "dimensionless", "kunii1991"),
-            Check("distributor to bed pressure drop", jnp.asarray(self.distributor_ratio), 0.2, 0.4, "dimensionless", "kunii1991"),
-        )
+        return {
+            "fluidized": U / figures.minimum_fluidization_velocity,
+            "carried": U / fall,
+            "distributor": jnp.asarray(self.distributor_ratio),
+        }

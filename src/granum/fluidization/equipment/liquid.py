@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Density, Fraction, Length, Mass, PressureDrop, Speed, Sphericity, VoidFraction
+from granum.core.limits import Limit
 from granum.fluidization.formulas.expansion import (
     bed_void_fraction_richardson_zaki,
     expansion_exponent,
@@ -18,7 +18,7 @@ from granum.fluidization.formulas.minimum_beds import minimum_fluidization_veloc
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 LEAST, FULLEST = 1e-12, 0.999
 
@@ -58,6 +58,11 @@ class LiquidFluidizedBed(Unit):
     void_fraction: VoidFraction = 0.42
     sphericity: Sphericity = 1.0
 
+    limits: ClassVar[Limits] = {
+        "fluidized": Limit("liquid velocity over minimum fluidization velocity", 1.0, 1e3, "dimensionless", "kunii1991"),
+        "carried": Limit("liquid velocity over terminal velocity", 0.0, 1.0, "dimensionless", "richardson1954"),
+    }
+
     @classmethod
     def size(cls, liquid_volume_flow: Any, bed_void_fraction: Any, terminal_velocity: Any, settling_exponent: Any, mass: Any,
              particle_diameter: Any, particle_density: Any, **more: Any) -> LiquidFluidizedBed:  # fmt: skip
@@ -65,13 +70,13 @@ class LiquidFluidizedBed(Unit):
         area = liquid_volume_flow / (terminal_velocity * bed_void_fraction**settling_exponent)
         return cls(area, mass, particle_diameter, particle_density, **more)
 
-    def __call__(self, feed: Stream) -> LiquidOutlets:
-        return LiquidOutlets(feed.replace(pressure=jnp.maximum(feed.pressure - self._drop(feed), 1.0)))
+    def outlets(self, inside: Any, feed: Stream) -> LiquidOutlets:
+        return LiquidOutlets(feed.replace(pressure=jnp.maximum(feed.pressure - inside, 1.0)))
 
     def _velocity(self, feed: Stream) -> Any:
         return jnp.maximum(feed.slurry_volume_flow / self.area, LEAST)
 
-    def _drop(self, feed: Stream) -> Any:
+    def inside(self, feed: Stream) -> Any:
         """Ergun's pressure drop of the settled bed, at most the buoyant weight over the section."""
         d, density, rho, eta = self._fluid(feed)
         fixed = pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta, self.sphericity) * self._settled
@@ -84,8 +89,7 @@ class LiquidFluidizedBed(Unit):
     def _fluid(self, feed: Stream) -> tuple[Any, Any, Any, Any]:
         return self.particle_diameter, self.particle_density, feed.liquid_density, feed.liquid_viscosity
 
-    def results(self, inlets: Mapping[str, Stream], outlets: LiquidOutlets) -> LiquidBedFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: Any, outlets: LiquidOutlets, feed: Stream) -> LiquidBedFigures:
         U, fluid = self._velocity(feed), self._fluid(feed)
         first = minimum_fluidization_velocity_ergun(*fluid, self.void_fraction, self.sphericity)
         fall = terminal_velocity(*fluid, sphericity=self.sphericity)
@@ -93,14 +97,8 @@ class LiquidFluidizedBed(Unit):
         e = jnp.maximum(bed_void_fraction_richardson_zaki(U, fall, n), self.void_fraction)
         settled = self._settled
         expanded = settled * (1.0 - self.void_fraction) / (1.0 - jnp.minimum(e, FULLEST))
-        return LiquidBedFigures(U, first, fall, e, settled, expanded, self._drop(feed))
+        return LiquidBedFigures(U, first, fall, e, settled, expanded, inside)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: LiquidOutlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        found = self.results(inlets, outlets)
-        U = self._velocity(feed)
-        return (
-            Check("liquid velocity over minimum fluidization velocity", U / found.minimum_fluidization_velocity, 1.0, 1e3, "dimensionless",
-                  "kunii1991"),
-            Check("liquid velocity over terminal velocity", U / found.terminal_velocity, 0.0, 1.0, "dimensionless", "richardson1954"),
-        )  # fmt: skip
+    def measured(self, inside: Any, outlets: LiquidOutlets, figures: LiquidBedFigures, feed: Stream) -> dict[str, Any]:
+        U = figures.superficial_velocity
+        return {"fluidized": U / figures.minimum_fluidization_velocity, "carried": U / figures.terminal_velocity}

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import ceil, sqrt
-from typing import Any, NamedTuple
+from math import ceil, inf, sqrt
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -12,6 +11,7 @@ from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Concentration, Density, DynamicViscosity, Fraction, Length, PositiveNumber, Ratio, Speed, VolumeFlow
+from granum.core.limits import Limit
 from granum.settling.equipment.gravity import DRAG, HINDRANCE, Drag, Hindrance, class_velocities, over_axes
 from granum.settling.formulas.api import (
     HORIZONTAL_LIMIT,
@@ -21,10 +21,11 @@ from granum.settling.formulas.api import (
     turbulence_factor_api,
 )
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 ROUNDING = 1e-9
-SECTION_LIMIT = 160 * 0.3048**2  # m²: 160 ft² a channel
+FOOT = 0.3048  # m
+SECTION_LIMIT = 160 * FOOT**2  # m²: 160 ft² a channel
 
 
 class Skimmed(NamedTuple):
@@ -66,7 +67,18 @@ class ApiSeparator(Unit):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
-    def velocities(self, feed: Stream) -> tuple[Any, Any, Any]:
+    limits: ClassVar[Limits] = {
+        "velocity": Limit("horizontal velocity over its limit", 0.0, 1.0, "dimensionless", "api421"),
+        "length": Limit("length over the length needed", 1.0, inf, "dimensionless", "api421"),
+        "time": Limit("residence time", 0.0, 60.0, "min", "api421"),
+        "section": Limit("cross-section of a channel", 0.0, 15.0, "m^2", "api421"),
+        "upright": Limit("depth over width", 0.3 - ROUNDING, 0.5 + ROUNDING, "dimensionless", "api421"),
+        "slender": Limit("length over width", 5.0 - ROUNDING, inf, "dimensionless", "api421"),
+        "depth": Limit("depth", 3 * FOOT, 8 * FOOT, "m", "api421"),
+        "width": Limit("width", 6 * FOOT, 20 * FOOT, "m", "api421"),
+    }
+
+    def inside(self, feed: Stream) -> tuple[Any, Any, Any]:
         """Horizontal velocity, rise velocity of the design globule of the lightest species, turbulence factor."""
         horizontal = feed.slurry_volume_flow / (self.channel_number * self.width * self.height)
         lightest = jnp.min(feed.mixture.densities("solids", feed.temperature))
@@ -74,9 +86,9 @@ class ApiSeparator(Unit):
         rise = rise_velocity_api(feed.liquid_density, lighter, feed.liquid_viscosity, self.droplet_diameter)
         return horizontal, rise, turbulence_factor_api(horizontal / rise)
 
-    def __call__(self, feed: Stream) -> Skimmed:
+    def outlets(self, inside: tuple[Any, Any, Any], feed: Stream) -> Skimmed:
         velocity = class_velocities(feed, self.drag, self.hindrance)
-        factor = self.velocities(feed)[2]
+        _horizontal, _rise, factor = inside
         loading = factor * feed.slurry_volume_flow / (self.channel_number * self.length * self.width)
         share = jnp.minimum(jnp.abs(velocity) / loading, 1.0)
         up, down = (over_axes(jnp.where(side, share, 0.0), feed) for side in (velocity < 0, velocity > 0))
@@ -94,29 +106,25 @@ class ApiSeparator(Unit):
             feed.part(solid=1.0 - up - down, liquid=1.0 - over - under, gas=1.0),
         )  # fmt: skip
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Skimmed) -> SeparatorFigures:
-        feed = inlets["feed"]
-        horizontal, rise, factor = self.velocities(feed)
+    def figures(self, inside: tuple[Any, Any, Any], outlets: Skimmed, feed: Stream) -> SeparatorFigures:
+        horizontal, rise, factor = inside
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         removed = (outlets.skimmings.solid_flow + outlets.sludge.solid_flow) / some
         area = self.channel_number * self.length * self.width
         return SeparatorFigures(horizontal, rise, horizontal / rise, factor, area, basin_length_api(horizontal, rise, self.height), removed)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Skimmed) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        limit = horizontal_velocity_api(figures.rise_velocity)
-        time = self.length / figures.horizontal_velocity
-        section = self.width * self.height
-        return (
-            Check("horizontal velocity over its limit", figures.horizontal_velocity / limit, 0.0, 1.0, "dimensionless", "api421"),
-            Check("length over the length needed", self.length / figures.basin_length, 1.0, float("inf"), "dimensionless", "api421"),
-            Check("residence time", time / 60.0, 0.0, 60.0, "min", "api421"),
-            Check("cross-section of a channel", section, 0.0, 15.0, "m^2", "api421"),
-            Check("depth over width", self.height / self.width, 0.3 - ROUNDING, 0.5 + ROUNDING, "dimensionless", "api421"),
-            Check("length over width", self.length / self.width, 5.0 - ROUNDING, float("inf"), "dimensionless", "api421"),
-            Check("depth", self.height, 3 * 0.3048, 8 * 0.3048, "m", "api421"),
-            Check("width", self.width, 6 * 0.3048, 20 * 0.3048, "m", "api421"),
-        )
+    def measured(self, inside: tuple[Any, Any, Any], outlets: Skimmed, figures: SeparatorFigures, feed: Stream) -> dict[str, Any]:
+        horizontal, rise, _factor = inside
+        return {
+            "velocity": horizontal / horizontal_velocity_api(rise),
+            "length": self.length / figures.basin_length,
+            "time": self.length / horizontal / 60.0,
+            "section": self.width * self.height,
+            "upright": self.height / self.width,
+            "slender": self.length / self.width,
+            "depth": self.height,
+            "width": self.width,
+        }
 
     @classmethod
     def size(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -11,15 +11,15 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Distance, Fraction, Law, Length, Mass, Ratio, Speed, Time, VolumeFlow, Within
+from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import passing_flux, steady_state
 from granum.streams.holdup import filled, trapezoid
 from granum.streams.mixture import Mixture
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Dynamic, Unit
+from granum.streams.units import Dynamic, Limits, Unit
 
 PERIODS = 12  # of the approach to the steady state
 
@@ -68,6 +68,14 @@ class ClarifierThickener(Unit, Dynamic):
     concentration_maximum: Concentration = 1000.0
     cells: Annotated[int, Within(5, 5000)] = eqx.field(static=True, default=40)
 
+    limits: ClassVar[Limits] = {
+        "thickening": Limit("loading of the thickening zone", 0.0, 1.0, "dimensionless", "yoshioka1957"),
+        "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
+        "blanket": Limit("blanket over the depth below the feed", 0.0, 1.0, "dimensionless", "keinath1985"),
+        "gathering": Limit("sludge still gathering, of what is fed", 0.0, 0.02, "dimensionless", "diehl2001"),
+        "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+    }
+
     def _velocities(self, feed: Stream) -> tuple[Any, Any]:
         """Feed and underflow per area, m/s; the underflow is at most the feed."""
         flow = feed.slurry_volume_flow
@@ -77,8 +85,7 @@ class ClarifierThickener(Unit, Dynamic):
         plain = isinstance(self.cone_height_share, float) and self.cone_height_share == 0.0
         return None if plain else Cone(jnp.maximum(self.cone_height_share, 1e-6), jnp.maximum(self.bottom_area_share, 1e-3))
 
-    @shared
-    def course(self, feed: Stream) -> Simulation:
+    def inside(self, feed: Stream) -> Simulation:
         """The way to the steady state."""
         q, qu = self._velocities(feed)
         suspension = Suspension(self.settling, self.compression, feed.solid_density, feed.liquid_density)
@@ -86,7 +93,7 @@ class ClarifierThickener(Unit, Dynamic):
         operation = Operation(self.settling_time * jnp.linspace(0.0, 1.0, PERIODS + 1), q * still, qu * still, concentration(feed) * still)
         return simulate(suspension, self.height, jnp.zeros(self.cells), operation, feed_depth=self.feed_depth_share, cone=self._cone())
 
-    def __call__(self, feed: Stream) -> Outlets:
+    def outlets(self, inside: Simulation, feed: Stream) -> Outlets:
         q, qu = self._velocities(feed)
         C = concentration(feed)
         down, under, _over, _where = steady_state(C, q, qu, self.settling, jnp.maximum(self.concentration_maximum, C))
@@ -115,7 +122,7 @@ class ClarifierThickener(Unit, Dynamic):
     def steady_holdup(self, inlets: Mapping[str, Stream]) -> Sludge:
         feed = inlets["feed"]
         volumes, tank = self._shares()
-        by_cell = self.course(feed).concentration[-1] * volumes
+        by_cell = self.inside(feed).concentration[-1] * volumes
         kinds = feed.solid / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         liquid = feed.liquid / jnp.maximum(feed.liquid_volume_flow, 1e-300) * (tank - jnp.sum(by_cell) / feed.solid_density)
         return Sludge(by_cell.reshape((-1,) + (1,) * kinds.ndim) * kinds, liquid, jnp.asarray(feed.temperature, dtype=float))
@@ -199,30 +206,27 @@ class ClarifierThickener(Unit, Dynamic):
         shares = jax.lax.linalg.tridiagonal_solve(jnp.pad(-fall, (1, 0)), diagonal, jnp.pad(-rise, (0, 1)), known)
         return (shares * masses[:, None]).reshape(state.solid.shape)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Outlets) -> ClarifierThickenerFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: Simulation, outlets: Outlets, feed: Stream) -> ClarifierThickenerFigures:
         q, qu = self._velocities(feed)
-        C, course = concentration(feed), self.course(feed)
+        C = concentration(feed)
         limit = passing_flux(C, qu, self.settling, jnp.maximum(self.concentration_maximum, C))[0]
-        held = course.held[-1] * self.area
+        held = inside.held[-1] * self.area
         return ClarifierThickenerFigures(
             safe_divide(q * C, limit), (q - qu) / self.settling(C), q - qu, concentration(outlets.underflow), concentration(outlets.overflow),
-            course.interface_height(0.5 * C)[-1], course.concentration[-1, -1], held,
+            inside.interface_height(0.5 * C)[-1], inside.concentration[-1, -1], held,
             held / jnp.where(feed.solid_flow > 0, feed.solid_flow, jnp.inf),
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        figures, course = self.results(inlets, outlets), self.course(inlets["feed"])
-        gained = course.held[-1] - course.held[-2]
-        fed = course.fed[-1] - course.fed[-2]
-        settled = jnp.abs(gained) / jnp.where(fed > 0, fed, 1.0)
-        return (
-            Check("loading of the thickening zone", figures.loading_ratio, 0.0, 1.0, "dimensionless", "yoshioka1957"),
-            Check("loading of the clarification zone", figures.clarification_ratio, 0.0, 1.0, "dimensionless", "coe1916"),
-            Check("blanket below the feed", figures.blanket_height, 0.0, self.height * (1.0 - self.feed_depth_share), "m", "keinath1985"),
-            Check("sludge still gathering, of what is fed", settled, 0.0, 0.02, "dimensionless", "diehl2001"),
-            Check("diameter", jnp.sqrt(4.0 * self.area / jnp.pi), 0.0, 60.0, "m", "degremont2007"),
-        )
+    def measured(self, inside: Simulation, outlets: Outlets, figures: ClarifierThickenerFigures, feed: Stream) -> dict[str, Any]:
+        gained = inside.held[-1] - inside.held[-2]
+        fed = inside.fed[-1] - inside.fed[-2]
+        return {
+            "thickening": figures.loading_ratio,
+            "clarification": figures.clarification_ratio,
+            "blanket": figures.blanket_height / (self.height * (1.0 - self.feed_depth_share)),
+            "gathering": jnp.abs(gained) / jnp.where(fed > 0, fed, 1.0),
+            "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
+        }
 
 
 def _feed_cell(share: Any, cells: int) -> Any:

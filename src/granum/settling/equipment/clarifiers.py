@@ -4,13 +4,24 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
-from granum.settling.equipment.gravity import DRAG, HINDRANCE, AbstractSettler, Drag, Hindrance, Outlets, class_velocities
+from granum.core.limits import Limit
+from granum.settling.equipment.gravity import (
+    DRAG,
+    HINDRANCE,
+    AbstractSettler,
+    Drag,
+    Figures,
+    Hindrance,
+    Outlets,
+    Settled,
+    class_velocities,
+)
 from granum.settling.formulas.basins import removal_efficiency_camp, removal_efficiency_hazen
 from granum.settling.formulas.lamella import (
     critical_velocity_cocurrent,
@@ -20,7 +31,7 @@ from granum.settling.formulas.lamella import (
 from granum.streams.holdup import Held, at_rest, filled, mass, mixed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Dynamic
+from granum.streams.units import Dynamic, Limits
 
 HOUR = 3600.0
 
@@ -47,9 +58,8 @@ class AbstractBasin(AbstractSettler):
     def critical_velocity(self, feed: Stream) -> Any:
         return feed.slurry_volume_flow / self.settling_area()
 
-    def removed(self, feed: Stream) -> Any:
-        velocity = class_velocities(feed, self.drag, self.hindrance)
-        return grade_efficiency(velocity, self.critical_velocity(feed), self.tank_number)
+    def removed(self, feed: Stream, critical: Any) -> Any:
+        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), critical, self.tank_number)
 
 
 @equipment("clarifier", source="hazen1904; camp1946", title="Clarifier")
@@ -102,8 +112,8 @@ class _Deep(AbstractBasin, Dynamic):
     def advance(
         self, state: Held, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Held, Outlets]:
-        state, inside = mixed(state, before["feed"], after["feed"], self.volume, step)
-        return state, self(inside)
+        state, evened = mixed(state, before["feed"], after["feed"], self.volume, step)
+        return state, self(evened)
 
 
 @equipment("circular_clarifier", source="degremont2007; hazen1904", title="Circular scraped clarifier")
@@ -121,18 +131,23 @@ class CircularClarifier(_Deep):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
+    limits: ClassVar[Limits] = AbstractBasin.limits | {
+        "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+        "depth": Limit("depth at the wall", 2.0, 3.5, "m", "degremont2007"),
+        "slope": Limit("bottom slope", 0.04, 0.08, "dimensionless", "degremont2007"),
+        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+    }
+
     def settling_area(self) -> Any:
         return jnp.pi / 4.0 * self.diameter**2
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        time = self.settling_area() * self.height / inlets["feed"].slurry_volume_flow
-        return (
-            *super().checks(inlets, outlets),
-            Check("diameter", self.diameter, 0.0, 60.0, "m", "degremont2007"),
-            Check("depth at the wall", self.height, 2.0, 3.5, "m", "degremont2007"),
-            Check("bottom slope", self.bottom_slope, 0.04, 0.08, "dimensionless", "degremont2007"),
-            Check("residence time", time / HOUR, 1.5, 4.0, "hour", "metcalf2003"),
-        )
+    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "diameter": self.diameter,
+            "depth": self.height,
+            "slope": self.bottom_slope,
+            "time": self.volume / feed.slurry_volume_flow / HOUR,
+        }
 
 
 @equipment("rectangular_clarifier", source="degremont2007; camp1946", title="Rectangular clarifier")
@@ -150,18 +165,24 @@ class RectangularClarifier(_Deep):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
+    limits: ClassVar[Limits] = AbstractBasin.limits | {
+        "shape": Limit("length over width", 3.0, 6.5, "dimensionless", "degremont2007"),
+        "depth": Limit("depth", 2.5, 4.0, "m", "degremont2007"),
+        "velocity": Limit("horizontal velocity", 0.0, 0.025, "m/s", "metcalf2003"),
+        "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
+    }
+
     def settling_area(self) -> Any:
         return self.length * self.width
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        flow = inlets["feed"].slurry_volume_flow
-        return (
-            *super().checks(inlets, outlets),
-            Check("length over width", self.length / self.width, 3.0, 6.5, "dimensionless", "degremont2007"),
-            Check("depth", self.height, 2.5, 4.0, "m", "degremont2007"),
-            Check("horizontal velocity", flow / (self.width * self.height), 0.0, 0.025, "m/s", "metcalf2003"),
-            Check("residence time", self.settling_area() * self.height / flow / HOUR, 1.5, 4.0, "hour", "metcalf2003"),
-        )
+    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        flow = feed.slurry_volume_flow
+        return super().measured(inside, outlets, figures, feed) | {
+            "shape": self.length / self.width,
+            "depth": self.height,
+            "velocity": flow / (self.width * self.height),
+            "time": self.volume / flow / HOUR,
+        }
 
 
 _FLOWS = {
@@ -190,6 +211,12 @@ class Lamella(AbstractSettler):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
+    limits: ClassVar[Limits] = AbstractSettler.limits | {
+        "angle": Limit("angle of the plates", 45.0, 60.0, "degree", "degremont2007"),
+        "spacing": Limit("spacing of the plates", 0.05, 0.2, "m", "degremont2007"),
+        "reynolds": Limit("Reynolds number between the plates", 0.0, 800.0, "dimensionless", "degremont2007"),
+    }
+
     def plate_velocity(self, feed: Stream) -> Any:
         """Mean velocity of the water between the plates, m/s."""
         across = self.plate_length if self.flow_direction == "crosscurrent" else self.plate_width
@@ -199,19 +226,15 @@ class Lamella(AbstractSettler):
         along = self.plate_width if self.flow_direction == "crosscurrent" else self.plate_length
         return _FLOWS[self.flow_direction](self.plate_velocity(feed), along, self.plate_spacing, self.plate_angle)
 
-    def removed(self, feed: Stream) -> Any:
-        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), self.critical_velocity(feed), self.tank_number)
+    def removed(self, feed: Stream, critical: Any) -> Any:
+        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), critical, self.tank_number)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        velocity = self.plate_velocity(feed)
-        reynolds = velocity * 2.0 * self.plate_spacing * feed.liquid_density / feed.liquid_viscosity
-        return (
-            *super().checks(inlets, outlets),
-            Check("angle of the plates", jnp.rad2deg(self.plate_angle), 45.0, 60.0, "degree", "degremont2007"),
-            Check("spacing of the plates", self.plate_spacing, 0.05, 0.2, "m", "degremont2007"),
-            Check("Reynolds number between the plates", reynolds, 0.0, 800.0, "dimensionless", "degremont2007"),
-        )
+    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "angle": jnp.rad2deg(self.plate_angle),
+            "spacing": self.plate_spacing,
+            "reynolds": self.plate_velocity(feed) * 2.0 * self.plate_spacing * feed.liquid_density / feed.liquid_viscosity,
+        }
 
 
 @equipment("grit_chamber", source="camp1946; metcalf2003", title="Grit chamber")
@@ -229,13 +252,17 @@ class GritChamber(AbstractBasin):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
+    limits: ClassVar[Limits] = AbstractBasin.limits | {
+        "velocity": Limit("horizontal velocity", 0.25, 0.4, "m/s", "metcalf2003"),
+        "time": Limit("residence time", 45.0, 90.0, "s", "metcalf2003"),
+    }
+
     def settling_area(self) -> Any:
         return self.length * self.width
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        flow = inlets["feed"].slurry_volume_flow
-        return (
-            *super().checks(inlets, outlets),
-            Check("horizontal velocity", flow / (self.width * self.height), 0.25, 0.4, "m/s", "metcalf2003"),
-            Check("residence time", self.settling_area() * self.height / flow, 45.0, 90.0, "s", "metcalf2003"),
-        )
+    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        flow = feed.slurry_volume_flow
+        return super().measured(inside, outlets, figures, feed) | {
+            "velocity": flow / (self.width * self.height),
+            "time": self.settling_area() * self.height / flow,
+        }

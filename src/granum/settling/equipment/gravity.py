@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core.kinds import Concentration, Fraction, Law, Speed, VolumeFlow
+from granum.core.limits import Limit
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 Drag = Annotated[Any, Law("drag_coefficient")]
 Hindrance = Annotated[Any, Law("hindrance")]
@@ -36,6 +36,13 @@ class Figures(NamedTuple):
     underflow_volume_flow: VolumeFlow
     underflow_concentration: Concentration
     overflow_concentration: Concentration
+
+
+class Settled(NamedTuple):
+    """Settling velocity that is removed completely, m/s, and the share removed of each species and size class."""
+
+    critical: Any
+    removed: Any
 
 
 def class_velocities(feed: Stream, drag: Any, hindrance: Any) -> Any:
@@ -78,29 +85,32 @@ class AbstractSettler(Unit):
     if TYPE_CHECKING:  # a field of every subclass
         underflow_concentration: Any
 
+    limits: ClassVar[Limits] = {"thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916")}
+
     @abc.abstractmethod
     def critical_velocity(self, feed: Stream) -> Any:
         """Settling velocity that is removed completely, m/s."""
 
     @abc.abstractmethod
-    def removed(self, feed: Stream) -> Any:
+    def removed(self, feed: Stream, critical: Any) -> Any:
         """Share removed of each species and size class."""
 
-    def __call__(self, feed: Stream) -> Outlets:
-        return divide(feed, over_axes(self.removed(feed), feed), self.underflow_concentration)
+    def inside(self, feed: Stream) -> Settled:
+        critical = self.critical_velocity(feed)
+        return Settled(critical, self.removed(feed, critical))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Outlets) -> Figures:
-        feed = inlets["feed"]
+    def outlets(self, inside: Settled, feed: Stream) -> Outlets:
+        return divide(feed, over_axes(inside.removed, feed), self.underflow_concentration)
+
+    def figures(self, inside: Settled, outlets: Outlets, feed: Stream) -> Figures:
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         return Figures(
-            self.critical_velocity(feed),
+            inside.critical,
             outlets.underflow.solid_flow / some,
             outlets.underflow.slurry_volume_flow,
             concentration(outlets.underflow),
             concentration(outlets.overflow),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        feed = inlets["feed"]
-        thinner = concentration(feed) / self.underflow_concentration
-        return (Check("feed thinner than the underflow", thinner, 0.0, 1.0, "dimensionless", "coe1916"),)
+    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {"thinner": concentration(feed) / self.underflow_concentration}

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
+from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.equipment.gravity import Outlets, concentration, divide
 from granum.settling.flux import limiting_flux_underflow
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 Settling = Annotated[Any, Law("settling_velocity")]
 
@@ -44,23 +43,30 @@ class Thickener(Unit):
     underflow_concentration: Concentration
     settling: Settling
 
-    @shared
-    def limit(self, feed: Stream) -> Any:
+    limits: ClassVar[Limits] = {
+        "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916"),
+        "thickening": Limit("loading of the thickening zone", 0.0, 1.0, "dimensionless", "yoshioka1957"),
+        "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
+        "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
+    }
+
+    def inside(self, feed: Stream) -> Any:
         """Limiting flux and the layer that causes it."""
         return limiting_flux_underflow(self.underflow_concentration, concentration(feed), self.settling)
 
-    def __call__(self, feed: Stream) -> Outlets:
-        load = feed.solid_flow / self.area
-        limit = self.limit(feed).limiting_flux
+    def outlets(self, inside: Any, feed: Stream) -> Outlets:
+        load, limit = feed.solid_flow / self.area, inside.limiting_flux
         passes = jnp.where(load > 0, jnp.minimum(limit / jnp.where(load > 0, load, 1.0), 1.0), 1.0)
         # A feed as thick as the underflow has nothing to lose: it passes.
         return divide(feed, jnp.where(jnp.isfinite(passes), passes, 1.0), self.underflow_concentration)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Outlets) -> ThickenerFigures:
-        feed = inlets["feed"]
-        applied, found = feed.solid_flow / self.area, self.limit(feed)
-        limits = jnp.isfinite(found.limiting_flux)  # a feed as thick as the underflow is its own limiting layer: it passes as it is
-        limit, layer = jnp.where(limits, found.limiting_flux, applied), jnp.where(limits, found.limiting_concentration, concentration(feed))
+    def figures(self, inside: Any, outlets: Outlets, feed: Stream) -> ThickenerFigures:
+        applied = feed.solid_flow / self.area
+        limits = jnp.isfinite(inside.limiting_flux)  # a feed as thick as the underflow is its own limiting layer: it passes as it is
+        limit, layer = (
+            jnp.where(limits, inside.limiting_flux, applied),
+            jnp.where(limits, inside.limiting_concentration, concentration(feed)),
+        )
         rate = outlets.overflow.slurry_volume_flow / self.area
         velocity = self.settling(concentration(feed))
         return ThickenerFigures(
@@ -68,16 +74,13 @@ class Thickener(Unit):
             outlets.underflow.slurry_volume_flow, concentration(outlets.overflow),
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Outlets) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        diameter = jnp.sqrt(4.0 * self.area / jnp.pi)
-        thinner = concentration(inlets["feed"]) / self.underflow_concentration
-        return (
-            Check("feed thinner than the underflow", thinner, 0.0, 1.0, "dimensionless", "coe1916"),
-            Check("loading of the thickening zone", figures.loading_ratio, 0.0, 1.0, "dimensionless", "yoshioka1957"),
-            Check("loading of the clarification zone", figures.clarification_ratio, 0.0, 1.0, "dimensionless", "coe1916"),
-            Check("diameter", diameter, 0.0, 60.0, "m", "degremont2007"),
-        )
+    def measured(self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream) -> dict[str, Any]:
+        return {
+            "thinner": concentration(feed) / self.underflow_concentration,
+            "thickening": figures.loading_ratio,
+            "clarification": figures.clarification_ratio,
+            "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
+        }
 
     @classmethod
     def size(

@@ -152,13 +152,8 @@ class Agglomerator(Unit, Dynamic):
         born = _born_evenly(meetings, numbers, flat) if grid.cells is None else _born(meetings.kernel, numbers, flat, density, grid)
         return born, meetings.kernel @ numbers
 
-    def __call__(self, feed: Stream) -> Single:
-        held, good = self._steady(feed)
-        unsolved(good, type(self).card, reason=_RUNAWAY)
-        some = feed.solid_flow > 0
-        return Single(feed.replace(solid=jnp.where(some, held * feed.solid_flow / self.holdup_mass, feed.solid)))
-
-    def _steady(self, feed: Stream) -> tuple[Any, Any]:
+    def inside(self, feed: Stream) -> Any:
+        """The solid held in the steady state, kg."""
         meetings, turnover = self.prepare(feed.mixture, 0.0), jnp.maximum(feed.solid_flow, 1e-12) / self.holdup_mass
         fresh = self._flat(feed.solid)
 
@@ -169,10 +164,14 @@ class Agglomerator(Unit, Dynamic):
 
         start = fresh.reshape(-1) / jnp.maximum(feed.solid_flow, 1e-12)
         found = settle(refilled, start, tolerance=1e-13, max_steps=400)
-        return self._unflat(found.state.reshape(fresh.shape), feed.solid.shape) * self.holdup_mass, found.converged
+        unsolved(found.converged, type(self).card, reason=_RUNAWAY)
+        return self._unflat(found.state.reshape(fresh.shape), feed.solid.shape) * self.holdup_mass
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Single) -> AgglomeratorFigures:
-        feed = inlets["feed"]
+    def outlets(self, inside: Any, feed: Stream) -> Single:
+        some = feed.solid_flow > 0
+        return Single(feed.replace(solid=jnp.where(some, inside * feed.solid_flow / self.holdup_mass, feed.solid)))
+
+    def figures(self, inside: Any, outlets: Single, feed: Stream) -> AgglomeratorFigures:
         time = self.holdup_mass / jnp.maximum(feed.solid_flow, 1e-12)
         return AgglomeratorFigures(time, _median_size(feed), _median_size(outlets.product))
 
@@ -180,7 +179,7 @@ class Agglomerator(Unit, Dynamic):
         return jnp.zeros(mixture.solid_shape).at[(0,) * len(mixture.solid_shape)].set(1.0) * self.holdup_mass
 
     def steady_holdup(self, inlets: Mapping[str, Stream]) -> Any:
-        return self._steady(inlets["feed"])[0]
+        return self.inside(inlets["feed"])
 
     def held_mass(self, state: Any) -> Any:
         return jnp.sum(state)

@@ -33,10 +33,10 @@ class Mixed(NamedTuple):
 class Mixer(Unit):
     """Joins any number of streams adiabatically, at the lowest of their pressures."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         return Single(reduce(add, inlets.values()))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Single) -> Mixed:
+    def figures(self, inside: None, outlets: Single, **inlets: Stream) -> Mixed:
         return Mixed(outlets.product.mass_flow, outlets.product.temperature)
 
 
@@ -63,11 +63,11 @@ class Splitter(Unit):
 
     side_fraction: Fraction
 
-    def __call__(self, feed: Stream) -> TwoWays:
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
         f = self.side_fraction
         return TwoWays(feed.part(1 - f, 1 - f, 1 - f), feed.part(f, f, f))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: TwoWays) -> SplitFigures:
+    def figures(self, inside: None, outlets: TwoWays, feed: Stream) -> SplitFigures:
         return SplitFigures(outlets.product.mass_flow, outlets.side.mass_flow)
 
 
@@ -91,11 +91,11 @@ class Heater(Unit):
 
     temperature: Temperature
 
-    def __call__(self, feed: Stream) -> Heated:
+    def outlets(self, inside: None, feed: Stream) -> Heated:
         product = feed.replace(temperature=self.temperature)
         return Heated(product, product.enthalpy_flow - feed.enthalpy_flow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Heated) -> HeaterFigures:
+    def figures(self, inside: None, outlets: Heated, feed: Stream) -> HeaterFigures:
         return HeaterFigures(outlets.heat_duty, outlets.product.temperature)
 
 
@@ -124,11 +124,11 @@ class StirredTank(Unit, Dynamic):
 
     mass: Mass
 
-    def __call__(self, feed: Stream) -> Single:
+    def outlets(self, inside: None, feed: Stream) -> Single:
         return Single(feed)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Single) -> TankFigures:
-        flow = inlets["feed"].solid_flow + inlets["feed"].liquid_flow
+    def figures(self, inside: None, outlets: Single, feed: Stream) -> TankFigures:
+        flow = feed.solid_flow + feed.liquid_flow
         return TankFigures(self.mass / jnp.where(flow > 0, flow, 1.0), outlets.product.temperature)
 
     def initial_holdup(self, mixture: Any) -> Contents:

@@ -1,36 +1,38 @@
-"""``Line``: a process line as read from a case file. ``Run``: the same, solved and audited."""
+"""``Line``: a flowsheet with its specifications and what is told of it. ``Run``: the same, solved and audited."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.cases.fitted import fit_notices
-from granum.cases.schema import Case
-from granum.core import flags, record_steps
+from granum.core import record_steps
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.results import plain, quantity_json
 from granum.estimation.results import Fit
-from granum.flowsheet import Flowsheet, Solution
+from granum.flowsheet.drawing import draw
 from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.findings import Findings, fault_in_time
+from granum.flowsheet.fitted import fit_notices
 from granum.flowsheet.ladder import climb
 from granum.flowsheet.packing import as_arrays, compiled
+from granum.flowsheet.passing import told
 from granum.flowsheet.schedule import Schedule, schedule
+from granum.flowsheet.sheet import Flowsheet
+from granum.flowsheet.solving import Solution
 from granum.flowsheet.specifications import Target
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
-from granum.streams.units import Check
+from granum.streams.units import Check, Operated
 
 
 @compiled
@@ -38,16 +40,32 @@ def _marched(sheet: Flowsheet, times: Any, profiles: tuple[Profile, ...], start:
     return march(sheet, times, profiles, start=start)
 
 
+class Movement(NamedTuple):
+    """How a line runs in time: instants in s, disturbances, and how the units that hold matter start."""
+
+    times: Any
+    profiles: tuple[Profile, ...] = ()
+    start: str | Mapping[str, str] = "steady"
+
+
 @dataclass(frozen=True)
 class Line:
-    """A process line: flowsheet, design specifications and the case they came from."""
+    """A process line.
+
+    Parameters
+    ----------
+    title: for reports. sheet: units, feeds and links. targets: design specifications. movement: how it runs in time, if it does.
+    text: the case file it came from. fits: parameter → the fit it was taken from and its name there.
+    told: ``description``, ``project``, ``author`` and ``date`` for the report.
+    """
 
     title: str
     sheet: Flowsheet
     targets: tuple[Target, ...] = ()
-    case: Case | None = None
+    movement: Movement | None = None
     text: str = ""
     fits: Mapping[str, tuple[Fit, str]] = field(default_factory=dict)
+    told: Mapping[str, str] = field(default_factory=dict)
 
     def solve(self, watch: Watch | None = None) -> Run:
         """Solve, check and audit. Raises ``ConvergenceError`` (``last`` keeps the last iterate) for whatever is not a solution.
@@ -66,12 +84,10 @@ class Line:
         return run
 
     def march(self) -> Course:
-        """The line in time, as its ``[dynamic]`` table says. Raises where a loop does not converge at some instant."""
-        from granum.cases.reading import movement
-
-        if self.case is None:
-            raise InputError(_("Only a line read from a case file knows how it runs in time; call granum.flowsheet.march."))
-        times, profiles, start = movement(self.case, self.sheet)
+        """The line in time. Raises where a loop does not converge at some instant."""
+        if self.movement is None:
+            raise InputError(_("This line does not say how it runs in time: give its case a [dynamic] table, or it a 'movement'."))
+        times, profiles, start = self.movement
         course = _marched(as_arrays(self.sheet), times, profiles, start)
         bad = np.flatnonzero(~np.asarray(course.converged))
         if bad.size:
@@ -90,7 +106,7 @@ class Line:
 
     def with_values(self, **values: Any) -> Line:
         """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
-        return Line(self.title, self.sheet.with_values(values), self.targets, self.case, self.text, self.fits)
+        return replace(self, sheet=self.sheet.with_values(values))
 
 
 @dataclass(frozen=True)
@@ -157,15 +173,28 @@ class Run:
         return {name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name]) for name in self.sheet.order}
 
     @cached_property
+    def _written(self) -> dict[str, tuple[tuple[Result, ...], Operated]]:
+        """Each unit once more, with numbers in place of compiled code: what its formulas took and gave, and what is inside."""
+        written = {}
+        for name in self.sheet.order:
+            inlets = jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
+            with record_steps() as steps:
+                made = self.sheet.units[name].operate(**inlets)
+            written[name] = tuple(steps), made
+        return written
+
+    @cached_property
     def notes(self) -> dict[str, tuple[Result, ...]]:
         """The formulas each unit evaluates, with their numbers: the calculation note."""
-        notes: dict[str, tuple[Result, ...]] = {}
-        for name in self.sheet.order:
-            unit, inlets = self.sheet.units[name], jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
-            with record_steps() as steps:
-                unit.results(inlets, unit(**inlets))
-            notes[name] = tuple(steps)
-        return notes
+        return {name: steps for name, (steps, _made) in self._written.items()}
+
+    def charts(self) -> dict[str, Any]:
+        """Pictures of what happens inside the units, by unit and heading."""
+        return {
+            f"{name} · {heading}": figure
+            for name, (_steps, made) in self._written.items()
+            for heading, figure in self.sheet.units[name].charts(made, self.sheet.inlets_of(name, self.streams)).items()
+        }
 
     @cached_property
     def audit(self) -> dict[str, Any]:
@@ -180,8 +209,11 @@ class Run:
     @cached_property
     def flags(self) -> list[dict[str, Any]]:
         """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's name."""
-        own = [{"unit": unit, **row} for unit, records in self.solution.records.items() for row in flags.describe(records)]
-        return own + fit_notices(self.line.fits, self.sheet)
+        return told(self.solution.records) + fit_notices(self.line.fits, self.sheet)
+
+    def drawing(self) -> str:
+        """The flow diagram with its streams as SVG."""
+        return draw(self.sheet, self.streams)
 
     def schedule(self) -> Schedule:
         """The cycles of the batch units, with a Gantt chart."""
@@ -208,7 +240,7 @@ class Run:
             "converged": bool(self.solution.converged),
             "iterations": [int(n) for n in self.solution.steps],
             "flags": self.flags,
-            **({"dynamic": course_json(self.line.march())} if self.line.case is not None and self.line.case.dynamic else {}),
+            **({"dynamic": course_json(self.line.march())} if self.line.movement is not None else {}),
         }
 
     def report(self, path: str | Path) -> None:
@@ -239,6 +271,7 @@ def course_json(course: Course) -> dict[str, Any]:
         },
         "units": {"flow": "kg/s", "temperature": "K"},
         "mass_balance": plain(course.balance),
+        "flags": course.flags,
     }
 
 
