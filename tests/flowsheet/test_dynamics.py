@@ -17,13 +17,15 @@ from granum.comminution.breakage import AustinBreakage, AustinSelection
 from granum.comminution.equipment.mills import BallMill
 from granum.comminution.equipment.screens import Screen
 from granum.comminution.population import rate_matrix
-from granum.core.errors import GranumError
-from granum.flowsheet import Flowsheet, Profile, march, solve_compiled
+from granum.core import flags
+from granum.core.errors import ConvergenceError, GranumError
+from granum.flowsheet import Flowsheet, Line, Movement, Profile, march, solve_compiled
 from granum.flowsheet.packing import compiled
 from granum.particles.partition import RosinRammlerPartition
-from granum.streams.equipment.basics import Mixer, Splitter, StirredTank
+from granum.streams.equipment.basics import Mixer, Single, Splitter, StirredTank
 from granum.streams.mixture import Mixture, Species
-from granum.streams.stream import empty
+from granum.streams.stream import Stream, empty
+from granum.streams.units import Unit
 
 WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
 SALT = Species("salt", (("salt", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
@@ -156,6 +158,27 @@ vary = "brine.mass_flow"
 times = "0, 30, 31 min"
 values = "3600, 3600, 7200 kg/h"
 """
+
+
+class Thirsty(Unit):
+    """Passes its feed, and has no solution below a flow."""
+
+    def outlets(self, inside: None, feed: Stream) -> Single:
+        flags.unsolved(feed.mass_flow >= 1.5, StirredTank.card, reason="Too little comes.")
+        return Single(feed)
+
+    def figures(self, inside: None, outlets: Single, feed: Stream) -> tuple:
+        return ()
+
+
+def test_a_unit_without_solution_at_some_instant_is_told_with_the_time() -> None:
+    feed = empty(BRINE, 330.0).replace(liquid=jnp.array([2.0, 0.0]))
+    line = Flowsheet({"pass": Thirsty()}, {"f": feed}, {"f": ("", "pass")})
+    fading = Profile("f.mass_flow", [0.0, 10.0], [2.0, 1.0])
+    moving = Line("fading", line, movement=Movement(np.linspace(0.0, 10.0, 11), (fading,)))
+    with pytest.raises(ConvergenceError, match=r"At 6 s: Unit 'pass' has no solution: Too little comes\.") as caught:
+        moving.march()
+    assert caught.value.exit_code == 3
 
 
 def test_case_file_in_time() -> None:

@@ -131,10 +131,11 @@ def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, st
     step = times[1] - times[0]
     first = _with_profiles(line, profiles, times[0])
     scale = jnp.maximum(sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(())), 1e-12)
-    streams = {k.name: _floats(empty(_mixture(line), 298.15)) for k in line.links}
+    streams, begun = {k.name: _floats(empty(_mixture(line), 298.15)) for k in line.links}, jnp.asarray(True)
     states = {n: first.units[n].initial_holdup(_mixture(line)) for n in holding}  # type: ignore[attr-defined]
     if "steady" in (at for at in starts.values() if isinstance(at, str)):
-        streams = {n: _floats(s) for n, s in solve(first).streams.items()}
+        standing = solve(first)
+        streams, begun = {n: _floats(s) for n, s in standing.streams.items()}, standing.converged
     for n, at in starts.items():
         if not isinstance(at, str):
             states[n] = at
@@ -160,6 +161,7 @@ def march(line: Flowsheet, times: Any, profiles: tuple[Profile, ...] = (), *, st
         advance, carry, (times, jnp.where(jnp.arange(len(times)) == 0, 1.0, 0.0))
     )
     held = sum((line.units[n].held_mass(last.states[n]) - line.units[n].held_mass(states[n]) for n in states), jnp.zeros(()))  # type: ignore[attr-defined]
+    converged = converged.at[0].set(converged[0] & begun)
     return Course(times, whole, last.states, converged, jnp.abs(passed - held) / (scale * (times[-1] - times[0])), records)
 
 

@@ -105,7 +105,7 @@ def faults(line: Flowsheet, solution: Solution, found: Findings) -> list[Fault]:
     units = [unit for block in line.blocks for unit in block.units]
     starved = [unit for unit in units if _unknown(line, found, unit)]  # what they say of themselves may be said because of what came in
     own = [fault for unit in units for fault in _of_unit(line, solution, found, unit, unit not in starved)]
-    return fed + own + [fault for unit in starved for fault in _own_words(solution, unit)]
+    return fed + own + [fault for unit in starved for fault in _own_words(solution.records, unit)]
 
 
 def _lowest(s: Stream) -> Any:
@@ -134,14 +134,14 @@ def _unknown(line: Flowsheet, found: Findings, unit: str) -> bool:
     return any(k.target_unit == unit and not bool(found.finite[_place(line, k.name)]) for k in line.links)
 
 
-def _own_words(solution: Solution, unit: str) -> Iterator[Fault]:
-    for row in flags.describe([r for r in solution.records[unit] if r.bit & WRONG]):
+def _own_words(records: Mapping[str, list[flags.Record]], unit: str) -> Iterator[Fault]:
+    for row in flags.describe([r for r in records[unit] if r.bit & WRONG]):
         yield Fault("no value", unit, "", _("Unit '{unit}' has no solution: {cause}").format(unit=unit, cause=row["message"]))
 
 
 def _of_unit(line: Flowsheet, solution: Solution, found: Findings, unit: str, speaks: bool) -> Iterator[Fault]:
     if speaks:
-        yield from _own_words(solution, unit)
+        yield from _own_words(solution.records, unit)
     for k in line.links:
         if k.source_unit == unit:
             yield from _of_stream(line, solution, found, k.name)
@@ -194,11 +194,19 @@ def impossible(line: Flowsheet, name: str, stream: Stream, lowest: float, satura
         )  # fmt: skip
 
 
-def fault_in_time(line: Flowsheet, streams: Mapping[str, Stream], times: np.ndarray) -> tuple[float, Fault] | None:
-    """The first instant of a course at which a stream is impossible, with what is wrong there; None when all are possible."""
+def fault_in_time(
+    line: Flowsheet, streams: Mapping[str, Stream], times: np.ndarray, records: Mapping[str, list[flags.Record]]
+) -> tuple[float, Fault] | None:
+    """The first instant of a course at which a unit has no solution or a stream is impossible, with what is wrong there; None when all is possible."""
     largest = np.max([np.asarray(jax.vmap(lambda s: s.mass_flow)(s)) for s in streams.values()], axis=0)
     largest = np.where(largest > 0, largest, 1.0)
     first: tuple[float, Fault] | None = None
+    for unit in line.order:
+        lost = [r for r in records.get(unit, []) if r.bit & WRONG]
+        bad = np.any([np.asarray(r.mask).reshape(len(times), -1).any(axis=1) for r in lost] or [np.zeros(len(times), bool)], axis=0)
+        at = int(np.argmax(bad))
+        if bad.any() and (first is None or times[at] < first[0]):
+            first = float(times[at]), next(_own_words({unit: lost}, unit))
     for k in line.links:
         s = streams[k.name]
         rows = (jax.vmap(_lowest)(s) / largest, _saturations(s, 1e-9 * jnp.asarray(largest)), s.temperature)

@@ -97,7 +97,7 @@ class Line:
                 ),
                 last=course,
             )
-        wrong = fault_in_time(self.sheet, course.streams, times)
+        wrong = fault_in_time(self.sheet, course.streams, times, course.records)
         if wrong is not None:
             at, fault = wrong
             told = _("At {time} s: {fault}").format(time=f"{at:.6g}", fault=fault.message)
@@ -211,6 +211,11 @@ class Run:
         """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's name."""
         return told(self.solution.records) + fit_notices(self.line.fits, self.sheet)
 
+    @cached_property
+    def course(self) -> Course | None:
+        """The line in time, where it moves."""
+        return None if self.line.movement is None else self.line.march()
+
     def drawing(self) -> str:
         """The flow diagram with its streams as SVG."""
         return draw(self.sheet, self.streams)
@@ -240,7 +245,7 @@ class Run:
             "converged": bool(self.solution.converged),
             "iterations": [int(n) for n in self.solution.steps],
             "flags": self.flags,
-            **({"dynamic": course_json(self.line.march())} if self.line.movement is not None else {}),
+            **({"dynamic": course_json(self.course)} if self.course is not None else {}),
         }
 
     def report(self, path: str | Path) -> None:

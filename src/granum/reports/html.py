@@ -109,9 +109,9 @@ def size_chart(run: Any) -> Any:
 
 def course_chart(run: Any) -> Any:
     """Mass flow of every stream over the time of a run; None for a line that only stands."""
-    if run.line.movement is None:
+    course = run.course
+    if course is None:
         return None
-    course = run.line.march()
     flows = {
         name: sum(np.asarray(x).reshape(len(course.times), -1).sum(axis=1) for x in (s.solid, s.liquid, s.gas))
         for name, s in course.streams.items()

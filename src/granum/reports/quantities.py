@@ -113,7 +113,9 @@ def ranges_text(data: dict[str, Any]) -> str:
 
     thing = registry.everything().get(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
-    shown = [f"{declared[n].label} {range_text(*ends, declared[n])}" for n, ends in data.get("ranges", {}).items() if n in declared]
+    shown = [
+        f"{declared[n].label} {range_text(ends[0], ends[1], declared[n])}" for n, ends in data.get("ranges", {}).items() if n in declared
+    ]
     return _("Measured at: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
 
 
