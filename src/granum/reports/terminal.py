@@ -129,7 +129,7 @@ def print_card(card: Card) -> None:
     for p in card.parameters:
         allowed = ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
         default = _("required") if p.required else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
-        table.add_row(p.name, " · ".join(filter(None, (p.label, ", ".join(map(pretty_unit, p.units[:3])), allowed, default))))
+        table.add_row(p.name, " · ".join(filter(None, (p.label, ", ".join(filter(None, map(pretty_unit, p.units[:3]))), allowed, default))))
     console.print(table)
     if card.outputs:
         table = _table((_("output"), "left"), (_("quantity, unit"), "left"))
