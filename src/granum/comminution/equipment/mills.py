@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 import jax.scipy.linalg as linalg
@@ -17,9 +17,10 @@ from granum.core.errors import InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time, Within
+from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Dynamic, Unit
+from granum.streams.units import Dynamic, Limits, Unit
 
 _TINY = 1e-12
 OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
@@ -77,13 +78,12 @@ class BallMill(Unit, Dynamic):
     def _matrix(self, mixture: Any) -> Any:
         return rate_matrix(mixture.edges, self.selection, self.breakage, self.breakage_convention)
 
-    def __call__(self, feed: Stream) -> Ground:
+    def outlets(self, inside: None, feed: Stream) -> Ground:
         matrix = self._matrix(feed.mixture)
         ground = feed.regraded(self.mixing.operator(matrix, self._residence_time(feed)))
         return _warmed(ground, self.shaft_power, type(self).card)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> MillFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: None, outlets: Ground, feed: Stream) -> MillFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
         energy = safe_divide(self.shaft_power, feed.solid_flow)
         return MillFigures(self._residence_time(feed), coarse, fine, coarse / fine, energy)
@@ -153,11 +153,13 @@ class BondMill(Unit):
     work_index: WorkIndex
     efficiency_factor: PositiveNumber = 1.0
 
+    limits: ClassVar[Limits] = {"finest": Limit("product in the finest size class", 0.0, 0.2, "", OWN_LIMIT)}
+
     def _product_size(self, feed: Stream) -> Any:
         energy = safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow) / self.efficiency_factor
         return product_size_bond(size_passing(feed), energy, self.work_index)
 
-    def __call__(self, feed: Stream) -> Ground:
+    def outlets(self, inside: None, feed: Stream) -> Ground:
         edges = jnp.asarray(feed.mixture.edges)
         ratio = self._product_size(feed) / size_passing(feed)
         lower, upper = ratio * edges[:-1], ratio * edges[1:]
@@ -166,8 +168,7 @@ class BondMill(Unit):
         ground = feed.regraded(jnp.diff(below, axis=0))
         return _warmed(ground, self.shaft_power, type(self).card)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
         return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))
 
@@ -180,8 +181,8 @@ class BondMill(Unit):
         energy = specific_energy_bond(feed_size, product_size, work_index)
         return cls(mass_flow * energy * efficiency_factor, work_index, efficiency_factor)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Ground) -> tuple[Check, ...]:
-        return (Check("product in the finest size class", outlets.product.size_fractions[0], 0.0, 0.2, "", OWN_LIMIT),)
+    def measured(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
+        return {"finest": outlets.product.size_fractions[0]}
 
 
 @equipment("cone_crusher", source="whiten1972; napiermunn1996", title="Cone or jaw crusher (Whiten)")
@@ -206,7 +207,7 @@ class ConeCrusher(Unit):
                 _("The size that always passes must be smaller than the size that is always broken."), name="always_passing_size"
             )
 
-    def __call__(self, feed: Stream) -> Ground:
+    def outlets(self, inside: None, feed: Stream) -> Ground:
         from granum.comminution.breakage import WhitenClassification
 
         edges = jnp.asarray(feed.mixture.edges)
@@ -216,7 +217,6 @@ class ConeCrusher(Unit):
         operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
         return _warmed(feed.regraded(operator), self.shaft_power, type(self).card)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Ground) -> CrusherFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
         return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
@@ -71,17 +70,17 @@ class Screen(Unit):
     separation: Deck
     liquid_split_oversize: Fraction = 0.0
 
-    def __call__(self, feed: Stream) -> Screened:
+    def outlets(self, inside: None, feed: Stream) -> Screened:
         return Screened(*_divided(feed, self.separation, self.liquid_split_oversize))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Screened) -> ScreenFigures:
+    def figures(self, inside: None, outlets: Screened, feed: Stream) -> ScreenFigures:
         size = self.separation.cut_size
-        fed, passed = inlets["feed"].solid_by_size, outlets.undersize.solid_by_size
-        below = _parts_below(inlets["feed"], size)
+        fed, passed = feed.solid_by_size, outlets.undersize.solid_by_size
+        below = _parts_below(feed, size)
         recovery = safe_divide(jnp.sum(passed * below), jnp.sum(fed * below))
         # summed as it is: a little coarse feed as a difference of large flows would be rounding alone
         rejection = 1.0 - safe_divide(jnp.sum(passed * (1.0 - below)), jnp.sum(fed * (1.0 - below)))
-        return ScreenFigures(outlets.oversize.mass_flow, outlets.undersize.mass_flow, size, fraction_below(inlets["feed"], size),
+        return ScreenFigures(outlets.oversize.mass_flow, outlets.undersize.mass_flow, size, fraction_below(feed, size),
                              recovery, rejection, recovery * rejection)  # fmt: skip
 
 
@@ -109,11 +108,11 @@ class DoubleDeckScreen(Unit):
     lower_deck: Deck
     liquid_split_oversize: Fraction = 0.0
 
-    def __call__(self, feed: Stream) -> TwoDecks:
+    def outlets(self, inside: None, feed: Stream) -> TwoDecks:
         oversize, rest = _divided(feed, self.upper_deck, self.liquid_split_oversize)
         return TwoDecks(oversize, *_divided(rest, self.lower_deck, self.liquid_split_oversize))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: TwoDecks) -> TwoDeckFigures:
+    def figures(self, inside: None, outlets: TwoDecks, feed: Stream) -> TwoDeckFigures:
         return TwoDeckFigures(*(s.mass_flow for s in outlets))
 
 
@@ -144,10 +143,10 @@ class TripleDeckScreen(Unit):
     lower_deck: Deck
     liquid_split_oversize: Fraction = 0.0
 
-    def __call__(self, feed: Stream) -> ThreeDecks:
+    def outlets(self, inside: None, feed: Stream) -> ThreeDecks:
         oversize, rest = _divided(feed, self.upper_deck, self.liquid_split_oversize)
         coarse, rest = _divided(rest, self.middle_deck, self.liquid_split_oversize)
         return ThreeDecks(oversize, coarse, *_divided(rest, self.lower_deck, self.liquid_split_oversize))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: ThreeDecks) -> ThreeDeckFigures:
+    def figures(self, inside: None, outlets: ThreeDecks, feed: Stream) -> ThreeDeckFigures:
         return ThreeDeckFigures(*(s.mass_flow for s in outlets))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -11,9 +10,10 @@ from granum.comminution.equipment.screens import Screen, Screened, fraction_belo
 from granum.comminution.formulas import screen_capacity as karra
 from granum.core import equipment
 from granum.core.kinds import Angle, Area, Density, Distance, Fraction, Length, MassFlow, MassFlux, OpenFraction, Ratio
+from granum.core.limits import Limit
 from granum.particles.partition import RosinRammlerPartition
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 SHARPNESS = 5.846
 _LARGEST_NEAR_SIZE = 0.99
@@ -58,7 +58,11 @@ class VibratingScreen(Unit):
     open_area_fraction: OpenFraction | None = None
     liquid_split_oversize: Fraction = 0.0
 
-    def _load(self, feed: Stream) -> _Load:
+    limits: ClassVar[Limits] = {
+        "load": Limit("undersize fed over the capacity of the screen", 0.0, 1.0, "percent", "karra1979"),
+    }
+
+    def inside(self, feed: Stream) -> _Load:
         h = karra.throughfall_aperture(self.aperture, self.wire_diameter, self.deck_inclination)
         below = fraction_below(feed, h)
         near = jnp.clip(fraction_below(feed, 1.25 * h) - fraction_below(feed, 0.75 * h), 1e-9, _LARGEST_NEAR_SIZE)
@@ -70,26 +74,19 @@ class VibratingScreen(Unit):
         cut = jnp.minimum(karra.cut_size_karra(h, light, capacity), self.aperture)
         return _Load(h, capacity, flux / capacity, cut)
 
-    def _screen(self, feed: Stream) -> Screen:
-        return Screen(RosinRammlerPartition(self._load(feed).cut, SHARPNESS), self.liquid_split_oversize)
+    def outlets(self, inside: _Load, feed: Stream) -> Screened:
+        return Screen(RosinRammlerPartition(inside.cut, SHARPNESS), self.liquid_split_oversize)(feed)
 
-    def __call__(self, feed: Stream) -> Screened:
-        return self._screen(feed)(feed)
-
-    def results(self, inlets: Mapping[str, Stream], outlets: Screened) -> VibratingScreenFigures:
-        feed = inlets["feed"]
-        load = self._load(feed)
+    def figures(self, inside: _Load, outlets: Screened, feed: Stream) -> VibratingScreenFigures:
         # judged at the throughfall aperture, the size that an ideal deck would cut at
-        figures = Screen(RosinRammlerPartition(load.opening, SHARPNESS)).results(inlets, outlets)
+        figures = Screen(RosinRammlerPartition(inside.opening, SHARPNESS)).figures(None, outlets, feed)
         return VibratingScreenFigures(
-            outlets.oversize.mass_flow, outlets.undersize.mass_flow, load.cut, load.opening, load.capacity, load.loading,
+            outlets.oversize.mass_flow, outlets.undersize.mass_flow, inside.cut, inside.opening, inside.capacity, inside.loading,
             figures.screening_recovery, figures.screening_rejection, figures.screening_effectiveness,
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Screened) -> tuple[Check, ...]:
-        return (
-            Check("undersize fed over the capacity of the screen", self._load(inlets["feed"]).loading, 0.0, 1.0, "percent", "karra1979"),
-        )
+    def measured(self, inside: _Load, outlets: Screened, figures: VibratingScreenFigures, feed: Stream) -> dict[str, Any]:
+        return {"load": inside.loading}
 
     @classmethod
     def size(cls, mass_flow_undersize: MassFlow, screening_capacity: MassFlux, aperture: Length) -> VibratingScreen:

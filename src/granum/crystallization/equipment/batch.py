@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -31,6 +31,7 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
+from granum.core.limits import Limit
 from granum.crystallization.equipment.heat import StreamHeat
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
@@ -40,15 +41,11 @@ from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 STEPS = 300
 TRICKLE = 1e-12  # kg/s of solvent, so that an empty feed gives an empty product
-_CROWDED = "solids in the suspension by volume"
-_HIGHEST = "highest relative supersaturation"
-_CRUST = "undercooling at the cooled wall"
 
 
 class BatchOutlets(NamedTuple):
@@ -125,6 +122,14 @@ class PlugFlowFigures(NamedTuple):
     heat_duty: Power
 
 
+class Grown(NamedTuple):
+    """The batch of one second of feed (everything is proportional to it), which species plays which part, and the seed held back."""
+
+    course: Course
+    found: Roles
+    held: Any
+
+
 class _Batch(Unit):
     """What batches share; each says how long it runs and what drives it."""
 
@@ -137,6 +142,12 @@ class _Batch(Unit):
     volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
+
+    limits: ClassVar[Limits] = {
+        "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+        "highest": Limit("highest relative supersaturation", 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
+        "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
+    }
 
     @abstractmethod
     def _time(self, feed: Stream) -> Any:
@@ -161,9 +172,7 @@ class _Batch(Unit):
         number = entering.crystals / (cube * 0.25 * (low + high) * (low**2 + high**2))
         return held, Seeds(jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number))
 
-    @shared
-    def _course(self, feed: Stream) -> tuple[Course, Roles, Any]:
-        """The batch of one second of feed (everything is proportional to it), and the seed held back."""
+    def inside(self, feed: Stream) -> Grown:
         found = roles(feed.mixture, self.solid, self.solvent)
         entering, duration = feed_of(feed, found), self._time(feed)
         held, seeds = self._seeding(feed, found)
@@ -174,10 +183,11 @@ class _Batch(Unit):
         course = march(model, operation, seeds, entering.solute, solvent, times)
         # once more where its flags are heard: inside what is compiled they are lost
         model.saturated(Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent)))
-        return course, found, held
+        return Grown(course, found, held)
 
-    def _product(self, feed: Stream, course: Course, found: Roles, held: Any) -> tuple[Stream, Any]:
+    def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
         """Suspension leaving, and the solvent that has evaporated (kg/s)."""
+        course, found, held = inside
         x, entering = found.solute_fraction, jnp.sum(feed_of(feed, found).crystals)
         grown = course.crystals[-1]
         kept = jnp.maximum(grown - held, 0.0)
@@ -190,9 +200,9 @@ class _Batch(Unit):
         liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
         return feed.replace(solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]), gone
 
-    def _figures(self, feed: Stream, product: Stream) -> tuple[Any, ...]:
-        """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei; the course and the roles."""
-        course, found, _held = self._course(feed)
+    def _figures(self, inside: Grown, product: Stream, feed: Stream) -> tuple[Any, ...]:
+        """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei."""
+        course, found, _held = inside
         entering = feed_of(feed, found)
         made = product.solid_by_species[found.solid]
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
@@ -203,21 +213,20 @@ class _Batch(Unit):
         return (
             made, safe_divide(found.solute_fraction * made, fed), safe_divide(made, product.slurry_volume_flow),
             jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0, final.mean_size(4, 3),
-            1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300), course, found,
+            1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300),
         )  # fmt: skip
 
-    def _cooled(self, feed: Stream) -> BatchOutlets:
+    def _cooled(self, inside: Grown, feed: Stream) -> BatchOutlets:
         """The outlets of a vessel that gives up no vapor."""
-        product, _gone = self._product(feed, *self._course(feed))
+        product, _gone = self._product(inside, feed)
         return BatchOutlets(product, product.enthalpy_flow - feed.enthalpy_flow)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Any) -> tuple[Check, ...]:
-        figures, product = self.results(inlets, outlets), outlets.product
-        return (
-            Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
-            Check(_HIGHEST, figures.relative_supersaturation_maximum, 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
-            Check(LARGEST, product.size_fractions[-1], 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
-        )
+    def measured(self, inside: Grown, outlets: Any, figures: Any, feed: Stream) -> dict[str, Any]:
+        return {
+            "crowded": outlets.product.solids_volume_fraction,
+            "highest": figures.relative_supersaturation_maximum,
+            "largest": outlets.product.size_fractions[-1],
+        }
 
 
 class _Cycled(_Batch):
@@ -253,13 +262,13 @@ class BatchCrystallizer(_Cycled):
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
 
-    def __call__(self, feed: Stream) -> BatchOutlets:
-        return self._cooled(feed)
+    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
+        return self._cooled(inside, feed)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> BatchFigures:
-        *figures, _course, found = self._figures(inlets["feed"], outlets.product)
+    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> BatchFigures:
+        figures = self._figures(inside, outlets.product, feed)
         volume = outlets.product.slurry_volume_flow * self.cycle
-        return BatchFigures._make((*figures, self._seed(inlets["feed"], found), volume, outlets.heat_duty))
+        return BatchFigures._make((*figures, self._seed(feed, inside.found), volume, outlets.heat_duty))
 
 
 @equipment("jacketed_batch_crystallizer", source="mullin2001, ch. 9; kern1950, ch. 20", title="Batch crystallizer cooled through a jacket",
@@ -278,30 +287,29 @@ class JacketedBatchCrystallizer(_Cycled):
     heat_transfer_coefficient_inside: HeatTransferCoefficient = 1000.0
     metastable_width: TemperatureDifference = 5.0
 
+    limits: ClassVar[Limits] = _Cycled.limits | {
+        "crust": Limit("undercooling at the cooled wall", -math.inf, "metastable_width", "delta_degC", "mullin2001, ch. 9")
+    }
+
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         exchange = self.heat_transfer_coefficient * self.area * feed.slurry_volume_flow / self.volume
         return Jacketed(feed.temperature, self.jacket_program, exchange, StreamHeat.of(feed, found))
 
-    def __call__(self, feed: Stream) -> BatchOutlets:
-        return self._cooled(feed)
+    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
+        return self._cooled(inside, feed)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> JacketedBatchFigures:
-        feed = inlets["feed"]
-        *figures, course, found = self._figures(feed, outlets.product)
+    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> JacketedBatchFigures:
+        figures, course = self._figures(inside, outlets.product, feed), inside.course
         T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
         wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside)
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
         count = feed.slurry_volume_flow * self.cycle / self.volume
         return JacketedBatchFigures._make(
-            (*figures, safe_divide(self._seed(feed, found), count), count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
+            (*figures, safe_divide(self._seed(feed, inside.found), count), count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> tuple[Check, ...]:
-        coldest = self.results(inlets, outlets).undercooling_wall_maximum
-        return (
-            *super().checks(inlets, outlets),
-            Check(_CRUST, coldest, -jnp.inf, self.metastable_width, "delta_degC", "mullin2001, ch. 9"),
-        )
+    def measured(self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {"crust": figures.undercooling_wall_maximum}
 
 
 @equipment("vacuum_batch_crystallizer", source="mullin2001, ch. 8 and 9", title="Batch crystallizer cooled by boiling under vacuum",
@@ -320,9 +328,9 @@ class VacuumBatchCrystallizer(_Cycled):
         heat = StreamHeat.of(feed, found)
         return Flashing(self.temperature_program, heat.latent, heat, feed.temperature)
 
-    def __call__(self, feed: Stream) -> VacuumBatchOutlets:
-        course, found, held = self._course(feed)
-        product, gone = self._product(feed, course, found, held)
+    def outlets(self, inside: Grown, feed: Stream) -> VacuumBatchOutlets:
+        course, found, _held = inside
+        product, gone = self._product(inside, feed)
         assert found.vapor is not None
         released = -jnp.diff(course.solvent)
         middle = 0.5 * (course.temperature[1:] + course.temperature[:-1])
@@ -332,11 +340,11 @@ class VacuumBatchCrystallizer(_Cycled):
         product = product.replace(gas=0.0 * feed.gas)
         return VacuumBatchOutlets(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: VacuumBatchOutlets) -> VacuumBatchFigures:
-        *figures, course, found = self._figures(inlets["feed"], outlets.product)
+    def figures(self, inside: Grown, outlets: VacuumBatchOutlets, feed: Stream) -> VacuumBatchFigures:
+        figures, course = self._figures(inside, outlets.product, feed), inside.course
         fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle  # after the first flash
         gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
-        return VacuumBatchFigures._make((*figures, self._seed(inlets["feed"], found), volume, gone, fastest))
+        return VacuumBatchFigures._make((*figures, self._seed(feed, inside.found), volume, gone, fastest))
 
 
 @equipment("plug_flow_crystallizer", source="randolph1988, ch. 7; mullin2001, ch. 9", title="Plug flow crystallizer",
@@ -357,9 +365,9 @@ class PlugFlowCrystallizer(_Batch):
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
 
-    def __call__(self, feed: Stream) -> BatchOutlets:
-        return self._cooled(feed)
+    def outlets(self, inside: Grown, feed: Stream) -> BatchOutlets:
+        return self._cooled(inside, feed)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: BatchOutlets) -> PlugFlowFigures:
-        *figures, _course, _found = self._figures(inlets["feed"], outlets.product)
-        return PlugFlowFigures._make((*figures, self._time(inlets["feed"]), outlets.heat_duty))
+    def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> PlugFlowFigures:
+        figures = self._figures(inside, outlets.product, feed)
+        return PlugFlowFigures._make((*figures, self._time(feed), outlets.heat_duty))

@@ -71,7 +71,7 @@ class InTime(Dynamic):
         solvent: str
 
     @abstractmethod
-    def _steady(self, feed: Stream) -> tuple[SteadyState, Roles]: ...
+    def inside(self, feed: Stream) -> tuple[SteadyState, Roles]: ...
 
     @abstractmethod
     def _evaporation(self, feed: Stream, found: Roles) -> tuple[Any, Any]: ...
@@ -105,7 +105,7 @@ class InTime(Dynamic):
 
     def steady_holdup(self, inlets: Mapping[str, Stream]) -> Held:
         feed = inlets["feed"]
-        state, found = self._steady(feed)
+        state, found = self.inside(feed)
         crystal, x = self._crystal(feed.mixture, found), found.solute_fraction
         numbers, sizes = packets_of(feed_of(feed, found).crystals, jnp.asarray(feed.mixture.edges), crystal)
         time, made = state.residence_time, jnp.sum(state.crystals)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -28,18 +28,14 @@ from granum.core.kinds import (
     Time,
     Volume,
 )
+from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
-_CROWDED = "solids in the suspension by volume"
-_LONG = "residence time"
-_PRESENT = "steady crystals (1 when present)"
-_DRYING = "solvent evaporated"
 _UNSOLVED = "No supersaturation was found at which the crystals made are those that the solute balance leaves: check feed, kinetics and evaporation."
 
 
@@ -78,8 +74,16 @@ class _Continuous(Unit):
     solid: str = eqx.field(kw_only=True, static=True, default="")
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
-    @shared
-    def _steady(self, feed: Stream) -> tuple[SteadyState, Roles]:
+    limits: ClassVar[Limits] = {
+        "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+        "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
+        "present": Limit("steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+        "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
+        "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
+    }
+
+    def inside(self, feed: Stream) -> tuple[SteadyState, Roles]:
+        """The steady suspension, and which species plays which part."""
         found = roles(feed.mixture, self.solid, self.solvent)
         densities = feed.mixture.densities("liquids", self.temperature)
         volumes = feed.liquid / densities
@@ -92,11 +96,11 @@ class _Continuous(Unit):
             AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
             feed.mixture.edges, evaporation, per_crystal, self.nucleus_size, self._removal(),
         )  # fmt: skip
+        unsolved(state.converged, type(self).card, reason=_UNSOLVED)
         return state, found
 
-    def __call__(self, feed: Stream) -> Crystallized:
-        state, found = self._steady(feed)
-        unsolved(state.converged, type(self).card, reason=_UNSOLVED)
+    def outlets(self, inside: tuple[SteadyState, Roles], feed: Stream) -> Crystallized:
+        state, found = inside
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
             solid=with_crystals(feed, found, state.crystals), liquid=liquid, gas=0.0 * feed.gas,
@@ -108,27 +112,27 @@ class _Continuous(Unit):
         vapor = empty(feed.mixture, self.temperature).replace(gas=gas, pressure=feed.pressure)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Crystallized) -> CrystallizerFigures:
-        state, found = self._steady(inlets["feed"])
-        entering = feed_of(inlets["feed"], found)
+    def figures(self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream) -> CrystallizerFigures:
+        state, found = inside
+        entering = feed_of(feed, found)
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
         crystals = jnp.sum(state.crystals)
         return CrystallizerFigures(
             crystals, safe_divide(found.solute_fraction * crystals, fed), state.magma_density, state.relative_supersaturation,
             state.growth_rate, state.nucleation_rate, state.residence_time,
-            state.length, _median(state.crystals, inlets["feed"].mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
+            state.length, _median(state.crystals, feed.mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
         )  # fmt: skip
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Crystallized) -> tuple[Check, ...]:
-        state, _found = self._steady(inlets["feed"])
-        product = outlets.product
-        return (
-            Check(_CROWDED, product.solids_volume_fraction, 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
-            Check(_LONG, state.residence_time, 600.0, 36000.0, "s", "mullin2001, ch. 9"),
-            Check(_PRESENT, jnp.where(state.washed_out, 0.0, 1.0), 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
-            Check(LARGEST, product.size_fractions[-1], 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
-            Check(_DRYING, jnp.asarray(state.evaporation), 0.0, jnp.inf, "kg/s", "randolph1988, ch. 4"),
-        )
+    def measured(
+        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, figures: CrystallizerFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {
+            "crowded": outlets.product.solids_volume_fraction,
+            "time": figures.residence_time,
+            "present": jnp.where(inside[0].washed_out, 0.0, 1.0),
+            "largest": outlets.product.size_fractions[-1],
+            "drying": figures.evaporation,
+        }
 
     def _removal(self) -> Removal | None:
         """Fines dissolved and product classified; none by default."""

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import reduce
 from operator import add
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.flags import unsolved
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, Power, RelativeHumidity, Temperature
+from granum.core.limits import Limit
 from granum.numerics import find_root
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 FREEZING, COLDEST = 273.15, 200.0
 UNSOLVED = "No temperature was found at which gas and liquid are in equilibrium with the heat they bring: check the temperatures and flows that enter."
@@ -26,8 +26,8 @@ def _drained(stream: Stream) -> tuple[Stream, Stream]:
     return stream.part(1.0, 0.0, 1.0), stream.part(0.0, 1.0, 0.0)
 
 
-def _above_freezing(stream: Stream, source: str) -> tuple[Check, ...]:
-    return (Check("temperature above the freezing point", stream.temperature, FREEZING, 2000.0, "K", source),)
+def _above_freezing(source: str) -> Limits:
+    return {"liquid": Limit("temperature above the freezing point", FREEZING, 2000.0, "K", source)}
 
 
 class Mixed(NamedTuple):
@@ -53,19 +53,21 @@ class HumidMixer(Unit):
     Steam injection and spraying are this unit with a steam or water inlet; what does not evaporate leaves with the gas as liquid.
     """
 
-    def __call__(self, **inlets: Stream) -> Mixed:
+    limits: ClassVar[Limits] = _above_freezing("ashrae2017")
+
+    def outlets(self, inside: None, **inlets: Stream) -> Mixed:
         mixed = reduce(add, inlets.values())
         product = HumidMixture(mixed.mixture).at_own_enthalpy(mixed)
         unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
         return Mixed(product)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Mixed) -> HumidFigures:
+    def figures(self, inside: None, outlets: Mixed, **inlets: Stream) -> HumidFigures:
         gas = outlets.product
         humid = HumidMixture(gas.mixture)
         return HumidFigures(gas.temperature, humid.humidity_ratio(gas), humid.relative_humidity(gas), gas.mass_flow, gas.liquid_flow)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Mixed) -> tuple[Check, ...]:
-        return _above_freezing(outlets.product, "ashrae2017")
+    def measured(self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream) -> dict[str, Any]:
+        return {"liquid": outlets.product.temperature}
 
 
 class Cooled(NamedTuple):
@@ -100,15 +102,17 @@ class CondenserCooler(Unit):
 
     temperature: Temperature
 
-    def __call__(self, gas: Stream) -> Cooled:
+    limits: ClassVar[Limits] = _above_freezing("ashrae2017")
+
+    def outlets(self, inside: None, gas: Stream) -> Cooled:
         out = HumidMixture(gas.mixture).at_temperature(gas, self.temperature)
         return Cooled(*_drained(out), out.enthalpy_flow - gas.enthalpy_flow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Cooled) -> CoolerFigures:
+    def figures(self, inside: None, outlets: Cooled, gas: Stream) -> CoolerFigures:
         return _cooler_figures(outlets)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Cooled) -> tuple[Check, ...]:
-        return _above_freezing(outlets.product, "ashrae2017")
+    def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return {"liquid": outlets.product.temperature}
 
 
 @equipment("dehumidifying_coil", source="ashrae2017, ch. 1; mcquiston2005", title="Dehumidifying coil")
@@ -118,7 +122,9 @@ class DehumidifyingCoil(Unit):
     coil_temperature: Temperature
     coil_bypass_fraction: Fraction = 0.1
 
-    def __call__(self, gas: Stream) -> Cooled:
+    limits: ClassVar[Limits] = _above_freezing("mcquiston2005")
+
+    def outlets(self, inside: None, gas: Stream) -> Cooled:
         share = 1.0 - self.coil_bypass_fraction
         humid = HumidMixture(gas.mixture)
         cold, condensate = _drained(humid.at_temperature(gas.part(share, share, share), self.coil_temperature))
@@ -128,11 +134,11 @@ class DehumidifyingCoil(Unit):
         duty = product.enthalpy_flow + condensate.enthalpy_flow - gas.enthalpy_flow
         return Cooled(product, condensate, duty)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Cooled) -> CoolerFigures:
+    def figures(self, inside: None, outlets: Cooled, gas: Stream) -> CoolerFigures:
         return _cooler_figures(outlets)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Cooled) -> tuple[Check, ...]:
-        return _above_freezing(outlets.condensate, "mcquiston2005")
+    def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return {"liquid": outlets.condensate.temperature}
 
 
 class Humidified(NamedTuple):
@@ -161,7 +167,9 @@ class AdiabaticHumidifier(Unit):
 
     saturation_effectiveness: Fraction = 0.9
 
-    def __call__(self, gas: Stream, water: Stream) -> Humidified:
+    limits: ClassVar[Limits] = {"drain": Limit("water left at the drain of the humidifier", 1e-9, 1.0, "percent", "ashrae2017")}
+
+    def outlets(self, inside: None, gas: Stream, water: Stream) -> Humidified:
         humid = HumidMixture(gas.mixture)
         available = water.liquid[0]
 
@@ -187,12 +195,11 @@ class AdiabaticHumidifier(Unit):
         unsolved(jnp.isfinite(product.temperature) & (root.converged | (thirst <= 0.0)), type(self).card, reason=UNSOLVED)
         return Humidified(product, drain)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Humidified) -> HumidifierFigures:
-        gas = outlets.product
-        humid = HumidMixture(gas.mixture)
-        evaporated = inlets["water"].liquid[0] - outlets.drain.liquid[0]
-        return HumidifierFigures(gas.temperature, humid.humidity_ratio(gas), humid.relative_humidity(gas), evaporated)
+    def figures(self, inside: None, outlets: Humidified, gas: Stream, water: Stream) -> HumidifierFigures:
+        moist = outlets.product
+        humid = HumidMixture(moist.mixture)
+        evaporated = water.liquid[0] - outlets.drain.liquid[0]
+        return HumidifierFigures(moist.temperature, humid.humidity_ratio(moist), humid.relative_humidity(moist), evaporated)
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Humidified) -> tuple[Check, ...]:
-        share = outlets.drain.liquid_flow / jnp.maximum(inlets["water"].liquid_flow, 1e-300)
-        return (Check("water left at the drain of the humidifier", share, 1e-9, 1.0, "percent", "ashrae2017"),)
+    def measured(self, inside: None, outlets: Humidified, figures: HumidifierFigures, gas: Stream, water: Stream) -> dict[str, Any]:
+        return {"drain": outlets.drain.liquid_flow / jnp.maximum(water.liquid_flow, 1e-300)}
