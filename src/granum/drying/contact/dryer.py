@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import threading
+import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -19,20 +19,18 @@ from granum.core.errors import ApplicabilityError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import HumidityRatio, Mass, MoistureDryBasis, Power, Ratio, SignedMassFlow, Temperature, Time
+from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Inlet, Profile
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
 from granum.drying.contact.liquor import composition, counted, moistened
 from granum.drying.contact.matter import Matter, temperature_at
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Operated, Unit
+from granum.streams.units import Limits, Operated, Unit
 
 WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
 UNSOLVED = "The steady state of the dryer was not found: its figures are no result. Take less solid in it, or more gas."
-
-
-_last = threading.local()
 PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}  # ready four times as soon; small arrays run as fast
 
 
@@ -49,25 +47,6 @@ def ready(solve: Callable[..., Any]) -> Callable[..., Any]:
         return built[0](*given)
 
     return call
-
-
-def recalled(solve: Callable[..., Any]) -> Callable[..., Any]:
-    """As ``ready``, and keeps the last solution of each thread: streams, figures and checks of one dryer ask for it one after the other."""
-    solve = ready(solve)
-
-    def call(*given: Any) -> Any:
-        key = (solve, *jax.tree.leaves(given), jax.tree.structure(given))
-        known = getattr(_last, "found", None)
-        if known is None or len(known[0]) != len(key) or not all(a is b or _same(a, b) for a, b in zip(known[0], key, strict=True)):
-            known = (key, solve(*given))
-            _last.found = known
-        return known[1]
-
-    return call
-
-
-def _same(a: Any, b: Any) -> bool:
-    return isinstance(a, (float, int, str, bool, jax.tree_util.PyTreeDef)) and type(a) is type(b) and a == b
 
 
 class Dried(NamedTuple):
@@ -94,8 +73,17 @@ class DryerFigures(NamedTuple):
     heat_duty: Power
 
 
+class Through(NamedTuple):
+    """What happens in a dryer in steady state: moisture and temperature through it and what leaves it, the dry solid in it (kg), and, of a grain
+    column with a cooling zone, vapor and enthalpy of the air that cooled."""
+
+    profile: Profile
+    holdup: Any
+    cooling: tuple[Any, Any] | None = None
+
+
 class Dryer(Unit):
-    """A dryer fed with wet solid and gas. A subclass says what happens inside (``profile``); streams, figures and checks are here."""
+    """A dryer fed with wet solid and gas. A subclass says what happens in it (``through``); streams, figures and limits are here."""
 
     if TYPE_CHECKING:  # fields of every subclass, which are not declared here because a dataclass would put them first
 
@@ -105,34 +93,38 @@ class Dryer(Unit):
         @property
         def temperature_limit(self) -> Any: ...
 
-    @abstractmethod
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
-        """Moisture and temperature through the dryer in steady state, and what leaves it."""
+    limits: ClassVar[Limits] = {
+        "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+        "over": Limit("moisture of the product above equilibrium with the inlet gas", -1e-9, math.inf, "kg/kg", "keey1978"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
+    }
 
     @abstractmethod
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
-        """Dry solid in the dryer, kg."""
+    def through(self, *inlets: Any) -> Through:
+        """The steady state."""
 
     @abstractmethod
     def extent(self) -> Any:
         """Volume (m³) or area (m²) to which capacities refer."""
 
-    def __call__(self, feed: Stream, gas: Stream) -> Dried:
-        found = self.profile(feed, gas)
-        self.judged(found)
-        return dried(feed, gas, found)
+    def profile(self, *inlets: Any) -> Profile:
+        """Moisture and temperature through the dryer in steady state, and what leaves it."""
+        return self.through(*inlets).profile
 
-    def judged(self, found: Profile) -> None:
-        """Tells when what was found is no solution: then nothing that leaves is a result."""
-        unsolved(found.converged, type(self).card, reason=UNSOLVED)
+    def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
+        found = self.through(feed, gas, *more, *others.values())
+        unsolved(found.profile.converged, type(self).card, reason=UNSOLVED)
+        return found
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> DryerFigures:
-        feed, gas, exhaust = counted(inlets["feed"]), inlets["gas"], outlets.exhaust
-        found, matter = self.profile(inlets["feed"], gas), Matter.of(feed, gas)
+    def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
+        return dried(feed, gas, inside.profile)
+
+    def figures(self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any) -> DryerFigures:
+        feed, exhaust = counted(feed), outlets.exhaust
+        found, matter = inside.profile, Matter.of(feed, gas)
         humidity = safe_divide(exhaust.gas[matter.vapor], jnp.sum(exhaust.gas) - exhaust.gas[matter.vapor])
         some = found.shares > 1e-9
         evaporated = feed.liquid[0] - outlets.product.liquid[0]
-        holdup = self.holdup(inlets["feed"], gas)
         return DryerFigures(
             evaporation_rate=evaporated,
             moisture_dry_basis=outlets.product.moisture_dry_basis,
@@ -142,36 +134,28 @@ class Dryer(Unit):
             temperature_exhaust=exhaust.temperature,
             humidity_ratio=humidity,
             relative_humidity=matter.relative_humidity(exhaust.temperature, humidity),
-            solid_holdup=holdup,
-            residence_time=safe_divide(holdup, feed.solid_flow),
+            solid_holdup=inside.holdup,
+            residence_time=safe_divide(inside.holdup, feed.solid_flow),
             heat_duty=outlets.heat_duty,
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Dried) -> tuple[Check, ...]:
-        feed, gas = inlets["feed"], inlets["gas"]
-        figures = self.results(inlets, outlets)
-        over = outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas)
-        rows = [
-            Check("relative humidity of the exhaust", figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
-            Check("moisture of the product above equilibrium with the inlet gas", over, -1e-9, jnp.inf, "kg/kg", "keey1978"),
-        ]
+    def measured(self, inside: Through, outlets: Any, figures: DryerFigures, feed: Stream, gas: Stream, **_others: Any) -> dict[str, Any]:
+        found = {
+            "humid": figures.relative_humidity,
+            "over": outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
+        }
         if self.temperature_limit is not None:
-            beyond = figures.temperature_product_highest - self.temperature_limit
-            rows.append(Check("product temperature over its limit", beyond, -jnp.inf, 0.0, "delta_degC", "keey1978"))
-        return (*rows, *self.ranges(inlets, outlets, figures))
+            found["hot"] = figures.temperature_product_highest - self.temperature_limit
+        return found
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         from granum.drying.profile_charts import drawn_profile
 
-        return {_("Profiles in a dryer"): drawn_profile(self.profile(**inlets))}
+        return {_("Profiles in a dryer"): drawn_profile(made.inside.profile)}
 
     def hourly(self, figures: DryerFigures) -> Any:
         """Water evaporated per volume or area and hour, kg."""
         return figures.evaporation_rate * 3600.0 / self.extent()
-
-    def ranges(self, inlets: Mapping[str, Stream], outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        """Ranges usual for the type; none by default."""
-        return ()
 
 
 class ContactDryer(Dryer):
@@ -190,11 +174,8 @@ class ContactDryer(Dryer):
         X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
         return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
 
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
+    def through(self, feed: Stream, gas: Stream) -> Through:
         return _steady(self, feed, gas)
-
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
-        return jnp.sum(self.contact(counted(feed), gas).solid)
 
     def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
         """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets that change from step to step."""
@@ -211,9 +192,10 @@ def humidity_of(gas: Stream) -> Any:
     return vapor / (jnp.sum(gas.gas) - vapor)
 
 
-@recalled
-def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Profile:
-    return dryer.core(feed, gas).steady(dryer.inlet(counted(feed), gas))
+@ready
+def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Through:
+    core = dryer.core(feed, gas)
+    return Through(core.steady(dryer.inlet(counted(feed), gas)), jnp.sum(core.solid))
 
 
 def solved(core: Contact, feed: Stream) -> Contact:

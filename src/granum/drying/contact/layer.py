@@ -9,7 +9,7 @@ import jax.numpy as jnp
 
 from granum.drying.contact.cells import Contact, Network, Profile
 from granum.drying.contact.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.contact.dryer import Dryer, recalled, solved
+from granum.drying.contact.dryer import Dryer, Through, ready, solved
 from granum.drying.contact.liquor import counted
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
@@ -17,6 +17,10 @@ from granum.streams.stream import Stream
 
 class LayerDryer(Dryer):
     """Layers of solid through which gas blows in zones, one after the other."""
+
+    @abstractmethod
+    def holdup(self) -> Any:
+        """Dry solid in the dryer, kg."""
 
     @abstractmethod
     def exchange(self, feed: Stream, gas: Stream) -> Any:
@@ -51,14 +55,15 @@ class LayerDryer(Dryer):
         like = solved(self.column(dry, gases[0]), feed)
         return like, pass_zones(like, dry.moisture_dry_basis, feed.temperature, self.zones(dry, *gases), self.resolution()[1])
 
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
+    def through(self, feed: Stream, gas: Stream) -> Through:
         return _passed(self, feed, gas)
 
 
-@recalled
-def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Profile:
+@ready
+def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Through:
     like, found = dryer.passages(feed, *gases)
-    return joined(like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+    profile = joined(like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+    return Through(profile, dryer.holdup())
 
 
 def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_enthalpy: Any) -> Profile:

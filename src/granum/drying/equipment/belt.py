@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature, Within
+from granum.core.limits import Limit
 from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, humidity_of, sized
+from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, Through, humidity_of, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer
 from granum.drying.contact.matter import Matter
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
+
+TABLE = NOTES.format(table="IV.10")
 
 
 @equipment("belt_dryer", source="geankoplis2003, ch. 9; keey1978", title="Belt dryer")
@@ -39,13 +42,19 @@ class BeltDryer(LayerDryer):
     layers: Annotated[int, Within(1, 1000)] = 24
     steps: Annotated[int, Within(1, 100_000)] = 120
 
+    limits: ClassVar[Limits] = LayerDryer.limits | {
+        "inlet": Limit("gas temperature at the inlet", 323.15, 623.15, "K", TABLE),
+        "capacity": Limit("water evaporated per area and hour", 6.0, 50.0, "kg/(hour*m^2)", TABLE),
+        "velocity": Limit("gas velocity through the layer", 0.25, 2.5, "m/s", "keey1978"),
+    }
+
     def extent(self) -> Any:
         return self.area
 
     def resolution(self) -> tuple[int, int]:
         return self.layers, self.steps
 
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
+    def holdup(self) -> Any:
         return self.area * self.layer_depth * self.bulk_density_dry
 
     def exchange(self, feed: Stream, gas: Stream) -> Any:
@@ -58,7 +67,7 @@ class BeltDryer(LayerDryer):
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         gas = gases[0]
-        mass, n = self.holdup(feed, gas), self.zone_count
+        mass, n = self.holdup(), self.zone_count
         vapor = Matter.of(feed, gas).vapor
         per_solid = (gas.gas_flow - gas.gas[vapor]) / mass
         time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n
@@ -71,11 +80,9 @@ class BeltDryer(LayerDryer):
         first = cls(1.0, layer_depth, bulk_density_dry, kinetics, **more)
         return sized(first, "area", moisture_outlet, 1e-3, 1e4, feed, gas, gas_velocity)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        gas = inlets["gas"]
-        table = NOTES.format(table="IV.10")
-        return (
-            Check("gas temperature at the inlet", gas.temperature, 323.15, 623.15, "K", table),
-            Check("water evaporated per area and hour", self.hourly(figures), 6.0, 50.0, "kg/(hour*m^2)", table),
-            Check("gas velocity through the layer", gas.gas_volume_flow / self.area, 0.25, 2.5, "m/s", "keey1978"),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "inlet": gas.temperature,
+            "capacity": self.hourly(figures),
+            "velocity": gas.gas_volume_flow / self.area,
+        }

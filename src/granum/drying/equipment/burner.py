@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -11,15 +10,15 @@ from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, MassRatio, Power, Temperature
+from granum.core.limits import Limit
 from granum.drying.wet_surface import humidity
 from granum.materials.fluids import Combustion
 from granum.materials.library import fluid
 from granum.numerics import safe_divide
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
-_ENOUGH, _HOT = "air supplied over air needed by the fuel", "temperature of the fired gas"
 HOTTEST = 1400.0  # K, up to which the flue gas may be taken as air
 
 
@@ -50,7 +49,12 @@ class Burner(Unit):
 
     heat_loss_share: Fraction = 0.0
 
-    def __call__(self, gas: Stream, fuel: Stream) -> Fired:
+    limits: ClassVar[Limits] = {
+        "enough": Limit("air supplied over air needed by the fuel", 1.05, 1e3, "kg/kg", "keey1978"),
+        "hot": Limit("temperature of the fired gas", 273.15, HOTTEST, "K", "keey1978"),
+    }
+
+    def outlets(self, inside: None, gas: Stream, fuel: Stream) -> Fired:
         both = gas + fuel
         fuels = _fuels(gas.mixture)
         burnt = both.gas
@@ -66,8 +70,7 @@ class Burner(Unit):
         """Heating value of what burns, W."""
         return sum((both.gas[i] * burns.lower_heating_value for i, burns in _fuels(both.mixture).items()), jnp.zeros(()))
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Fired) -> BurnerFigures:
-        gas, fuel = inlets["gas"], inlets["fuel"]
+    def figures(self, inside: None, outlets: Fired, gas: Stream, fuel: Stream) -> BurnerFigures:
         fuels = _fuels(gas.mixture)
         flows = gas.gas + fuel.gas
         needed = sum((flows[i] * burns.air for i, burns in fuels.items()), jnp.zeros(()))
@@ -79,12 +82,8 @@ class Burner(Unit):
             heat_duty_heater=self._heat(gas.replace(gas=flows)),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Fired) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        return (
-            Check(_ENOUGH, figures.excess_air_ratio, 1.05, 1e3, "kg/kg", "keey1978"),
-            Check(_HOT, figures.temperature, 273.15, HOTTEST, "K", "keey1978"),
-        )
+    def measured(self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream) -> dict[str, Any]:
+        return {"enough": figures.excess_air_ratio, "hot": figures.temperature}
 
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -26,6 +26,7 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.drying.balances.convective import COLDEST, PAIR
 from granum.drying.balances.savings import vapor_recompression
 from granum.drying.wet_surface import boiled, require_water
@@ -33,15 +34,10 @@ from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import find_root, safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
-_MET, _LIMIT = "moisture of the product against the specification", "product temperature over its limit"
-_WARM = "temperature at which heat is given off above that of the heated gas"
-_DRY = "outlet temperature of the steam above boiling"
 _UNSOLVED = "No temperature of the outlet air was found between coil and hot air at which heat and evaporation agree: take hotter air, a colder coil, a wetter feed or a smaller heat loss."
-_COIL = "humidity of the outlet air above saturation at the coil"
 
 
 class Duty(NamedTuple):
@@ -141,7 +137,7 @@ class HeatPumpCircuit(AbstractCircuit):
         power = taken / (self(duty.temperature_inlet) - 1.0)
         heater = air * (h(duty.temperature_inlet, w1) - cold) - duty.fan_power - taken - power
         stray = vapor.replace(gas=duty.feed.gas)
-        return Circuit(product, stray, condensate, heater, power, air, T2, ((_COIL, w2 - coil),), outlet.converged)
+        return Circuit(product, stray, condensate, heater, power, air, T2, (("coil", w2 - coil),), outlet.converged)
 
 
 @law("drying_circuit", name="circuit_steam", source="mujumdar2014", title="Closed circuit of superheated steam",
@@ -175,7 +171,7 @@ class SteamCircuit(AbstractCircuit):
         P = duty.feed.pressure
         steam = need / (steam_enthalpy.function(jnp.asarray(duty.temperature_inlet, dtype=float), P) - steam_enthalpy.function(T2, P))
         heater, nothing = need - duty.fan_power, duty.feed.part()
-        margins: tuple[tuple[str, Any], ...] = ((_DRY, T2 - boiling),)
+        margins: tuple[tuple[str, Any], ...] = (("dry", T2 - boiling),)
         if self.pressure_condensing is None:
             return Circuit(product, vapor, nothing, heater, 0.0 * need, steam, T2, margins)
         power = duty.water * self(duty.feed.pressure) * T2 / boiling
@@ -184,7 +180,7 @@ class SteamCircuit(AbstractCircuit):
         condensate = nothing.replace(liquid=liquid, temperature=condensing, pressure=jnp.asarray(self.pressure_condensing, dtype=float))
         stray = vapor.replace(gas=duty.feed.gas)
         given = vapor.enthalpy_flow - stray.enthalpy_flow + power - condensate.enthalpy_flow
-        margins = (*margins, (_WARM, condensing - duty.temperature_inlet))
+        margins = (*margins, ("warm", condensing - duty.temperature_inlet))
         return Circuit(product, stray, condensate, heater - given, power, steam, T2, margins)
 
 
@@ -227,22 +223,30 @@ class ClosedDryer(Unit):
     fan_power: Power = 0.0
     temperature_limit: Temperature | None = None
 
-    @shared
-    def _run(self, feed: Stream) -> Circuit:
+    limits: ClassVar[Limits] = {
+        "coil": Limit("humidity of the outlet air above saturation at the coil", 0.0, 1e9, "dimensionless", "mujumdar2014"),
+        "dry": Limit("outlet temperature of the steam above boiling", 0.0, 1e9, "dimensionless", "mujumdar2014"),
+        "warm": Limit("temperature at which heat is given off above that of the heated gas", 0.0, 1e9, "dimensionless", "mujumdar2014"),
+        "moisture": Limit("moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    }
+
+    def inside(self, feed: Stream) -> Circuit:
         require_water(feed.mixture)
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
-        return self.drying_circuit.run(
+        found = self.drying_circuit.run(
             Duty(water, feed, self.temperature_inlet, self.moisture_outlet, self.temperature_product, self.heat_loss, self.fan_power)
         )
+        unsolved(found.converged, type(self).card, reason=_UNSOLVED)
+        return found
 
-    def __call__(self, feed: Stream) -> ClosedOutlets:
-        c = self._run(feed)
-        unsolved(c.converged, type(self).card, reason=_UNSOLVED)
+    def outlets(self, inside: Circuit, feed: Stream) -> ClosedOutlets:
+        c = inside
         return ClosedOutlets(c.product, c.vapor, c.condensate, c.heater - self.heat_loss, c.power + self.fan_power)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: ClosedOutlets) -> ClosedFigures:
-        c = self._run(inlets["feed"])
-        water = inlets["feed"].liquid[0] - c.product.liquid[0]
+    def figures(self, inside: Circuit, outlets: ClosedOutlets, feed: Stream) -> ClosedFigures:
+        c = inside
+        water = feed.liquid[0] - c.product.liquid[0]
         bought = jnp.maximum(c.heater, 0.0) + outlets.shaft_power
         return ClosedFigures(
             evaporation_rate=water,
@@ -256,10 +260,8 @@ class ClosedDryer(Unit):
             moisture_extraction_rate=safe_divide(water, bought),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: ClosedOutlets) -> tuple[Check, ...]:
-        c = self._run(inlets["feed"])
-        found = [Check(name, margin, 0.0, 1e9, "dimensionless", "mujumdar2014") for name, margin in c.margins]
-        found.append(Check(_MET, c.product.moisture_dry_basis - self.moisture_outlet, -1e-9, 1e-9, "kg/kg", "keey1978"))
+    def measured(self, inside: Circuit, outlets: ClosedOutlets, figures: ClosedFigures, feed: Stream) -> dict[str, Any]:
+        found = dict(inside.margins) | {"moisture": figures.moisture_dry_basis - self.moisture_outlet}
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, c.product.temperature - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
-        return tuple(found)
+            found["hot"] = figures.temperature_product - self.temperature_limit
+        return found

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+import math
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -26,25 +26,18 @@ from granum.core.kinds import (
     SpecificMoistureExtraction,
     Temperature,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.drying.balances.convective import PAIR
 from granum.drying.balances.indices import latent_heat
 from granum.drying.equipment.well_mixed import evaporate
 from granum.drying.wet_surface import humidity, require_water
 from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import find_root, safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 COLDEST, HOTTEST = 230.0, 1200.0  # K, bracket of the exhaust
-_SATURATED = "relative humidity of the exhaust"
-_PRODUCT = "moisture of the product above equilibrium with the hot air"
-_LIMIT = "product temperature over its limit"
-_ENERGY = "energy per water evaporated"
 _UNSOLVED = "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the heater and the heat loss against the flow of gas, and what is asked of the outlet."
-_MET = "moisture of the product against the specification"
-_WARM = "temperature of the exhaust against the specification"
-_MOIST = "relative humidity of the exhaust against the specification"
 
 
 class ConvectiveOutlets(NamedTuple):
@@ -87,7 +80,6 @@ class Inside(NamedTuple):
     recovered: Any
     exhaust: Stream
     condensate: Stream
-    converged: Any
 
 
 @equipment("convective_dryer", source="keey1978; mujumdar2014; bonazzi2003", title="Convective dryer (balance)")
@@ -114,6 +106,16 @@ class ConvectiveDryer(Unit):
     temperature_limit: Temperature | None = None
     isotherm: Annotated[Any, Law("isotherm")] = None
 
+    limits: ClassVar[Limits] = {
+        "humid": Limit("relative humidity of the exhaust", 0.0, 1.0, "dimensionless", "keey1978"),
+        "energy": Limit("energy per water evaporated", 2.4e6, 6.5e6, "J/kg", "bonazzi2003; houdon2017"),
+        "moisture": Limit("moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"),
+        "exhaust": Limit("temperature of the exhaust against the specification", -1e-6, 1e-6, "delta_degC", "keey1978"),
+        "humidity": Limit("relative humidity of the exhaust against the specification", -1e-6, 1e-6, "dimensionless", "keey1978"),
+        "equilibrium": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    }
+
     def __check_init__(self) -> None:
         if self.temperature_inlet is not None and self.heat_duty is not None:
             raise InputError(_("Too much is given: one of 'temperature_inlet' and 'heat_duty' follows from the other."), name="heat_duty")
@@ -126,12 +128,10 @@ class ConvectiveDryer(Unit):
                 given=ends,
             )
 
-    def __call__(self, feed: Stream, gas: Stream) -> ConvectiveOutlets:
-        found = self.inside(feed, gas)
-        unsolved(found.converged, type(self).card, reason=_UNSOLVED)
-        return ConvectiveOutlets(found.product, found.exhaust, found.condensate, found.heater - self.heat_loss, jnp.asarray(self.fan_power))
+    def outlets(self, inside: Inside, feed: Stream, gas: Stream) -> ConvectiveOutlets:
+        heat = inside.heater - self.heat_loss
+        return ConvectiveOutlets(inside.product, inside.exhaust, inside.condensate, heat, jnp.asarray(self.fan_power))
 
-    @shared
     def inside(self, feed: Stream, gas: Stream) -> Inside:
         """The whole dryer, solved for the temperature of its exhaust."""
         require_water(feed.mixture, carried=True)
@@ -198,7 +198,8 @@ class ConvectiveDryer(Unit):
             inlet = mixed.replace(temperature=jnp.asarray(self.temperature_inlet))
             duty = inlet.enthalpy_flow - gas.enthalpy_flow - back * out.enthalpy_flow - self.fan_power
         recovered, exhaust, condensate, cooled = self._recover(gas, out, duty)
-        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate, known & root.converged & cooled)
+        unsolved(known & root.converged & cooled, type(self).card, reason=_UNSOLVED)
+        return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate)
 
     def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream, Any]:
         """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point. Also whether the
@@ -227,10 +228,9 @@ class ConvectiveDryer(Unit):
         dry, wet = drained(root.value)
         return given(root.value), dry, wet, root.converged
 
-    @shared
-    def results(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> ConvectiveFigures:
-        found = self.inside(inlets["feed"], inlets["gas"])
-        W = inlets["feed"].liquid[0] - found.product.liquid[0]
+    def figures(self, inside: Inside, outlets: ConvectiveOutlets, feed: Stream, gas: Stream) -> ConvectiveFigures:
+        found = inside
+        W = feed.liquid[0] - found.product.liquid[0]
         bought = found.heater + self.fan_power
         energy = safe_divide(bought, W)
         wet = jnp.clip(found.outlet.temperature, ZERO_CELSIUS, 450.0)
@@ -253,25 +253,18 @@ class ConvectiveDryer(Unit):
             moisture_extraction_rate=safe_divide(W, bought),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: ConvectiveOutlets) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
+    def measured(self, inside: Inside, outlets: ConvectiveOutlets, figures: ConvectiveFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
         X, phi = figures.moisture_dry_basis, figures.relative_humidity_outlet
-        found = [
-            Check(_SATURATED, phi, 0.0, 1.0, "dimensionless", "keey1978"),
-            Check(_ENERGY, figures.energy_per_water, 2.4e6, 6.5e6, "J/kg", "bonazzi2003; houdon2017"),
-        ]
+        found = {"humid": phi, "energy": figures.energy_per_water}
         if self.moisture_outlet is not None:
-            found.append(Check(_MET, X - self.moisture_outlet, -1e-9, 1e-9, "kg/kg", "keey1978"))
+            found["moisture"] = X - self.moisture_outlet
         if self.temperature_outlet is not None:  # missed where all the water is gone, or none goes
-            found.append(Check(_WARM, figures.temperature_outlet - self.temperature_outlet, -1e-6, 1e-6, "delta_degC", "keey1978"))
+            found["exhaust"] = figures.temperature_outlet - self.temperature_outlet
         if self.relative_humidity_outlet is not None:
-            found.append(Check(_MOIST, phi - self.relative_humidity_outlet, -1e-6, 1e-6, "dimensionless", "keey1978"))
+            found["humidity"] = phi - self.relative_humidity_outlet
         if self.isotherm is not None:
-            driest = PAIR.fraction(figures.humidity_ratio_inlet) / saturated_fraction(
-                PAIR, figures.temperature_inlet, inlets["gas"].pressure
-            )
-            rest = self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
-            found.append(Check(_PRODUCT, X - rest, 0.0, 1e3, "kg/kg", "keey1978"))
+            driest = PAIR.fraction(figures.humidity_ratio_inlet) / saturated_fraction(PAIR, figures.temperature_inlet, gas.pressure)
+            found["equilibrium"] = X - self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
-        return tuple(found)
+            found["hot"] = figures.temperature_product - self.temperature_limit
+        return found

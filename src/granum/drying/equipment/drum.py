@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+import math
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -26,6 +26,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
 from granum.drying.quantities import MassPerArea
@@ -34,11 +35,7 @@ from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
-
-_CAPACITY, _TIME, _STEAM = "water evaporated per area", "contact time on the drum", "temperature of the heating surface"
-_RATIO, _LIMIT = "steam per water evaporated", "product temperature over its limit"
-_NOTES = "houdon2017"
+from granum.streams.units import Limits, Unit
 
 
 class ContactDried(NamedTuple):
@@ -87,7 +84,15 @@ class DrumDryer(Unit):
     heat_loss_share: Fraction = 0.1
     temperature_limit: Temperature | None = None
 
-    def _film(self, feed: Stream) -> dict[str, Any]:
+    limits: ClassVar[Limits] = {
+        "capacity": Limit("water evaporated per area", 15.0, 80.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 9"),
+        "time": Limit("contact time on the drum", 3.0, 30.0, "s", "houdon2017"),
+        "steam": Limit("temperature of the heating surface", 100.0, 180.0, "degC", "houdon2017"),
+        "ratio": Limit("steam per water evaporated", 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    }
+
+    def inside(self, feed: Stream) -> dict[str, Any]:
         """What happens to the film on its way."""
         boiling = water_boiling_temperature(jnp.asarray(STANDARD_ATMOSPHERE) + 0.0 * feed.pressure)
         wall = water_boiling_temperature(self.pressure_steam)
@@ -123,7 +128,7 @@ class DrumDryer(Unit):
     def size(cls, moisture_outlet: Any, feed: Stream, diameter: Any, rotation_speed: Any, pressure_steam: Any, **more: Any) -> DrumDryer:
         """The width of a drum of given diameter that a product moisture needs: warming, constant and falling rate, each in closed form."""
         first = cls(diameter, 1.0, rotation_speed, pressure_steam, **more)
-        film = first._film(feed)
+        film = first.inside(feed)
         X1, Xc, Xe = safe_divide(feed.liquid[0], feed.solid_flow), first.critical_moisture, first.equilibrium_moisture
         if not Xe < float(moisture_outlet) < float(X1):
             raise InputError(
@@ -142,13 +147,13 @@ class DrumDryer(Unit):
         area = per_area / first.wrapped_fraction
         return cls(diameter, float(area / (jnp.pi * first.diameter)), rotation_speed, pressure_steam, **more)
 
-    def __call__(self, feed: Stream) -> ContactDried:
-        film = self._film(feed)
+    def outlets(self, inside: dict[str, Any], feed: Stream) -> ContactDried:
+        film = inside
         product, vapor = boiled(feed, film["X2"], film["T2"], film["boiling"], STANDARD_ATMOSPHERE)
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> DrumFigures:
-        feed, film = inlets["feed"], self._film(inlets["feed"])
+    def figures(self, inside: dict[str, Any], outlets: ContactDried, feed: Stream) -> DrumFigures:
+        film = inside
         water = feed.liquid[0] - outlets.product.liquid[0]
         duty = outlets.heat_duty / (1.0 - self.heat_loss_share)
         steam = duty / water_heat_of_vaporization(film["wall"])
@@ -167,14 +172,13 @@ class DrumDryer(Unit):
             energy_per_water=safe_divide(duty, water),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        found = [
-            Check(_CAPACITY, figures.evaporation_per_area * 3600.0, 15.0, 80.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 9"),
-            Check(_TIME, figures.contact_time, 3.0, 30.0, "s", _NOTES),
-            Check(_STEAM, figures.wall_temperature - 273.15, 100.0, 180.0, "degC", _NOTES),
-            Check(_RATIO, figures.steam_per_water, 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
-        ]
+    def measured(self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream) -> dict[str, Any]:
+        found = {
+            "capacity": figures.evaporation_per_area * 3600.0,
+            "time": figures.contact_time,
+            "steam": figures.wall_temperature - 273.15,
+            "ratio": figures.steam_per_water,
+        }
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, outlets.product.temperature - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
-        return tuple(found)
+            found["hot"] = outlets.product.temperature - self.temperature_limit
+        return found

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, Within
-from granum.drying.contact.cells import Inlet, Network, Profile
+from granum.core.limits import Limit
+from granum.drying.contact.cells import Inlet, Network
 from granum.drying.contact.conveyed import Path, convey
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, recalled, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, humidity_of, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
 
+TABLE = NOTES.format(table="IV.14")
 FIRST_CELLS = 1.08  # growth of the cells from the feed point on, where the particles are still slow
 
 
@@ -39,6 +41,13 @@ class FlashDryer(Dryer):
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 60
 
+    limits: ClassVar[Limits] = Dryer.limits | {
+        "velocity": Limit("gas velocity at the inlet", 15.0, 30.0, "m/s", TABLE),
+        "inlet": Limit("gas temperature at the inlet", 373.15, 623.15, "K", TABLE),
+        "outlet": Limit("gas temperature at the outlet", 343.15, 393.15, "K", TABLE),
+        "time": Limit("residence time of the solid", 0.5, 3.5, "s", TABLE),
+    }
+
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2
 
@@ -51,11 +60,8 @@ class FlashDryer(Dryer):
             feed.solid_density, feed.solid_density, False,
         )  # fmt: skip
 
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
-        return _flown(self, feed, gas)[0]
-
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
-        return _flown(self, feed, gas)[1]
+    def through(self, feed: Stream, gas: Stream) -> Through:
+        return _flown(self, feed, gas)
 
     @classmethod
     def size(
@@ -65,20 +71,20 @@ class FlashDryer(Dryer):
         diameter = float(jnp.sqrt(4.0 / pi * gas.gas_volume_flow / gas_velocity))
         return sized(cls(10.0, diameter, kinetics, **more), "length", moisture_outlet, 0.05, 500.0, feed, gas)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        gas, table = inlets["gas"], NOTES.format(table="IV.14")
-        return (
-            Check("gas velocity at the inlet", gas.gas_volume_flow / self.extent(), 15.0, 30.0, "m/s", table),
-            Check("gas temperature at the inlet", gas.temperature, 373.15, 623.15, "K", table),
-            Check("gas temperature at the outlet", outlets.exhaust.temperature, 343.15, 393.15, "K", table),
-            Check("residence time of the solid", figures.residence_time, 0.5, 3.5, "s", table),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "velocity": gas.gas_volume_flow / self.extent(),
+            "inlet": gas.temperature,
+            "outlet": outlets.exhaust.temperature,
+            "time": figures.residence_time,
+        }
 
 
-@recalled
-def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
+@ready
+def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> Through:
     dry = counted(feed)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
     inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
     matter = replace(Matter.of(dry, gas), dissolved=composition(feed))
-    return convey(dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, Network.co_current(dryer.cells), dryer.heat_loss)
+    network = Network.co_current(dryer.cells)
+    return Through(*convey(dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, network, dryer.heat_loss))

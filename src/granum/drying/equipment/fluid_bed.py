@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
@@ -11,8 +11,9 @@ from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
+from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Inlet, Network, Profile
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, humidity_of, recalled, sized
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, humidity_of, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
@@ -26,8 +27,9 @@ from granum.fluidization.formulas.heat import nusselt_number_gunn
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
 
+TABLE = NOTES.format(table="IV.16")
 DIFFUSIVITY = 2.6e-5  # m²/s of vapor in air at 25 °C, for the exchange between bubbles and their clouds
 
 
@@ -49,11 +51,16 @@ class FluidBedDryer(ContactDryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
 
+    limits: ClassVar[Limits] = ContactDryer.limits | {
+        "fluidized": Limit("gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"),
+        "velocity": Limit("gas velocity at the inlet", 0.2, 3.0, "m/s", TABLE),
+        "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
+        "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
+        "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
+    }
+
     def extent(self) -> Any:
         return self.area
-
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
-        return 1.0 * self.mass
 
     def height(self, feed: Stream) -> Any:
         """Of the settled bed."""
@@ -83,7 +90,7 @@ class FluidBedDryer(ContactDryer):
         return nusselt * conductivity / sizes * 6.0 / (sizes * feed.solid_density)
 
     def contact(self, feed: Stream, gas: Stream) -> Contact:
-        """Tanks in series; one tank has no ages, for which ``profile`` is there."""
+        """Tanks in series; one tank has no ages, for which ``through`` is there."""
         n, bed = self.cells, self.bed(feed, gas)
         time, solid = bed.time / n, jnp.broadcast_to(bed.flow * bed.time / n, (n, bed.flow.shape[0]))
         return Contact(
@@ -98,11 +105,12 @@ class FluidBedDryer(ContactDryer):
         time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
         return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss)
 
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
+    def through(self, feed: Stream, gas: Stream) -> Through:
         found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
         vapor = gas.gas[feed.mixture.index("gases", "water")]
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
-        return found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
+        found = found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
+        return Through(found, 1.0 * self.mass)
 
     def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
         """In time, of a bed with tanks in series."""
@@ -120,26 +128,18 @@ class FluidBedDryer(ContactDryer):
         area = float(gas.gas_volume_flow / gas_velocity)
         return sized(cls(area, 200.0 * area, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        feed, gas = inlets["feed"], inlets["gas"]
-        U, table = gas.gas_volume_flow / self.area, NOTES.format(table="IV.16")
-        return (
-            Check(
-                "gas velocity over minimum fluidization velocity",
-                U / self.minimum_velocity(feed, gas),
-                1.5,
-                100.0,
-                "dimensionless",
-                "kunii1991",
-            ),
-            Check("gas velocity at the inlet", U, 0.2, 3.0, "m/s", table),
-            Check("gas temperature at the inlet", gas.temperature, 323.15, 473.15, "K", table),
-            Check("residence time of the solid", figures.residence_time, 120.0, 3600.0, "s", table),
-            Check("water evaporated per area and hour", self.hourly(figures), 30.0, 200.0, "kg/(hour*m^2)", table),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        U = gas.gas_volume_flow / self.area
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "fluidized": U / self.minimum_velocity(feed, gas),
+            "velocity": U,
+            "inlet": gas.temperature,
+            "time": figures.residence_time,
+            "capacity": self.hourly(figures),
+        }
 
 
-@recalled
+@ready
 def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
     dry, n = counted(feed), dryer.cells
     bed = dryer.bed(dry, gas)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+import math
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -26,19 +26,14 @@ from granum.core.kinds import (
     Time,
     Volume,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
 from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
 from granum.drying.wet_surface import require_water
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
-
-_LIMIT = "product temperature over its limit"
-_CAPACITY = "sublimation over the capacity of the machine"
-_CHOKED = "sublimation over the choked flow of the duct"
-_TIMES = "drying time of a batch"
-_PRINTED = "houdon2017"
+from granum.streams.units import Limits, Unit
 
 
 class FreezeDried(NamedTuple):
@@ -101,7 +96,14 @@ class FreezeDryer(Unit):
     duct_diameter: Length | None = None
     sublimation_capacity: MassFlow | None = None
 
-    def __call__(self, feed: Stream) -> FreezeDried:
+    limits: ClassVar[Limits] = {
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "pikal1985"),
+        "time": Limit("drying time of a batch", 36000.0, 259200.0, "s", "houdon2017"),
+        "choked": Limit("sublimation over the choked flow of the duct", 0.0, 1.0, "dimensionless", "patel2010"),
+        "capacity": Limit("sublimation over the capacity of the machine", 0.0, 1.0, "dimensionless", "shivkumar2019"),
+    }
+
+    def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         require_water(feed.mixture)
         keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
         kept = feed.liquid.at[0].set(keep)
@@ -110,8 +112,7 @@ class FreezeDryer(Unit):
         duty = product.enthalpy_flow + melted.enthalpy_flow - feed.enthalpy_flow
         return FreezeDried(product, melted, duty)
 
-    def results(self, inlets: Mapping[str, Stream], outlets: FreezeDried) -> FreezeFigures:
-        feed = inlets["feed"]
+    def figures(self, inside: None, outlets: FreezeDried, feed: Stream) -> FreezeFigures:
         concentration = safe_divide(feed.solid_flow, feed.slurry_volume_flow)
         primary = primary_drying(
             self.pressure_chamber, self.temperature_shelf, self.area_vial, self.area_product, self.volume_fill, concentration,
@@ -144,18 +145,13 @@ class FreezeDryer(Unit):
             choked_flow_rate=choked,
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: FreezeDried) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        found = [
-            Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "pikal1985"),
-            Check(_TIMES, figures.drying_time_primary + figures.drying_time_secondary, 36000.0, 259200.0, "s", _PRINTED),
-        ]
-        if self.duct_diameter is not None:
-            found.append(
-                Check(_CHOKED, figures.sublimation_rate_highest / figures.choked_flow_rate, 0.0, 1.0, "dimensionless", "patel2010")
-            )
+    def measured(self, inside: None, outlets: FreezeDried, figures: FreezeFigures, feed: Stream) -> dict[str, Any]:
+        found = {
+            "hot": figures.temperature_product - self.temperature_limit,
+            "time": figures.drying_time_primary + figures.drying_time_secondary,
+        }
+        if figures.choked_flow_rate is not None:
+            found["choked"] = figures.sublimation_rate_highest / figures.choked_flow_rate
         if self.sublimation_capacity is not None:
-            found.append(
-                Check(_CAPACITY, figures.sublimation_rate_highest / self.sublimation_capacity, 0.0, 1.0, "dimensionless", "shivkumar2019")
-            )
-        return tuple(found)
+            found["capacity"] = figures.sublimation_rate_highest / self.sublimation_capacity
+        return found

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -30,6 +31,7 @@ from granum.core.kinds import (
     ThermalConductivity,
     Time,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.contact.dryer import ready
 from granum.drying.equipment.drum import ContactDried
@@ -41,15 +43,12 @@ from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import Root, find_root, safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Operated, Unit
+from granum.streams.units import Limits, Operated, Unit
 
 STEPS, PASTY_STEPS = 40, 10
 LIQUID_HEAT, LIQUID_DENSITY = 4187.0, 958.0
 DRIEST = 1e-6  # kg/kg, to which an area may dry
-_CAPACITY, _TIME = "water evaporated per area", "residence time of the bed"
-_LIMIT, _DRY = "product temperature over its limit", "moisture of the product above equilibrium"
 
 
 class ContactCurve(NamedTuple):
@@ -78,6 +77,24 @@ class PaddleFigures(NamedTuple):
     boiling_temperature: Temperature
     temperature_product: Temperature
     energy_per_water: SpecificEnergy
+
+
+class Heat(NamedTuple):
+    """Boiling temperature, coefficients of wall and of bed, heat capacity of the dry solid."""
+
+    boiling: jax.Array
+    wall: jax.Array
+    bed: jax.Array
+    capacity: jax.Array
+
+
+class Heated(NamedTuple):
+    """The bed on its walls: coefficients, that of the paste, its way, and the heated area that the feed needs, m²."""
+
+    heat: Heat
+    paste: Any
+    curve: ContactCurve
+    area: Any
 
 
 @equipment("paddle_dryer", source="mollekopf1984; vdi2010, ch. Mc; milhe2014", title="Paddle or screw dryer (contact)")
@@ -111,6 +128,13 @@ class PaddleDryer(Unit):
     equilibrium_moisture: MoistureDryBasis = 0.0
     temperature_limit: Temperature | None = None
 
+    limits: ClassVar[Limits] = {
+        "capacity": Limit("water evaporated per area", 1.0, 30.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 1"),
+        "time": Limit("residence time of the bed", 600.0, 36000.0, "s", "houdon2017"),
+        "dry": Limit("moisture of the product above equilibrium", 0.0, 1e3, "kg/kg", "keey1978"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    }
+
     @classmethod
     def rate(cls, area: Any, feed: Stream, **parameters: Any) -> PaddleDryer:
         """The dryer with the moisture to which a heated area dries; its other parameters by name."""
@@ -129,18 +153,31 @@ class PaddleDryer(Unit):
         return eqx.tree_at(_moisture, dryer, float(jnp.exp(root.value)))
 
     def area(self, feed: Stream) -> Any:
-        """Heated area that the feed needs, m²: to warm it to boiling, by the wall and what lies on it, and to dry it."""
-        boiling, wall, bed, _capacity = self._heat(feed)
-        series = 1.0 / (1.0 / wall + 1.0 / bed) if self.pasty_moisture is None else self.paste(feed)
+        """Heated area that the feed needs, m²."""
+        return self.inside(feed).area
+
+    def curve(self, feed: Stream) -> ContactCurve:
+        """Moisture, temperature, time and flux of the bed, from boiling on."""
+        return self.inside(feed).curve
+
+    def inside(self, feed: Stream) -> Heated:
+        heat = self._heat(feed)
+        paste = self._paste(feed, heat)
+        curve = self._curve(feed, heat, paste)
+        return Heated(heat, paste, curve, self._area(feed, heat, paste, curve))
+
+    def _area(self, feed: Stream, heat: Heat, paste: Any, curve: ContactCurve) -> Any:
+        """To warm the feed to boiling, by the wall and what lies on it, and to dry it."""
+        boiling, wall, bed, _capacity = heat
+        series = 1.0 / (1.0 / wall + 1.0 / bed) if self.pasty_moisture is None else paste
         start = jnp.minimum(feed.temperature, boiling - 1e-6)
         mean = (boiling - start) / jnp.log((self.wall_temperature - start) / (self.wall_temperature - boiling))
         warm = (feed.enthalpy_at(boiling) - feed.enthalpy_at(start)) / (series * mean)
-        return feed.solid_flow * self.curve(feed).time[-1] / self.dry_mass_per_area + warm
+        return feed.solid_flow * curve.time[-1] / self.dry_mass_per_area + warm
 
-    @shared
-    def curve(self, feed: Stream) -> ContactCurve:
-        """Moisture, temperature, time and flux of the bed, from boiling on: even steps of moisture as a paste, then as grains."""
-        boiling, wall, bed, solid_heat = self._heat(feed)
+    def _curve(self, feed: Stream, heat: Heat, paste: Any) -> ContactCurve:
+        """Even steps of moisture as a paste, then as grains."""
+        boiling, wall, bed, solid_heat = heat
         latent = water_heat_of_vaporization(boiling)
         X0 = safe_divide(feed.liquid[0], feed.solid_flow)
         X2 = jnp.minimum(self.moisture_outlet, X0)
@@ -164,7 +201,7 @@ class PaddleDryer(Unit):
             ahead = (T + dX / 6 * (a + 2 * b + 2 * c + d), t + dX / 6 * (u + 2 * v + 2 * w + x))
             return ahead, (X, T, t, flux)
 
-        pasty = self.paste(feed) * (self.wall_temperature - boiling) / latent
+        pasty = paste * (self.wall_temperature - boiling) / latent
         first = (X0 - X1) * self.dry_mass_per_area / pasty
         (T, t), (X, Ts, ts, fluxes) = jax.lax.scan(step, (boiling + 0.0 * X1, first), jnp.arange(STEPS, dtype=float))
         pieces = [(X, Ts, ts, fluxes), tuple(jnp.reshape(a, (1,)) for a in (X2, T, t, slopes(X2, T)[2]))]
@@ -173,18 +210,16 @@ class PaddleDryer(Unit):
             pieces.insert(0, (X0 - share * (X0 - X1), boiling + 0.0 * share, share * first, pasty + 0.0 * share))
         return ContactCurve(*(jnp.concatenate(column) for column in zip(*pieces, strict=True)))
 
-    def paste(self, feed: Stream) -> Any:
+    def _paste(self, feed: Stream, heat: Heat) -> Any:
         """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and water while it rests."""
         if self.heat_transfer_coefficient_paste is not None:
             return jnp.asarray(self.heat_transfer_coefficient_paste)
         X = safe_divide(feed.liquid[0], feed.solid_flow)
-        _boiling, _wall, _bed, capacity = self._heat(feed)
+        capacity = heat.capacity
         held = (capacity + X * LIQUID_HEAT) / (1.0 / feed.solid_density + X / LIQUID_DENSITY)  # J/(m³ K)
         return heat_transfer_coefficient_penetration(jnp.sqrt(held * self.thermal_conductivity_paste), self._contact())
 
-    @shared
-    def _heat(self, feed: Stream) -> tuple[jax.Array, jax.Array, jax.Array, jax.Array]:
-        """Boiling temperature, coefficients of wall and of bed, heat capacity of the dry solid."""
+    def _heat(self, feed: Stream) -> Heat:
         boiling = water_boiling_temperature(self.pressure)
         mean = 0.5 * (self.wall_temperature + boiling)
         wall = (
@@ -195,21 +230,19 @@ class PaddleDryer(Unit):
         dry = feed.replace(liquid=jnp.zeros_like(feed.liquid), gas=jnp.zeros_like(feed.gas))
         capacity = (dry.enthalpy_at(boiling + 5.0) - dry.enthalpy_at(boiling - 5.0)) / (10.0 * feed.solid_flow)
         effusivity = jnp.sqrt(self.bulk_density * capacity * self.thermal_conductivity_bed)
-        return boiling, wall, heat_transfer_coefficient_penetration(effusivity, self._contact()), capacity
+        return Heat(boiling, wall, heat_transfer_coefficient_penetration(effusivity, self._contact()), capacity)
 
     def _contact(self) -> jax.Array:
         return contact_time_mixing(self.rotation_speed, self.diameter, self.mixing_factor, self.mixing_exponent)
 
-    def __call__(self, feed: Stream) -> ContactDried:
-        bed = self.curve(feed)
+    def outlets(self, inside: Heated, feed: Stream) -> ContactDried:
+        bed = inside.curve
         product, vapor = boiled(feed, self.moisture_outlet, bed.temperature[-1], bed.temperature[0], self.pressure)
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    @shared
-    def results(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> PaddleFigures:
-        feed = inlets["feed"]
-        boiling, wall, coefficient, _capacity = self._heat(feed)
-        bed, area = self.curve(feed), self.area(feed)
+    def figures(self, inside: Heated, outlets: ContactDried, feed: Stream) -> PaddleFigures:
+        boiling, wall, coefficient, _capacity = inside.heat
+        bed, area = inside.curve, inside.area
         water = feed.liquid[0] - outlets.product.liquid[0]
         time = area * self.dry_mass_per_area / feed.solid_flow
         return PaddleFigures(
@@ -222,7 +255,7 @@ class PaddleDryer(Unit):
             drying_flux_outlet=bed.flux[-1],
             heat_transfer_coefficient_wall=wall,
             heat_transfer_coefficient_bed=coefficient,
-            heat_transfer_coefficient_paste=self.paste(feed),
+            heat_transfer_coefficient_paste=inside.paste,
             contact_time=self._contact(),
             boiling_temperature=boiling,
             temperature_product=bed.temperature[-1],
@@ -230,19 +263,18 @@ class PaddleDryer(Unit):
         )
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
-        bed = self.curve(inlets["feed"])
+        bed = made.inside.curve
         return {_("Profiles in a dryer"): contact_chart(bed.time, bed.moisture, bed.temperature)}
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: ContactDried) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        found = [
-            Check(_CAPACITY, figures.evaporation_per_area * 3600.0, 1.0, 30.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 1"),
-            Check(_TIME, figures.residence_time, 600.0, 36000.0, "s", "houdon2017"),
-            Check(_DRY, self.moisture_outlet - self.equilibrium_moisture, 0.0, 1e3, "kg/kg", "keey1978"),
-        ]
+    def measured(self, inside: Heated, outlets: ContactDried, figures: PaddleFigures, feed: Stream) -> dict[str, Any]:
+        found = {
+            "capacity": figures.evaporation_per_area * 3600.0,
+            "time": figures.residence_time,
+            "dry": self.moisture_outlet - self.equilibrium_moisture,
+        }
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, figures.temperature_product - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
-        return tuple(found)
+            found["hot"] = figures.temperature_product - self.temperature_limit
+        return found
 
 
 def _moisture(dryer: PaddleDryer) -> Any:

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Fraction, HeatTransferCoefficient, Law, Length, PositiveNumber, Power, RotationSpeed, Temperature, Within
+from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
 from granum.drying.formulas.rotary import residence_time_friedman_marshall, volumetric_heat_transfer_rotary
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
+
+TABLE = NOTES.format(table="IV.6")
 
 
 @equipment("rotary_dryer", source="friedman1949; friedman1949part2; treybal1980, ch. 12", title="Rotary dryer")
@@ -40,6 +43,14 @@ class RotaryDryer(ContactDryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
+
+    limits: ClassVar[Limits] = ContactDryer.limits | {
+        "filled": Limit("share of the drum filled with solid", 0.03, 0.15, "dimensionless", "friedman1949"),
+        "flux": Limit("gas per cross-section of the drum", 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
+        "slender": Limit("length over diameter of the drum", 4.0, 10.0, "dimensionless", "perry2008, ch. 12"),
+        "inlet": Limit("gas temperature at the inlet", 373.15, 1173.15, "K", TABLE),
+        "capacity": Limit("water evaporated per volume and hour", 3.0, 100.0, "kg/(hour*m^3)", TABLE),
+    }
 
     def extent(self) -> Any:
         return self.length * self.section
@@ -81,21 +92,11 @@ class RotaryDryer(ContactDryer):
         """The drum as long as a product moisture needs."""
         return sized(cls(10.0, diameter, kinetics, **more), "length", moisture_outlet, 0.2, 200.0, feed, gas)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        gas, feed = inlets["gas"], inlets["feed"]
-        filled = figures.solid_holdup / (feed.solid_density * 0.6) / self.extent()
-        flux = gas.gas_flow / self.section
-        return (
-            Check("share of the drum filled with solid", filled, 0.03, 0.15, "dimensionless", "friedman1949"),
-            Check("gas per cross-section of the drum", flux, 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
-            Check(
-                "length over diameter of the drum",
-                jnp.asarray(self.length / self.diameter),
-                4.0,
-                10.0,
-                "dimensionless",
-                "perry2008, ch. 12",
-            ),
-            Check("gas temperature at the inlet", gas.temperature, 373.15, 1173.15, "K", NOTES.format(table="IV.6")),
-            Check("water evaporated per volume and hour", self.hourly(figures), 3.0, 100.0, "kg/(hour*m^3)", NOTES.format(table="IV.6")),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "filled": figures.solid_holdup / (feed.solid_density * 0.6) / self.extent(),
+            "flux": gas.gas_flow / self.section,
+            "slender": jnp.asarray(self.length / self.diameter),
+            "inlet": gas.temperature,
+            "capacity": self.hourly(figures),
+        }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -19,9 +19,9 @@ from granum.core.kinds import (
     Volume,
     Within,
 )
-from granum.drying.contact.cells import Profile
+from granum.core.limits import Limit
 from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, DryerFigures, dried, humidity_of, recalled, sized, warmed
+from granum.drying.contact.dryer import NOTES, DryerFigures, Through, dried, humidity_of, ready, sized, warmed
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer, joined
 from granum.drying.contact.liquor import counted
@@ -29,7 +29,9 @@ from granum.drying.contact.matter import Matter
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream, empty
-from granum.streams.units import Check
+from granum.streams.units import Limits
+
+TABLE = NOTES.format(table="IV.12")
 
 
 class DriedGrain(NamedTuple):
@@ -61,13 +63,19 @@ class SiloDryer(LayerDryer):
     layers: Annotated[int, Within(1, 1000)] = 20
     steps: Annotated[int, Within(1, 100_000)] = 50
 
+    limits: ClassVar[Limits] = LayerDryer.limits | {
+        "inlet": Limit("gas temperature at the inlet", 303.15, 383.15, "K", "brooker1992"),
+        "time": Limit("residence time of the grain", 900.0, 4 * 86400.0, "s", TABLE),
+        "pressure": Limit("air pressure lost in the grain", 0.0, 2500.0, "Pa", "brooker1992"),
+    }
+
     def extent(self) -> Any:
         return self.volume
 
     def resolution(self) -> tuple[int, int]:
         return self.layers, self.steps
 
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
+    def holdup(self) -> Any:
         return self.volume * self.bulk_density_dry
 
     def area(self) -> Any:
@@ -84,7 +92,7 @@ class SiloDryer(LayerDryer):
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         vapor = Matter.of(feed, gases[0]).vapor
-        mass = self.holdup(feed, gases[0])
+        mass = self.holdup()
         time = mass / jnp.maximum(feed.solid_flow, 1e-12)
         cooled = len(gases) > 1
         share = 1.0 - self.cooling_share if cooled else 1.0
@@ -98,15 +106,16 @@ class SiloDryer(LayerDryer):
         hot = [zone(gases[0], share / halves, 1.0 / halves, i == 1) for i in range(halves)]
         return hot + ([zone(gases[1], self.cooling_share, 1.0, False)] if cooled else [])
 
-    def profile(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Profile:
-        return _grain(self, feed, gas, cooling)[0]
+    def through(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Through:
+        return _grain(self, feed, gas, cooling)
 
-    def __call__(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> DriedGrain:
-        found, vapor, heat = _grain(self, feed, gas, cooling)
-        self.judged(found)
+    def outlets(self, inside: Through, feed: Stream, gas: Stream, cooling: Stream | None = None) -> DriedGrain:
+        found = inside.profile
         if cooling is None:
             product, exhaust, duty = dried(feed, gas, found)
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
+        assert inside.cooling is not None
+        vapor, heat = inside.cooling
         product, exhaust, duty = dried(feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat))
         index = feed.mixture.index("gases", "water")
         stray = cooling.part(solid=1.0, liquid=1.0)
@@ -123,21 +132,20 @@ class SiloDryer(LayerDryer):
         """That the hot air loses in the grain."""
         return pressure_gradient_shedd.function(gas.gas_volume_flow / self.area())
 
-    def ranges(self, inlets: Any, outlets: Any, figures: DryerFigures) -> tuple[Check, ...]:
-        gas = inlets["gas"]
-        table = NOTES.format(table="IV.12")
-        return (
-            Check("gas temperature at the inlet", gas.temperature, 303.15, 383.15, "K", "brooker1992"),
-            Check("residence time of the grain", figures.residence_time, 900.0, 4 * 86400.0, "s", table),
-            Check("air pressure lost in the grain", self.pressure_gradient(gas) * self.layer_depth, 0.0, 2500.0, "Pa", "brooker1992"),
-        )
+    def measured(
+        self, inside: Through, outlets: DriedGrain, figures: DryerFigures, feed: Stream, gas: Stream, cooling: Stream | None = None
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "inlet": gas.temperature,
+            "time": figures.residence_time,
+            "pressure": self.pressure_gradient(gas) * self.layer_depth,
+        }
 
 
-@recalled
-def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> tuple[Profile, Any, Any]:
-    """The profile, and vapor and enthalpy of the cooling air."""
+@ready
+def _grain(dryer: SiloDryer, feed: Stream, gas: Stream, cooling: Stream | None) -> Through:
     gases = (gas,) if cooling is None else (gas, cooling)
     like, found = dryer.passages(feed, *gases)
     flow = counted(feed).solid_flow
     profile = joined(like, found, flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
-    return profile, flow * found[-1].vapor, flow * found[-1].gas_enthalpy
+    return Through(profile, dryer.holdup(), (flow * found[-1].vapor, flow * found[-1].gas_enthalpy))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 from jax.scipy.special import gammaln
@@ -12,16 +12,18 @@ from jax.scipy.special import gammaln
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature, Within
-from granum.drying.contact.cells import Inlet, Network, Profile
+from granum.core.limits import Limit
+from granum.drying.contact.cells import Inlet, Network
 from granum.drying.contact.conveyed import Path, convey, drop_ratio
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, humidity_of, parted, recalled, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, humidity_of, parted, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import Liquor
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
 
+TABLE = NOTES.format(table="IV.2")
 GROWTH = 1.08  # of the cells from the atomizer on
 
 
@@ -45,6 +47,14 @@ class SprayDryer(Dryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 50
+
+    limits: ClassVar[Limits] = Dryer.limits | {
+        "inlet": Limit("gas temperature at the inlet", 373.15, 873.15, "K", TABLE),
+        "outlet": Limit("gas temperature at the outlet", 333.15, 473.15, "K", TABLE),
+        "time": Limit("residence time of the gas", 10.0, 30.0, "s", TABLE),
+        "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
+        "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
+    }
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2 * self.length
@@ -75,16 +85,11 @@ class SprayDryer(Dryer):
             jnp.asarray(feed.mixture.sizes), self.dry_density, feed.solid_density, True,
         )  # fmt: skip
 
-    def profile(self, feed: Stream, gas: Stream) -> Profile:
-        return _sprayed(self, feed, gas)[0]
+    def through(self, feed: Stream, gas: Stream) -> Through:
+        return _sprayed(self, feed, gas)
 
-    def holdup(self, feed: Stream, gas: Stream) -> Any:
-        return _sprayed(self, feed, gas)[1]
-
-    def __call__(self, feed: Stream, gas: Stream) -> Dried:
-        found = self.profile(feed, gas)
-        self.judged(found)
-        return parted(self.atomized(counted(feed), gas), composition(feed), gas, found)
+    def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
+        return parted(self.atomized(counted(feed), gas), composition(feed), gas, inside.profile)
 
     @classmethod
     def size(
@@ -93,22 +98,18 @@ class SprayDryer(Dryer):
         """The chamber as high as a product moisture needs."""
         return sized(cls(5.0, diameter, atomizer, kinetics, **more), "length", moisture_outlet, 0.05, 200.0, feed, gas)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        gas, table = inlets["gas"], NOTES.format(table="IV.2")
-        flight = self.extent() / outlets.exhaust.gas_volume_flow
-        return (
-            Check("gas temperature at the inlet", gas.temperature, 373.15, 873.15, "K", table),
-            Check("gas temperature at the outlet", outlets.exhaust.temperature, 333.15, 473.15, "K", table),
-            Check("residence time of the gas", flight, 10.0, 30.0, "s", table),
-            Check("water evaporated per volume and hour", self.hourly(figures), 1.0, 30.0, "kg/(hour*m^3)", table),
-            Check(
-                "height over diameter of the chamber", jnp.asarray(self.length / self.diameter), 0.6, 5.0, "dimensionless", "masters1991"
-            ),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "inlet": gas.temperature,
+            "outlet": outlets.exhaust.temperature,
+            "time": self.extent() / outlets.exhaust.gas_volume_flow,
+            "capacity": self.hourly(figures),
+            "slender": jnp.asarray(self.length / self.diameter),
+        }
 
 
-@recalled
-def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any]:
+@ready
+def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> Through:
     dry = counted(feed)
     drops = dryer.atomized(dry, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
@@ -117,4 +118,4 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> tuple[Profile, Any
     network = Network.co_current(dryer.cells)
     if dryer.gas_dispersion is not None:
         network = network.dispersed(dryer.gas_dispersion)
-    return convey(dryer.path(dry, gas), matter, dryer.kinetics, gas, inlet, drops.solid_by_size, network, dryer.heat_loss)
+    return Through(*convey(dryer.path(dry, gas), matter, dryer.kinetics, gas, inlet, drops.solid_by_size, network, dryer.heat_loss))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+import math
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -31,6 +31,7 @@ from granum.core.kinds import (
     Temperature,
     Time,
 )  # fmt: skip
+from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.column import Zone, mean_moisture, pass_zones
 from granum.drying.contact.dryer import ready
@@ -45,13 +46,9 @@ from granum.drying.wet_surface import PAIR, boiled, humidity
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.numerics import safe_divide
-from granum.streams.sharing import shared
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
-_SPEED, _AIR = "air speed over the trays", "relative humidity of the exhaust"
-_REACHED, _LIMIT = "moisture of the product above equilibrium with the hot air", "product temperature over its limit"
-_RECYCLE = "recirculated share of the air"
 _UNSOLVED = "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation agree: give hotter air, or less radiated heat."
 
 
@@ -133,15 +130,21 @@ class TrayDryer(Unit):
     heat_loss_share: Fraction = 0.0
     temperature_limit: Temperature | None = None
 
-    def __call__(self, feed: Stream, gas: Stream) -> TrayDried:
-        state = self._state(feed, gas)
-        product, vapor = boiled(feed, self.moisture_outlet, self.temperature_inlet, state["T2"], gas.pressure)
+    limits: ClassVar[Limits] = {
+        "speed": Limit("air speed over the trays", 0.5, 8.0, "m/s", "treybal1980, ch. 12"),
+        "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+        "reached": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
+        "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
+        "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
+    }
+
+    def outlets(self, inside: dict[str, Any], feed: Stream, gas: Stream) -> TrayDried:
+        product, vapor = boiled(feed, self.moisture_outlet, self.temperature_inlet, inside["T2"], gas.pressure)
         exhaust = vapor.replace(gas=vapor.gas + gas.gas)
         duty = product.enthalpy_flow + exhaust.enthalpy_flow - feed.enthalpy_flow - gas.enthalpy_flow
         return TrayDried(product, exhaust, duty)
 
-    @shared
-    def _state(self, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def inside(self, feed: Stream, gas: Stream) -> dict[str, Any]:
         """Air, flux and time."""
         T, P = jnp.asarray(self.temperature_inlet), gas.pressure
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
@@ -176,13 +179,11 @@ class TrayDryer(Unit):
             raise ApplicabilityError(
                 _("A load is followed in time without radiated heat: set 'radiated_heat' to zero."), name="radiated_heat"
             )
-        length = 1.5 * self._state(feed, gas)["time"] if duration is None else duration
+        length = 1.5 * self.inside(feed, gas)["time"] if duration is None else duration
         return _followed(self, feed, gas, length, cells, steps)
 
-    @shared
-    def results(self, inlets: Mapping[str, Stream], outlets: TrayDried) -> TrayFigures:
-        feed, gas = inlets["feed"], inlets["gas"]
-        s = self._state(feed, gas)
+    def figures(self, inside: dict[str, Any], outlets: TrayDried, feed: Stream, gas: Stream) -> TrayFigures:
+        s = inside
         cycle = s["time"] + self.dead_time
         dry = feed.solid_flow * cycle
         area = dry / self.dry_mass_per_area
@@ -205,23 +206,22 @@ class TrayDryer(Unit):
             energy_per_water=safe_divide(duty, s["water"]),
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: TrayDried) -> tuple[Check, ...]:
-        figures, s = self.results(inlets, outlets), self._state(inlets["feed"], inlets["gas"])
-        found = [
-            Check(_SPEED, self.gas_velocity, 0.5, 8.0, "m/s", "treybal1980, ch. 12"),
-            Check(_AIR, figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
-            Check(_REACHED, self.moisture_outlet - s["Xe"], 0.0, 1e3, "kg/kg", "keey1978"),
-            Check(_RECYCLE, figures.recirculated_fraction, 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
-        ]
+    def measured(self, inside: dict[str, Any], outlets: TrayDried, figures: TrayFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        found = {
+            "speed": self.gas_velocity,
+            "humid": figures.relative_humidity,
+            "reached": self.moisture_outlet - inside["Xe"],
+            "recycle": figures.recirculated_fraction,
+        }
         if self.temperature_limit is not None:
-            found.append(Check(_LIMIT, self.temperature_inlet - self.temperature_limit, -jnp.inf, 0.0, "delta_degC", "bonazzi2003"))
-        return tuple(found)
+            found["hot"] = self.temperature_inlet - self.temperature_limit
+        return found
 
 
 @ready
 def _followed(tray: TrayDryer, feed: Stream, gas: Stream, duration: Any, cells: int, steps: int) -> Batch:
     """Cells of standing solid along the air; each dries at the rate of the wet bulb of its own air, and below the critical moisture in proportion."""
-    s = tray._state(feed, gas)
+    s = tray.inside(feed, gas)
     T, w = jnp.asarray(tray.temperature_inlet), s["w"]
     isotherm = _Rest(jnp.asarray(tray.equilibrium_moisture)) if tray.isotherm is None else tray.isotherm
     exchange = s["h"] * tray.sides / tray.dry_mass_per_area

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.kinds import Area, HeatTransferCoefficient, Law, Power, SpecificSurfaceMass, Temperature, Time, Volume, Within
+from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, sized
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
 from granum.streams.stream import Stream
-from granum.streams.units import Check
+from granum.streams.units import Limits
+
+TABLE = NOTES.format(table="IV.8")
 
 
 @equipment("tunnel_dryer", source="keey1978; geankoplis2003, ch. 9", title="Tunnel dryer")
@@ -34,6 +37,12 @@ class TunnelDryer(ContactDryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
+
+    limits: ClassVar[Limits] = ContactDryer.limits | {
+        "inlet": Limit("gas temperature at the inlet", 303.15, 523.15, "K", TABLE),
+        "capacity": Limit("water evaporated per volume and hour", 1.0, 50.0, "kg/(hour*m^3)", TABLE),
+        "velocity": Limit("gas velocity over the product", 0.6, 8.0, "m/s", "treybal1980, ch. 12"),
+    }
 
     def extent(self) -> Any:
         return self.volume
@@ -59,11 +68,9 @@ class TunnelDryer(ContactDryer):
         first = cls(3600.0, surface_per_mass, free_area, volume, kinetics, **more)
         return sized(first, "residence_time", moisture_outlet, 10.0, 1e6, feed, gas)
 
-    def ranges(self, inlets: Any, outlets: Dried, figures: DryerFigures) -> tuple[Check, ...]:
-        gas = inlets["gas"]
-        velocity = gas.gas_volume_flow / self.free_area
-        return (
-            Check("gas temperature at the inlet", gas.temperature, 303.15, 523.15, "K", NOTES.format(table="IV.8")),
-            Check("water evaporated per volume and hour", self.hourly(figures), 1.0, 50.0, "kg/(hour*m^3)", NOTES.format(table="IV.8")),
-            Check("gas velocity over the product", velocity, 0.6, 8.0, "m/s", "treybal1980, ch. 12"),
-        )
+    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, gas) | {
+            "inlet": gas.temperature,
+            "capacity": self.hourly(figures),
+            "velocity": gas.gas_volume_flow / self.free_area,
+        }

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.flags import unsolved
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
+from granum.core.limits import Limit
 from granum.drying.contact.dryer import Dried
 from granum.drying.wet_surface import crystallized, require_water
 from granum.humid_gas.pairs import AirWater
@@ -19,7 +19,7 @@ from granum.numerics import find_root, safe_divide
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
-from granum.streams.units import Check, Unit
+from granum.streams.units import Limits, Unit
 
 COLDEST_FILM = 230.0  # K
 UNSOLVED = "No temperature of the bed was found at which heat and evaporation agree: give hotter gas or more of it, less wet solid, or a smaller heat loss."
@@ -52,7 +52,13 @@ class WellMixedDryer(Unit):
     gas_velocity: Speed
     heat_loss: Power = 0.0
 
-    def __call__(self, feed: Stream, gas: Stream) -> Dried:
+    limits: ClassVar[Limits] = {
+        "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
+        "moist": Limit("moisture of the product", 0.0, 0.01, "kg/kg", "mullin2001, ch. 9"),
+    }
+
+    def inside(self, feed: Stream, gas: Stream) -> Stream:
+        """Gas and solid together, as they are in the bed."""
         require_water(feed.mixture, carried=True)
         pair = AirWater()
         water = feed.liquid[0]
@@ -96,11 +102,11 @@ class WellMixedDryer(Unit):
         root = find_root(surplus, coldest, gas.temperature)
         unsolved(root.converged | (water <= 0), type(self).card, reason=UNSOLVED)
         T = jnp.where(water > 0, root.value, wet.temperature)
-        bed = after(jnp.clip(by_energy(T), 0.0, water), T)
-        nothing = jnp.zeros_like(bed.gas)
-        product = bed.replace(gas=nothing)
-        exhaust = bed.replace(solid=jnp.zeros_like(bed.solid), liquid=jnp.zeros_like(bed.liquid))
-        return Dried(product, exhaust, -self.heat_loss)
+        return after(jnp.clip(by_energy(T), 0.0, water), T)
+
+    def outlets(self, inside: Stream, feed: Stream, gas: Stream) -> Dried:
+        exhaust = inside.replace(solid=jnp.zeros_like(inside.solid), liquid=jnp.zeros_like(inside.liquid))
+        return Dried(inside.replace(gas=jnp.zeros_like(inside.gas)), exhaust, -self.heat_loss)
 
     @staticmethod
     def _surface_temperature(T: Any, P: Any, y: Any) -> Any:
@@ -124,12 +130,12 @@ class WellMixedDryer(Unit):
         shares = bed.size_fractions
         return jnp.where(shares > 1e-9, bed.mixture.sizes, jnp.asarray(bed.mixture.sizes)[jnp.argmax(shares)])
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Dried) -> WellMixedFigures:
+    def figures(self, inside: Stream, outlets: Dried, feed: Stream, gas: Stream) -> WellMixedFigures:
         pair, exhaust = AirWater(), outlets.exhaust
         humidity = safe_divide(exhaust.gas[1], exhaust.gas[0])
         saturated = saturated_fraction(pair, exhaust.temperature, exhaust.pressure)
         return WellMixedFigures(
-            evaporation_rate=inlets["feed"].liquid[0] - outlets.product.liquid[0],
+            evaporation_rate=feed.liquid[0] - outlets.product.liquid[0],
             moisture_dry_basis=outlets.product.moisture_dry_basis,
             temperature=outlets.product.temperature,
             humidity_ratio=humidity,
@@ -139,12 +145,8 @@ class WellMixedDryer(Unit):
             heat_duty=outlets.heat_duty,
         )
 
-    def checks(self, inlets: Mapping[str, Stream], outlets: Dried) -> tuple[Check, ...]:
-        figures = self.results(inlets, outlets)
-        return (
-            Check("relative humidity of the exhaust", figures.relative_humidity, 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
-            Check("moisture of the product", figures.moisture_dry_basis, 0.0, 0.01, "kg/kg", "mullin2001, ch. 9"),
-        )
+    def measured(self, inside: Stream, outlets: Dried, figures: WellMixedFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+        return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis}
 
 
 def evaporate(wet: Stream, share: Any) -> Stream:
