@@ -33,6 +33,7 @@ function Work({ page, card, given }) {
   const missing = card.parameters.filter((p) => p.required && !values[p.name]);
   const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
   const others = useAnswer((signal) => Promise.all(kept.map((given) => ask(`/api/calc/${card.card}`, given, { signal }))), [JSON.stringify(kept)], 0);
+  const [laws, setLaws] = useState(false); // whether those of others are open: kept while a field is empty and no result stands
   const set = (next, name = '') => { // what is typed in one field in one go is one step back
     if (!name || edited.current !== name) setPast([...past.slice(-50), values]);
     edited.current = name;
@@ -59,7 +60,7 @@ function Work({ page, card, given }) {
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
       ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
-        : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} />`)}</div>
+        : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)}</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
@@ -106,7 +107,7 @@ function appended(text, value, unit) {
   return `${before ? before + ' ' : ''}${shown} ${unit}`;
 }
 
-function Result({ card, values, data, old, kept, keep, clear, choose }) {
+function Result({ card, values, data, old, kept, keep, clear, choose, laws, setLaws }) {
   const bad = data.flags.length > 0;
   const single = data.shown.length <= 3;
   return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
@@ -115,7 +116,7 @@ function Result({ card, values, data, old, kept, keep, clear, choose }) {
     <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
-    ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} />`}
+    ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} open=${laws} setOpen=${setLaws} />`}
     ${data.equation && html`<h2>${t('Equation')}</h2><div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: data.equation }} />`}
     ${data.inputs_shown.length > 0 && html`<p class="small dim">${t('with')} ${data.inputs_shown.map((row, i) => html`${i > 0 ? (settings.language === 'fr' ? ' ; ' : '; ') : ''}<span class="pair">${row.symbol ? html`<span dangerouslySetInnerHTML=${{ __html: row.symbol }} />` : row.label} = ${row.text}</span>`)}</p>`}
     <h2>${t('Source')}</h2><p class="small">${data.citation}</p>
