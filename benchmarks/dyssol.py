@@ -111,12 +111,12 @@ class OnePassCrusher(Unit):
         finer = finer / finer.sum(axis=1, keepdims=True)
         return ((finer - np.diag(np.diag(finer))) * chance[:, None] + np.diag(1.0 - chance)).T
 
-    def __call__(self, feed: Stream) -> Single:
+    def outlets(self, inside: None, feed: Stream) -> Single:
         out = feed.regraded(jnp.asarray(self.matrix(feed.mixture.edges)))
         return Single(out.replace(solid=out.solid * (feed.solid_flow / jnp.maximum(out.solid_flow, 1e-300))))
 
-    def results(self, inlets: object, outlets: object) -> object:
-        return outlets
+    def figures(self, inside: None, outlets: Single, feed: Stream) -> tuple[()]:
+        return ()
 
 
 class PairKernel(eqx.Module):

@@ -17,7 +17,6 @@ from granum.drying.formulas import assisted
 from granum.drying.formulas import contact_drying as c
 from granum.humid_gas import state
 from granum.streams.audit import closure
-from granum.streams.sharing import sharing
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "dryers"
 
@@ -53,8 +52,7 @@ def test_a_load_on_trays_over_time():
     line = gr.read(EXAMPLES / "tray.toml")
     unit, inlets = dataclasses.replace(line.sheet.units["oven"], tray_gap=0.04), inlets_of(line)
     feed, gas = inlets["feed"], inlets["gas"]
-    with sharing():
-        figures = unit.operate(**inlets).figures
+    figures = unit.operate(**inlets).figures
     Tw = float(figures.surface_temperature)
     feed = feed.replace(temperature=Tw)  # nothing is left to warm
     load = unit.batch(feed, gas, cells=6, steps=150)
@@ -161,8 +159,7 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     line = gr.read(EXAMPLES / "paddle.toml")
     unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
     inlets = {"feed": feed}
-    with sharing():
-        figures = unit.operate(**inlets).figures
+    figures = unit.operate(**inlets).figures
     X, capacity = 7 / 3, float(unit._heat(feed)[3])
     held = (capacity + X * 4187.0) / (1.0 / float(feed.solid_density) + X / 958.0)
     h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))

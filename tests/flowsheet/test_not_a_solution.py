@@ -28,14 +28,14 @@ FEED = empty(MIXTURE, 330.0).replace(liquid=jnp.array([1.0]))
 class Leak(Mixer):
     """Loses a millionth."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         return Single(sum(inlets.values(), start=empty(MIXTURE)).part(1.0, 1.0 - 1e-6, 1.0))
 
 
 class Warmer(Mixer):
     """Gives a warmth that nobody pays for."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         joined = sum(inlets.values(), start=empty(MIXTURE))
         return Single(joined.replace(temperature=joined.temperature + 1e-3))
 
@@ -43,14 +43,14 @@ class Warmer(Mixer):
 class Nowhere(Mixer):
     """Gives no number."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         return Single(sum(inlets.values(), start=empty(MIXTURE)).replace(temperature=jnp.asarray(jnp.nan)))
 
 
 class Unsettled(Mixer):
     """Says that its own iteration did not converge."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         flags.record(flags.NOT_CONVERGED, jnp.asarray(True), jnp.zeros(()), "inner balance", "streams.mixer")
         return Single(sum(inlets.values(), start=empty(MIXTURE)))
 
@@ -86,7 +86,7 @@ def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:
 class Thirsty(Mixer):
     """Has no answer while one of its inlets is empty, as a dryer without gas."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         joined = sum(inlets.values(), start=empty(MIXTURE))
         flows = jnp.all(jnp.stack([s.mass_flow > 0 for s in inlets.values()]))
         return Single(joined.replace(temperature=jnp.where(flows, joined.temperature, jnp.nan)))

@@ -117,7 +117,7 @@ def refused(units: dict, feed: Stream, links: dict) -> str:
 class Cooler(Mixer):
     """Takes far more heat than there is."""
 
-    def __call__(self, **inlets: Stream) -> Single:
+    def outlets(self, inside: None, **inlets: Stream) -> Single:
         return Single(inlets["feed"].heated(-1e9))
 
 

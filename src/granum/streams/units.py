@@ -75,13 +75,13 @@ class Unit(eqx.Module):
         """What outlets, figures and limits have in common, worked out once; nothing by default."""
         return None
 
+    @abc.abstractmethod
     def outlets(self, inside: Any, *args: Any, **inlets: Any) -> Any:
         """Outlet streams and powers."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def figures(self, inside: Any, outlets: Any, *args: Any, **inlets: Any) -> Any:
         """Figures of the data sheet."""
-        raise NotImplementedError
 
     def measured(self, inside: Any, outlets: Any, figures: Any, *args: Any, **inlets: Any) -> dict[str, Any]:
         """One number for each limit that applies."""
@@ -93,21 +93,16 @@ class Unit(eqx.Module):
         figures: Any = None
         checks: tuple[Check, ...] = ()
         with sharing(), flags.collect() as records:
-            if type(self).__call__ is not Unit.__call__:  # a unit that still answers each question by itself
-                inside, outlets = None, self(**inlets)
-                if whole:
-                    figures = self.results(inlets, outlets)  # type: ignore[attr-defined]
-                    checks = tuple(self.checks(inlets, outlets)) if hasattr(self, "checks") else ()  # type: ignore[attr-defined]
-            else:
-                inside = self.inside(**inlets)
-                outlets = self.outlets(inside, **inlets)
-                if whole:
-                    figures = self.figures(inside, outlets, **inlets)
-                    measured = self.measured(inside, outlets, figures, **inlets)
-                    checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
+            inside = self.inside(**inlets)
+            outlets = self.outlets(inside, **inlets)
+            if whole:
+                figures = self.figures(inside, outlets, **inlets)
+                measured = self.measured(inside, outlets, figures, **inlets)
+                checks = tuple(self._checked(x, measured[n]) for n, x in self.limits.items() if n in measured)
         flags.hand_on(records)
         return Operated(outlets, figures, checks, inside, records)
 
+    @final
     def __call__(self, *args: Stream, **inlets: Stream) -> Any:
         """Outlet streams and powers, of ``operate``."""
         named = dict(zip(self.inlet_names() or (), args, strict=False))
@@ -122,13 +117,8 @@ class Unit(eqx.Module):
         return {}
 
     @classmethod
-    def _balance(cls) -> Any:
-        """The method whose signature names the ports."""
-        return cls.outlets if cls.__call__ is Unit.__call__ else cls.__call__
-
-    @classmethod
     def _ports(cls) -> list[inspect.Parameter]:
-        return [p for name, p in inspect.signature(cls._balance()).parameters.items() if name not in ("self", "inside")]
+        return [p for name, p in inspect.signature(cls.outlets).parameters.items() if name not in ("self", "inside")]
 
     @classmethod
     def inlet_names(cls) -> tuple[str, ...] | None:
@@ -146,7 +136,7 @@ class Unit(eqx.Module):
     @classmethod
     def outlet_type(cls) -> type:
         """The named tuple of outlets."""
-        return get_type_hints(cls._balance())["return"]
+        return get_type_hints(cls.outlets)["return"]
 
     @classmethod
     def outlet_names(cls) -> tuple[str, ...]:

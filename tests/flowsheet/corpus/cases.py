@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,7 +29,7 @@ class _Nothing(NamedTuple):
 class _Made(Unit):
     """A unit of the corpus: no figures."""
 
-    def results(self, inlets: Mapping[str, Stream], outlets: Any) -> _Nothing:
+    def figures(self, inside: None, outlets: Any, **inlets: Stream) -> _Nothing:
         return _Nothing()
 
 
@@ -38,7 +38,7 @@ class Separator(_Made):
 
     shares: Any
 
-    def __call__(self, feed: Stream) -> TwoWays:
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
         side = feed.replace(liquid=feed.liquid * jnp.asarray(self.shares))
         return TwoWays(feed.replace(liquid=feed.liquid - side.liquid), side)
 
@@ -48,7 +48,7 @@ class Reactor(_Made):
 
     matrix: Any
 
-    def __call__(self, feed: Stream) -> Single:
+    def outlets(self, inside: None, feed: Stream) -> Single:
         return Single(feed.replace(liquid=jnp.asarray(self.matrix) @ feed.liquid))
 
 
@@ -57,7 +57,7 @@ class Limited(_Made):
 
     capacity: Any
 
-    def __call__(self, feed: Stream) -> TwoWays:
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
         share = jnp.minimum(self.capacity / jnp.maximum(feed.mass_flow, 1e-300), 1.0)
         return TwoWays(feed.part(share, share, share), feed.part(1 - share, 1 - share, 1 - share))
 
@@ -68,7 +68,7 @@ class Weir(_Made):
     scale: Any
     power: Any
 
-    def __call__(self, feed: Stream) -> TwoWays:
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
         share = 1.0 / (1.0 + (feed.mass_flow / self.scale) ** self.power)
         return TwoWays(feed.part(1 - share, 1 - share, 1 - share), feed.part(share, share, share))
 
@@ -78,7 +78,7 @@ class Exchanger(_Made):
 
     effectiveness: Any
 
-    def __call__(self, cold: Stream, hot: Stream) -> TwoWays:
+    def outlets(self, inside: None, cold: Stream, hot: Stream) -> TwoWays:
         duty = self.effectiveness * (hot.enthalpy_flow - hot.enthalpy_at(cold.temperature))
         return TwoWays(cold.heated(duty), hot.heated(-duty))
 
@@ -88,7 +88,7 @@ class Flash(_Made):
 
     ratios: Any
 
-    def __call__(self, feed: Stream) -> TwoWays:
+    def outlets(self, inside: None, feed: Stream) -> TwoWays:
         moles, k = feed.liquid, jnp.asarray(self.ratios)
         z = moles / jnp.maximum(jnp.sum(moles), 1e-300)
 
