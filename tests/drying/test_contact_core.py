@@ -1,8 +1,6 @@
-"""The contact core: closed forms, order, conservation in steady state and in time, derivatives, batches, speed."""
+"""The contact core: closed forms, order, conservation in steady state and in time, derivatives, batches."""
 
 from __future__ import annotations
-
-import time
 
 import jax
 import jax.numpy as jnp
@@ -167,25 +165,6 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert float(laws[3].rate(wet)[0, 0]) == pytest.approx(float(wet.film_rate()[0, 0]))
     cold = Meeting(0.5 * one, 283.0 * one, 300.0 * one, 0.02 * one, one, MATTER)  # dew point 24.7 °C
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
-
-
-def test_a_dynamic_dryer_is_quick() -> None:
-    """50 cells, one hour, below 50 ms on an idle core; four times that here, where cores are shared."""
-    n, steps = 50, 100
-    inlets = jax.tree.map(lambda v: jnp.broadcast_to(v, (steps, *jnp.shape(v))), INLET)
-
-    @jax.jit
-    def run(units):
-        core = contact(n, Network.counter_current(n), units)
-        return core.dynamic(core.start(INLET), inlets, 36.0)[1]
-
-    run(2.0).block_until_ready()
-    best = 1.0
-    for _try in range(5):
-        start = time.perf_counter()
-        run(2.0).block_until_ready()
-        best = min(best, time.perf_counter() - start)
-    assert best < 0.2
 
 
 def test_a_mixture_without_water_is_refused() -> None:

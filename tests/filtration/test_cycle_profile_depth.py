@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -50,12 +48,11 @@ def test_v_opt_of_the_notes_and_equal_times_without_medium():
     assert best.filtration_time == pytest.approx(900, rel=1e-12)
 
 
-def test_many_cycles_at_once_are_fast():
-    dead = np.linspace(100, 5000, 100_000)
-    cy.filtration_cycle(**CASE, dead_time=dead)
-    begin = time.perf_counter()
-    np.asarray(cy.filtration_cycle(**CASE, dead_time=dead).mean_filtrate_flow)
-    assert time.perf_counter() - begin < 1.0
+def test_many_cycles_at_once_are_those_of_one_by_one():
+    dead = np.linspace(100, 5000, 1000)
+    flows = np.asarray(cy.filtration_cycle(**CASE, dead_time=dead).mean_filtrate_flow)
+    assert flows[17] == pytest.approx(cy.filtration_cycle(**CASE, dead_time=float(dead[17])).mean_filtrate_flow, rel=1e-12)
+    assert np.all(np.diff(flows) < 0)  # time lost is filtrate lost
 
 
 def test_pump_curve_against_quadrature():
