@@ -66,6 +66,7 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     asked = [places[p.name] for p in columns if p.name in places]
     texts = [row[k] for _line, row in body for k in asked if k < len(row) and isinstance(row[k], str)]
     marks = {mark for mark in ",." if any(_DECIMAL[mark].fullmatch(text) for text in texts)}
+    sure = {mark for mark in marks if any(_DECIMAL[mark].fullmatch(text) and not _IN_THREES[mark].fullmatch(text) for text in texts)}
     for p in columns:
         if p.name not in places:
             close = nearest(p.name, places)
@@ -74,17 +75,20 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
             continue
         place = places[p.name]
         cells = [(line, row[place] if place < len(row) else None) for line, row in body]
-        _no_thousands(p, cells, marks, where)
+        _no_thousands(p, cells, marks, sure, where)
         found[p.name] = _column(p, units[p.name], cells, where)
     return found
 
 
-def _no_thousands(p: Parameter, cells: list[tuple[int, Any]], marks: set[str], where: str) -> None:
-    """Refuse a mark that may set thousands apart: other cells have the other mark, or whole numbers below a thousand stand beside."""
+def _no_thousands(p: Parameter, cells: list[tuple[int, Any]], marks: set[str], sure: set[str], where: str) -> None:
+    """Refuse a mark that may set thousands apart: other cells have the other mark, or whole numbers below a thousand stand beside.
+
+    ``marks`` are those of the table, ``sure`` those that are decimal marks somewhere in it and so everywhere.
+    """
     written = [(line, cell) for line, cell in cells if isinstance(cell, str)]
     for mark, other in ((",", "."), (".", ",")):
         doubtful = [(line, cell) for line, cell in written if _IN_THREES[mark].fullmatch(cell)]
-        if not doubtful or any(_DECIMAL[mark].fullmatch(cell) and not _IN_THREES[mark].fullmatch(cell) for _line, cell in written):
+        if not doubtful or mark in sure:
             continue
         if other in marks or any(_WHOLE.fullmatch(cell) for _line, cell in written):
             line, cell = doubtful[0]
