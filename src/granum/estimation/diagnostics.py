@@ -26,6 +26,7 @@ ERROR = 0.004
 MOST = 3
 """Points that are looked for at once."""
 PROMISING = 0.2
+NEARBY = 50  # evaluations of a refit without some points, which starts at the fit of all
 """Probability below which a set found by linear algebra is refitted."""
 ONE_BY_ONE = 60
 """Points up to which each is left out in turn once something is stray."""
@@ -181,7 +182,7 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
         # of a set only those are stray that the others, refitted without the set, reject one by one, whatever the law of their scatter
         deviations = _deviations(problem, at, suspects, floor)
         even = _in_proportion(problem, at)
-        relative = _deviations(even, even.solve(at, without=suspects)[0], suspects, floor)
+        relative = _deviations(even, even.solve(at, without=suspects, most=NEARBY)[0], suspects, floor)
         limit = stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
         far = tuple(k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit)
         if far == suspects:
@@ -206,7 +207,7 @@ def _robust(problem: Problem, q: np.ndarray, floor: float) -> np.ndarray:
         if abs(new - width) <= 1e-3 * new:
             break
         width = new
-        q, _outcome = problem.solve(q, width=width, loss=SoftL1())
+        q, _outcome = problem.solve(q, width=width, loss=SoftL1(), most=NEARBY)
     return q
 
 
@@ -260,7 +261,7 @@ def _without(problem: Problem, starts: tuple[np.ndarray, ...], key: tuple[int, .
         left = np.delete(problem.residual(at), key)
         return float(left @ left)
 
-    return min((problem.solve(start, without=key)[0] for start in starts), key=squares)
+    return min((problem.solve(start, without=key, most=NEARBY)[0] for start in starts), key=squares)
 
 
 def _deviations(problem: Problem, at: np.ndarray, key: tuple[int, ...], floor: float) -> list[float]:
