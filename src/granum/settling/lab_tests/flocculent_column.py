@@ -80,14 +80,14 @@ class FlocculentColumn(LabTest):
             )
 
     @cached_property
-    def _scale(self) -> float:
+    def _scale(self) -> Any:
         """Time at the middle of the readings, to which the constants refer."""
-        return float(np.exp(np.mean(np.log(np.maximum(np.asarray(self.time, dtype=float), 1e-9)))))
+        return jnp.exp(jnp.mean(jnp.log(jnp.maximum(jnp.asarray(self.time, dtype=float), 1e-9))))
 
     @cached_property
     def _fitted(self) -> Fit:
         t, z = jnp.asarray(self.time, dtype=float), jnp.asarray(self.depth, dtype=float)
-        scale = self._scale
+        scale = float(self._scale)
         start = {"floc_velocity": float(np.mean(np.asarray(z))) / scale, "floc_exponent": 1.2, "floc_sharpness": 1.0}
 
         def model(p: Any, times: Any) -> Any:
@@ -124,7 +124,7 @@ class FlocculentColumn(LabTest):
 
     def constants(self, found: Fit | None = None) -> dict[str, float]:
         """Fitted constants with the time scale they refer to."""
-        return {**(found or self.fit()).values, "floc_time": self._scale}
+        return {**(found or self.fit()).values, "floc_time": float(self._scale)}
 
     def removal(self, time: Any, height: Any) -> Any:
         """Removal of a basin of a depth after a residence time."""
