@@ -129,6 +129,8 @@ def test_equipment_closes_its_balances(kind):
         latent = 2.4e6 * float(figures.evaporation)
         assert abs(float(out.heat_duty)) < 1e-3 * latent
         assert 293.15 < float(out.vapor.temperature) < 333.15
+        antoine = 10.0 ** (8.07131 - 1730.63 / (233.426 + float(out.vapor.temperature) - 273.15)) * 133.322  # its own vapor pressure
+        assert float(out.vapor.pressure) == pytest.approx(antoine, rel=0.01)
     if kind == "tube":
         assert float(figures.residence_time) == pytest.approx(12.0 / float(FEED.slurry_volume_flow))
 

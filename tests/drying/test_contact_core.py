@@ -19,7 +19,7 @@ from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
 
 MIXTURE = mixture_of(["water"], ["quartz"], ["dry air", "water"], [1e-4, 1e-3])
-MATTER = Matter(MIXTURE, 1, jnp.ones((1, 1)), jnp.array([1.0, 0.0]), 101325.0)
+MATTER = Matter(MIXTURE, jnp.ones((1, 1)), jnp.array([1.0, 0.0]), 101325.0)
 FLOW, STAY, GAS = 0.5, 1800.0, 1.0
 INLET = Inlet(jnp.array([0.1]), jnp.array([293.15]), 0.01, 423.15)
 

@@ -24,7 +24,7 @@ from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
 
 MIXTURE = mixture_of(["water"], ["calcite"], ["dry air", "water"], [0.9e-3, 1.1e-3])
-MATTER = Matter(MIXTURE, 1, jnp.ones((1, 1)), jnp.array([1.0, 0.0]), 101325.0)
+MATTER = Matter(MIXTURE, jnp.ones((1, 1)), jnp.array([1.0, 0.0]), 101325.0)
 WET = 0.1
 EXAMPLE = Path(__file__).parents[2] / "examples/dryers/fluid-bed.toml"
 WIDE = mixture_of(["water"], ["calcite"], ["dry air", "water"], list(np.geomspace(1e-4, 4e-3, 5)))

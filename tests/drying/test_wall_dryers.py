@@ -65,7 +65,9 @@ def test_a_load_on_trays_over_time():
     assert brought == pytest.approx(held, rel=1e-9)
     wet = int(np.argmin(abs(np.asarray(load.moisture_mean) - 0.18)))
     cooled = float(unit.temperature_inlet) - float(figures.temperature_outlet)
-    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled, rel=0.01)
+    # which knows neither the cold vapor that joins the air nor, half as strong, the heat that it keeps from the surface (Ackermann)
+    joins = 1890.0 * (float(unit.temperature_inlet) - 0.5 * cooled - Tw) / 2.4e6
+    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled * (1.0 + 0.5 * joins), rel=0.005)
     assert T[wet] == pytest.approx(Tw, abs=0.1)
     assert np.all(np.diff(X, axis=1) >= -1e-9)
     assert float(load.drying_time) == pytest.approx(float(figures.drying_time), rel=0.01)

@@ -24,6 +24,13 @@ class Combustion(NamedTuple):
     lower_heating_value: float
 
 
+class Flammability(NamedTuple):
+    """Of a vapor in ambient air, mole fractions: its lower explosive limit, and the oxygen below which no mixture with nitrogen burns (NaN when unknown)."""
+
+    lower_limit: float
+    limiting_oxygen: float
+
+
 class Fluid(eqx.Module):
     """A pure fluid. Its properties are functions of temperature: ``fluid("ethanol").liquid_viscosity("25 degC")``.
 
@@ -38,6 +45,7 @@ class Fluid(eqx.Module):
     diffusion_volume: Fuller's molecular diffusion volume, cm³/mol; NaN when not given.
     heat_of_vaporization_at_zero: at 0 °C, J/kg: the step between the two enthalpy scales; NaN for a permanent gas.
     combustion: what it takes and gives when it burns; None for what is no fuel.
+    flammability: limits of its vapor in air; None for what does not burn or is not known.
     """
 
     name: str = eqx.field(static=True)
@@ -59,6 +67,7 @@ class Fluid(eqx.Module):
     vapor_viscosity: Property
     vapor_conductivity: Property
     combustion: Combustion | None = eqx.field(static=True, default=None)
+    flammability: Flammability | None = eqx.field(static=True, default=None)
 
     @property
     def label(self) -> str:

@@ -30,7 +30,7 @@ from granum.core.formulas import Formula
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.materials.correlation import Correlation, Missing, Tabulated
-from granum.materials.fluids import Combustion, Fluid
+from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
 from granum.materials.salts import Salt
 from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry, read_materials
@@ -258,12 +258,18 @@ def _fluid(key: str, _own: bool) -> Fluid:
     return Fluid(name=key, french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass,
                  critical_temperature=_or_nan(entry.critical_temperature), critical_pressure=_or_nan(entry.critical_pressure),
                  diffusion_volume=_or_nan(entry.diffusion_volume),
-                 heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS), combustion=_combustion(entry), **made)  # fmt: skip
+                 heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS), combustion=_combustion(entry),
+                 flammability=_flammability(entry), **made)  # fmt: skip
 
 
 def _combustion(entry: FluidEntry) -> Combustion | None:
     burns = entry.combustion
     return None if burns is None else Combustion(burns.air, burns.water, burns.lower_heating_value)
+
+
+def _flammability(entry: FluidEntry) -> Flammability | None:
+    burns = entry.flammability
+    return None if burns is None else Flammability(burns.lower_limit, _or_nan(burns.limiting_oxygen))
 
 
 @cache

@@ -52,6 +52,14 @@ class CombustionEntry(_Strict):
     source: str
 
 
+class FlammabilityEntry(_Strict):
+    """Of a vapor in ambient air, mole fractions: lower explosive limit, and the oxygen below which no mixture with nitrogen burns."""
+
+    lower_limit: float = Field(gt=0, lt=1)
+    limiting_oxygen: float | None = Field(default=None, gt=0, lt=0.21)
+    source: str
+
+
 class FluidEntry(_Named):
     """A pure fluid. Every property is optional: what is missing says so when it is asked for."""
 
@@ -70,6 +78,7 @@ class FluidEntry(_Named):
     vapor_viscosity: PropertyEntry | None = None
     vapor_conductivity: PropertyEntry | None = None
     combustion: CombustionEntry | None = None
+    flammability: FlammabilityEntry | None = None
 
 
 class SolidEntry(_Named):

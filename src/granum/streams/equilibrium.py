@@ -1,20 +1,29 @@
-"""Vapor and liquid of one substance in a gas stream: equilibrium at a temperature, or at the enthalpy the stream has."""
+"""Vapor and liquid of one substance in a gas stream: which they are, and their equilibrium at a temperature or at the enthalpy of the stream.
+
+Nothing else knows which gas of a mixture is the vapor and which liquid it belongs to.
+"""
 
 from __future__ import annotations
 
 from functools import cache
 from typing import Any
 
+import jax
 import jax.numpy as jnp
+import numpy as np
 
+from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import AIR_WATER, AbstractPair
+from granum.materials import fluid, gas_vapor
+from granum.materials.fluids import Fluid
 from granum.numerics import find_root
-from granum.streams.mixture import Mixture
+from granum.streams.mixture import AIR, Mixture, carrier_of
 from granum.streams.stream import Stream
 
 COLDEST, HOTTEST = 200.0, 1500.0
+NEARLY_PURE = 1e-9  # dry gas over vapor below which there is a boiling point and no dew point
 
 
 @cache
@@ -25,39 +34,95 @@ def _pair(carrier: str, vapor: str) -> AbstractPair:
 
 
 class HumidMixture:
-    """The gas–vapor pair in a mixture: its first gas carries the vapor of its first liquid."""
+    """The gas–vapor pair in a mixture: the vapor is the gas of the name of its first liquid, wherever it stands; the rest of the gas carries it.
 
-    def __init__(self, mixture: Mixture):
+    Of several carriers the pair is made with dry air, else with the first by name; all of them count in humidity and saturation. A vapor
+    ``alone`` has no carrier: steam.
+    """
+
+    def __init__(self, mixture: Mixture, *, alone: bool = False):
         names = [g.name for g in mixture.gases]
-        if not mixture.liquids or mixture.liquids[0].name not in names or len(names) < 2:
+        if not mixture.liquids or mixture.liquids[0].name not in names:
             raise ApplicabilityError(
-                _('The mixture needs a carrier gas, and its first liquid among the gases too: gases = ["dry air", "water"].')
+                _(
+                    'The mixture needs its first liquid among the gases too, as its vapor: gases = ["dry air", "water"]; it has {gases}.'
+                ).format(gases=", ".join(names) or _("none"))
             )
-        self.vapor = mixture.index("gases", mixture.liquids[0].name)
-        self.molar_masses = jnp.array([g.molar_mass for g in mixture.gases])
-        carrier = next(g for i, g in enumerate(mixture.gases) if i != self.vapor)
-        self.pair = _pair(carrier.name, mixture.liquids[0].name)
+        self.mixture = mixture
+        self.solvent = mixture.liquids[0].name
+        self.vapor = mixture.index("gases", self.solvent)
+        self.carrier = carrier_of(names, self.solvent)
+        if self.carrier is None and not alone:
+            raise ApplicabilityError(
+                _('The mixture needs a gas that carries the vapor of {liquid}: gases = ["dry air", "{liquid}"].').format(
+                    liquid=self.solvent
+                )
+            )
+        self.pair = _pair(self.carrier or AIR, self.solvent)  # alone it saturates as in any gas
+        self.molar_masses = np.array([g.molar_mass for g in mixture.gases])
+
+    @property
+    def fluid(self) -> Fluid:
+        """The substance that evaporates."""
+        return fluid(self.solvent)
+
+    @property
+    def lewis_factor(self) -> Any:
+        """Heat over mass transfer, h/(k_Y c): one for water in air."""
+        factor = self.pair.lewis_factor()
+        return 1.0 if factor is None else factor
+
+    def diffusivity(self, T: Any, P: Any) -> Any:
+        """Of the vapor in the carrier, m²/s."""
+        return gas_vapor(self.solvent, self.carrier or AIR).diffusivity(T, P)
+
+    def saturation_pressure(self, T: Any) -> Any:
+        """Over liquid, Pa."""
+        return self.pair.saturated_fraction(T, 1.0, False)
+
+    def boiling_temperature(self, P: Any) -> Any:
+        """Of the liquid, K."""
+        return self.pair.boiling_temperature(P)
+
+    @property
+    def freezing_temperature(self) -> float:
+        """Of the liquid, K; for solvents where the vapor pressure of the liquid begins."""
+        return ZERO_CELSIUS if self.solvent == "water" else float(self.pair.freezing_temperature)
+
+    def heat_of_vaporization(self, T: Any) -> Any:
+        """Of the real fluid, J/kg; the difference of the enthalpies of the streams lies within their approximation of it."""
+        return self.fluid.heat_of_vaporization.value(T)
+
+    def dry_flow(self, stream: Stream) -> Any:
+        """Gas less its vapor, kg/s."""
+        return stream.gas_flow - stream.gas[self.vapor]
 
     def _dry_moles(self, stream: Stream) -> Any:
         moles = stream.gas / self.molar_masses
         return jnp.sum(moles) - moles[self.vapor]
 
+    def fraction(self, stream: Stream) -> Any:
+        """Mole fraction of the vapor in the gas; zero where there is no gas."""
+        moles = stream.gas[self.vapor] / self.molar_masses[self.vapor]
+        total = self._dry_moles(stream) + moles
+        return moles / jnp.where(total > 0, total, 1.0)
+
     def saturated_vapor(self, stream: Stream, T: Any) -> Any:
-        """Vapor that the dry gas of a stream holds at saturation over liquid, kg/s; very much above the boiling point."""
-        y = jnp.minimum(self.pair.saturated_fraction(T, jnp.asarray(stream.pressure, dtype=float), False), 1.0 - 1e-9)
-        return self._dry_moles(stream) * y / (1.0 - y) * self.molar_masses[self.vapor]
+        """Vapor that the dry gas of a stream holds at saturation over liquid, kg/s; more than there is from the boiling point on."""
+        y = self.pair.saturated_fraction(T, jnp.asarray(stream.pressure, dtype=float), False)
+        below = jnp.minimum(y, 1.0 - 1e-9)
+        return jnp.where(y < 1.0, self._dry_moles(stream) * below / (1.0 - below) * self.molar_masses[self.vapor], 1e9 * stream.mass_flow)
 
     def humidity_ratio(self, stream: Stream) -> Any:
-        """Vapor per dry gas, by mass."""
-        dry = stream.gas_flow - stream.gas[self.vapor]
+        """Vapor per dry gas, by mass; of a vapor without gas its mass flow."""
+        dry = self.dry_flow(stream)
         return stream.gas[self.vapor] / jnp.where(dry > 0, dry, 1.0)
 
     def relative_humidity(self, stream: Stream) -> Any:
         """Partial pressure of the vapor over its saturation pressure."""
-        moles = stream.gas[self.vapor] / self.molar_masses[self.vapor]
-        total = self._dry_moles(stream) + moles
-        y = moles / jnp.where(total > 0, total, 1.0)
-        return y / self.pair.saturated_fraction(jnp.asarray(stream.temperature), jnp.asarray(stream.pressure, dtype=float), False)
+        return self.fraction(stream) / self.pair.saturated_fraction(
+            jnp.asarray(stream.temperature), jnp.asarray(stream.pressure, dtype=float), False
+        )
 
     def moved(self, stream: Stream, evaporated: Any) -> Stream:
         """The same temperature with some more of the liquid as vapor, kg/s; negative condenses."""
@@ -75,6 +140,14 @@ class HumidMixture:
         root = find_root(
             lambda T: (self.at_temperature(stream, T).enthalpy_flow - enthalpy) / scale, COLDEST, HOTTEST, start=stream.temperature
         )
-        return self.at_temperature(
-            stream, jnp.where(stream.mass_flow > 0, jnp.where(root.converged, root.value, jnp.nan), stream.temperature)
-        )
+        known = stream.mass_flow > 0
+        found = self.at_temperature(stream, jnp.where(known, jnp.where(root.converged, root.value, jnp.nan), stream.temperature))
+        # a vapor without gas boils at one temperature, at which its enthalpy says how much of it is liquid
+        T = jnp.asarray(self.boiling_temperature(stream.pressure), dtype=float)
+        total = stream.gas[self.vapor] + stream.liquid[0]
+        liquid = self.moved(stream, -stream.gas[self.vapor]).replace(temperature=T)
+        latent = self.moved(liquid, total).enthalpy_flow - liquid.enthalpy_flow
+        share = (enthalpy - liquid.enthalpy_flow) / jnp.where(total > 0, latent, 1.0)
+        boils = (self.dry_flow(stream) <= NEARLY_PURE * total) & (share > 0.0) & (share < 1.0)
+        both = self.moved(liquid, jnp.clip(share, 0.0, 1.0) * total)
+        return jax.tree.map(lambda a, b: jnp.where(boils, a, b), both, found)

@@ -24,11 +24,10 @@ from granum.materials.correlation import Correlation
 from granum.materials.fluids import Fluid
 from granum.materials.library import fluid, load, names, solid, solute
 from granum.materials.solutes import SoluteSystem
-from granum.streams.mixture import Mixture, Species
+from granum.streams.mixture import AIR, Mixture, Species, carrier_of
 
 COLDEST, HOTTEST = 263.15, 423.15  # K, over which condensed-phase properties are taken as polynomials
 HOTTEST_GAS = 873.15
-AIR = "dry air"
 CONDENSED = (COLDEST, HOTTEST)
 
 
@@ -42,13 +41,14 @@ def mixture_of(
     ----------
     liquids: solvent first, then dissolved solutes or further liquids.
     solids: crystals and other solids.
-    gases: carrier gas first, then vapors.
+    gases: carrier gases and vapors, in any order; viscosity and conductivity are those of the carrier.
     size_edges: class boundaries, m.
     axes: further axes of the solid.
     own: TOML files with the user's own materials.
     """
     for path in own:
         load(path)
+    carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
     systems = {name: system for name in liquids[1:] if (system := _system(name, liquids[0])) is not None}
     return Mixture(
         solids=tuple(_crystal(name, systems) or _inert(name) for name in solids),
@@ -57,8 +57,8 @@ def mixture_of(
         size_edges=tuple(float(e) for e in np.asarray(list(size_edges))),
         axes=axes,
         liquid_viscosity=SolutionViscosity(tuple(liquids), tuple(systems)) if liquids else None,
-        gas_viscosity=CarrierProperty(gases[0], "vapor_viscosity") if gases else None,
-        gas_conductivity=CarrierProperty(gases[0], "vapor_conductivity") if gases else None,
+        gas_viscosity=CarrierProperty(carrier, "vapor_viscosity") if carrier else None,
+        gas_conductivity=CarrierProperty(carrier, "vapor_conductivity") if carrier else None,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -49,6 +49,15 @@ class Species:
             total = (total + self.heat_capacity[power - 1] / power) * theta
             slope = slope * theta + self.heat_capacity[power - 1]
         return self.reference_enthalpy + total + slope * (temperature - inside)
+
+
+AIR = "dry air"
+
+
+def carrier_of(gases: Iterable[str], vapor: str | None) -> str | None:
+    """The gas that carries a vapor: dry air where it is among them, else the first by name, so that their order says nothing."""
+    others = sorted(name for name in gases if name != vapor)
+    return AIR if AIR in others else next(iter(others), None)
 
 
 @dataclass(frozen=True, eq=False)

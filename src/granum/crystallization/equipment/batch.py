@@ -33,7 +33,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.heat import StreamHeat
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, given_off, refuse_boiling, roles, with_crystals
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
@@ -41,7 +41,7 @@ from granum.crystallization.population.packets import Seeds
 from granum.crystallization.vessels.batch import narrow_seeds
 from granum.crystallization.vessels.driven import wall_undercooling
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream, empty
+from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 STEPS = 300
@@ -335,7 +335,7 @@ class VacuumBatchCrystallizer(_Cycled):
         released = -jnp.diff(course.solvent)
         middle = 0.5 * (course.temperature[1:] + course.temperature[:-1])
         T = jnp.where(gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature)
-        vapor = empty(feed.mixture, 298.15).replace(gas=feed.gas.at[found.vapor].add(gone), temperature=T, pressure=feed.pressure)
+        vapor = given_off(feed, found, gone, T)
         refuse_boiling(product.liquid[found.solvent], vapor.gas[found.vapor], feed, type(self).card)
         product = product.replace(gas=0.0 * feed.gas)
         return VacuumBatchOutlets(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, roles, with_crystals
+from granum.crystallization.equipment.roles import Roles, crystal_of, feed_of, given_off, roles, with_crystals
 from granum.crystallization.population.lagrangian import Model, react
 from granum.crystallization.population.operations import Contents
 from granum.crystallization.vessels.crystals import Crystal
@@ -17,7 +17,7 @@ from granum.crystallization.vessels.dynamic import ConstantProgram, Exchanged, S
 from granum.crystallization.vessels.moving import Moving
 from granum.crystallization.vessels.msmpr import SteadyState, packets_of
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream, empty
+from granum.streams.stream import Stream
 from granum.streams.units import Dynamic
 
 SOWN, SOWN_SIZE = 1.0, 100e-6  # kg/m³ and m: seeds at a start-up, without which secondary nucleation would never begin
@@ -194,6 +194,4 @@ class InTime(Dynamic):
         product = now.replace(
             solid=solid * state.turnover, liquid=(state.liquid - bound) * state.turnover, gas=0.0 * now.gas, temperature=T
         )
-        gas = now.gas if found.vapor is None else now.gas.at[found.vapor].add(state.evaporation)
-        vapor = empty(now.mixture, T).replace(gas=gas, pressure=now.pressure)
-        return Crystallized(product, vapor, jnp.zeros(()))
+        return Crystallized(product, given_off(now, found, state.evaporation, T), jnp.zeros(()))

@@ -30,10 +30,10 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized, InTime
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, refuse_boiling, roles, with_crystals
+from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, given_off, refuse_boiling, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream, empty
+from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 _UNSOLVED = "No supersaturation was found at which the crystals made are those that the solute balance leaves: check feed, kinetics and evaporation."
@@ -106,10 +106,9 @@ class _Continuous(Unit):
             solid=with_crystals(feed, found, state.crystals), liquid=liquid, gas=0.0 * feed.gas,
             temperature=jnp.asarray(self.temperature, dtype=float),
         )  # fmt: skip
-        gas = feed.gas if found.vapor is None else feed.gas.at[found.vapor].add(state.evaporation)
+        vapor = given_off(feed, found, state.evaporation, self.temperature)
         if found.vapor is not None:
-            refuse_boiling(state.solvent, gas[found.vapor], feed, type(self).card)
-        vapor = empty(feed.mixture, self.temperature).replace(gas=gas, pressure=feed.pressure)
+            refuse_boiling(state.solvent, vapor.gas[found.vapor], feed, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream) -> CrystallizerFigures:

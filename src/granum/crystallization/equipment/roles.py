@@ -11,8 +11,10 @@ from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.msmpr import Feed
+from granum.materials.library import names
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, empty
 
 BOILED_DRY = "More solvent would evaporate than there is: give less heat, less evaporation, a cooler feed or more solvent."
 TOO_COLD = "The feed is too cold to boil at the temperature of the vessel: give a warmer feed, a lower temperature or more heat."
@@ -53,6 +55,18 @@ def refuse_boiling(solvent: Any, vapor: Any, feed: Stream, card: Any) -> None:
     least = -1e-12 * feed.mass_flow
     unsolved(solvent >= least, card, reason=BOILED_DRY)
     unsolved(vapor >= least, card, reason=TOO_COLD)
+
+
+def given_off(feed: Stream, found: Roles, evaporation: Any, temperature: Any) -> Stream:
+    """What evaporates, with gas that came in the feed, at the pressure at which the solvent boils there, though no more than that of the feed."""
+    T, gas, pressure = jnp.asarray(temperature, dtype=float), feed.gas, jnp.asarray(feed.pressure, dtype=float)
+    if found.vapor is not None:
+        gas = gas.at[found.vapor].add(evaporation)
+        solvent = feed.mixture.liquids[0].name
+        if found.solvent == 0 and solvent == feed.mixture.gases[found.vapor].name and solvent in names("fluid"):
+            boiling = HumidMixture(feed.mixture, alone=True).saturation_pressure(T)
+            pressure = jnp.where(evaporation > 0.0, jnp.minimum(boiling, pressure), pressure)
+    return empty(feed.mixture, T).replace(gas=gas, pressure=pressure)
 
 
 def crystal_of(mixture: Mixture, found: Roles, temperature: Any, volume_shape_factor: Any) -> Crystal:

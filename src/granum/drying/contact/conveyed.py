@@ -77,7 +77,7 @@ def convey(
     Without dispersion of the gas every cell depends on the one before alone, and they are solved one after the other.
     """
     n, m = path.steps.shape[0], path.dry_size.shape[0]
-    dry = gas.gas_flow - gas.gas[matter.vapor]
+    dry = matter.humid.dry_flow(gas)
     shape = (m,)
     viscosity_of, conductivity_of = gas.mixture.gas_viscosity, gas.mixture.gas_conductivity
     assert viscosity_of is not None

@@ -25,6 +25,8 @@ from granum.drying.contact.kinetics import AbstractKinetics, Meeting
 from granum.drying.contact.liquor import composition, counted, moistened
 from granum.drying.contact.matter import Matter, temperature_at
 from granum.numerics import safe_divide
+from granum.streams.atmosphere import FLAMMABLE, flammable
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit
 
@@ -97,7 +99,7 @@ class Dryer(Unit):
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
         "over": Limit("moisture of the product above equilibrium with the inlet gas", -1e-9, math.inf, "kg/kg", "keey1978"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
-    }
+    } | FLAMMABLE
 
     @abstractmethod
     def through(self, *inlets: Any) -> Through:
@@ -121,8 +123,7 @@ class Dryer(Unit):
 
     def figures(self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any) -> DryerFigures:
         feed, exhaust = counted(feed), outlets.exhaust
-        found, matter = inside.profile, Matter.of(feed, gas)
-        humidity = safe_divide(exhaust.gas[matter.vapor], jnp.sum(exhaust.gas) - exhaust.gas[matter.vapor])
+        found, humid = inside.profile, HumidMixture(feed.mixture)
         some = found.shares > 1e-9
         evaporated = feed.liquid[0] - outlets.product.liquid[0]
         return DryerFigures(
@@ -132,8 +133,8 @@ class Dryer(Unit):
             temperature_product=outlets.product.temperature,
             temperature_product_highest=jnp.max(jnp.where(some, found.temperature, 0.0)),
             temperature_exhaust=exhaust.temperature,
-            humidity_ratio=humidity,
-            relative_humidity=matter.relative_humidity(exhaust.temperature, humidity),
+            humidity_ratio=humid.humidity_ratio(exhaust),
+            relative_humidity=humid.relative_humidity(exhaust),
             solid_holdup=inside.holdup,
             residence_time=safe_divide(inside.holdup, feed.solid_flow),
             heat_duty=outlets.heat_duty,
@@ -143,7 +144,7 @@ class Dryer(Unit):
         found = {
             "humid": figures.relative_humidity,
             "over": outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
-        }
+        } | flammable(outlets.exhaust)
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product_highest - self.temperature_limit
         return found
@@ -172,7 +173,7 @@ class ContactDryer(Dryer):
     def inlet(self, feed: Stream, gas: Stream) -> Inlet:
         """What enters the core: every class of the solid brings the same moisture."""
         X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
-        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _steady(self, feed, gas)
@@ -184,12 +185,6 @@ class ContactDryer(Dryer):
             found = self.profile(feed, gas)
             start = core.state(found.moisture, found.temperature, found.humidity, found.gas_temperature)
         return core.dynamic(start, inlets, step)
-
-
-def humidity_of(gas: Stream) -> Any:
-    """Vapor over dry gas."""
-    vapor = gas.gas[gas.mixture.index("gases", "water")]
-    return vapor / (jnp.sum(gas.gas) - vapor)
 
 
 @ready
@@ -212,7 +207,7 @@ def dried(feed: Stream, gas: Stream, found: Profile) -> Dried:
 
 def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:
     """The same for a feed already ``counted``."""
-    vapor = feed.mixture.index("gases", "water")
+    vapor = HumidMixture(feed.mixture).vapor
     dry = gas.gas.at[vapor].set(0.0)
     stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
     product = moistened(feed, jnp.sum(found.water), dissolved).replace(gas=0.0 * feed.gas, pressure=gas.pressure)
@@ -237,7 +232,7 @@ def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
     """Moisture of the product in equilibrium with the gas that enters."""
     feed = counted(feed)
     matter = Matter.of(feed, gas)
-    Y = humidity_of(gas)
+    Y = matter.humid.humidity_ratio(gas)
     X = jnp.full((1,), 1.0) * feed.moisture_dry_basis
     at = Meeting(X, gas.temperature + 0.0 * X, gas.temperature + 0.0 * X, Y + 0.0 * X, 1.0 + 0.0 * X, matter)
     return kinetics.equilibrium(at)[0]

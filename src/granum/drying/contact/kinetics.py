@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import Diffusivity, Law, Length, MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Temperature
-from granum.drying.contact.matter import NEAR_BOILING, Matter, vapor_pressure
+from granum.drying.contact.matter import NEAR_BOILING, Matter
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.drying.isotherms.base import AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
@@ -20,7 +20,7 @@ from granum.numerics import find_root
 
 Isotherm = Annotated[Any, Law("isotherm")]
 Curve = Annotated[Any, Law("characteristic_rate")]
-COLDEST = 230.0  # K, of a wet bulb
+COLDEST = 200.0  # K, of a wet bulb
 LEAST = 1e-9
 REA_FOOT = 1e-3  # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
 DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
@@ -40,12 +40,12 @@ class Meeting(NamedTuple):
 
     @property
     def conductance(self) -> Any:
-        """Mass transfer on the logarithmic driving force, kg/(s kg): Chilton and Colburn with a Lewis factor of one, as for air and water."""
-        return self.exchange / self.matter.gas_heat_capacity(self.gas_temperature, self.humidity)
+        """Mass transfer on the logarithmic driving force, kg/(s kg), by the Lewis factor of the pair: one for air and water."""
+        return self.exchange / (self.matter.humid.lewis_factor * self.matter.gas_heat_capacity(self.gas_temperature, self.humidity))
 
     def film_rate(self, activity: Any = 1.0) -> Any:
         """Rate of a surface of given water activity at the temperature of the solid."""
-        pressure = activity * vapor_pressure(self.temperature)
+        pressure = activity * self.matter.saturation_pressure(self.temperature)
         return self.conductance * self.matter.driving_force(pressure, self.humidity)
 
     @property
@@ -66,13 +66,13 @@ class Meeting(NamedTuple):
             return self.known_wet_bulb
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
-        q = jnp.minimum(vapor_pressure(T) / m.pressure, NEAR_BOILING)  # gas beyond saturation is its own wet bulb
+        q = jnp.minimum(m.saturation_pressure(T) / m.pressure, NEAR_BOILING)  # gas beyond saturation is its own wet bulb
         Y = jnp.where(q < NEAR_BOILING, jnp.minimum(Y, m.molar_mass_ratio * q / (1.0 - q) * (1.0 - LEAST)), Y)
 
         def balance(Ts: Any, T: Any, Y: Any) -> Any:
-            pressure = vapor_pressure(Ts)
+            pressure = m.saturation_pressure(Ts)
             heat = _stefan(m.vapor_heat_capacity(Ts), m.heat_of_vaporization(Ts), T - Ts)
-            return heat - m.driving_force(pressure, Y) / m.gas_heat_capacity(T, Y)
+            return heat - m.driving_force(pressure, Y) / (m.humid.lewis_factor * m.gas_heat_capacity(T, Y))
 
         return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0).value
 

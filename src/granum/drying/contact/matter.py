@@ -9,12 +9,12 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
-from granum.core.constants import ZERO_CELSIUS
+from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.drying.contact.liquor import crystals
-from granum.materials.formulas.water import water_vapor_pressure
 from granum.numerics import safe_divide
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
@@ -24,29 +24,37 @@ NEAR_BOILING = 0.98  # of the pressure, from which on the driving force goes on 
 
 
 class Matter(eqx.Module):
-    """Dry solid by class, water, dry gas and vapor. Moisture X and humidity Y are per dry mass; enthalpies too, J/kg."""
+    """Dry solid by class, its liquid, dry gas and vapor. Moisture X and humidity Y are per dry mass; enthalpies too, J/kg."""
 
     mixture: Mixture = eqx.field(static=True)
-    vapor: int = eqx.field(static=True)
     solid_shares: Any  # species × classes, each class adding up to 1
     gas_shares: Any  # of the dry gas; the vapor's share is zero
     pressure: Any
-    dissolved: Any = ()  # per kg of water, one for each further liquid: what leaves the water as crystal when that evaporates
+    dissolved: Any = ()  # per kg of the liquid, one for each further liquid: what leaves it as crystal when that evaporates
 
     @classmethod
     def of(cls, feed: Stream, gas: Stream) -> Matter:
-        """The matter of two inlets, the feed ``counted`` as dry matter and water; the mixture must have water as its first liquid and among
-        its gases."""
+        """The matter of two inlets, the feed ``counted`` as dry matter and the liquid that evaporates."""
         m = feed.mixture
-        if not m.liquids or m.liquids[0].name != "water" or "water" not in [g.name for g in m.gases] or not m.solids:
-            raise InputError(_("A dryer needs a mixture with solids, water as its first liquid, and a gas with water vapor."))
-        vapor = m.index("gases", "water")
+        if not m.solids:
+            raise InputError(_("A dryer needs a mixture with solids."))
+        vapor = HumidMixture(m).vapor
         by_class = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         overall = safe_divide(jnp.sum(by_class, axis=1), jnp.sum(by_class), 1.0 / len(m.solids))
         total = jnp.sum(by_class, axis=0)
         shares = jnp.where(total > 0, by_class / jnp.where(total > 0, total, 1.0), overall[:, None])
         dry = gas.gas.at[vapor].set(0.0)
-        return cls(m, vapor, shares, dry / jnp.sum(dry), gas.pressure)
+        return cls(m, shares, dry / jnp.sum(dry), gas.pressure)
+
+    @property
+    def humid(self) -> HumidMixture:
+        """Which gas is the vapor, and what it is."""
+        return HumidMixture(self.mixture)
+
+    @property
+    def vapor(self) -> int:
+        """Its place among the gases."""
+        return self.humid.vapor
 
     def blended(self, feed: Stream) -> Matter:
         """The same with one class of solid, the mean of them all."""
@@ -59,7 +67,7 @@ class Matter(eqx.Module):
         return jnp.einsum("s...m,sm->...m", self.mixture.enthalpies("solids", T), self.solid_shares)
 
     def liquid_enthalpy(self, T: Any) -> Any:
-        """Water, with what it costs to keep in solution what is dissolved in it."""
+        """The liquid, with what it costs to keep in solution what is dissolved in it."""
         found = self.mixture.liquids[0].enthalpy(T)
         for i, row in enumerate(crystals(self.mixture) if len(self.dissolved) else ()):
             found += self.dissolved[i] * (self.mixture.liquids[i + 1].enthalpy(T) - self.mixture.solids[row].enthalpy(T))
@@ -98,7 +106,7 @@ class Matter(eqx.Module):
         return slope(self.vapor_enthalpy, T)[1]
 
     def heat_of_vaporization(self, T: Any) -> Any:
-        """Vapor less water at one temperature."""
+        """Vapor less liquid at one temperature, as the streams count them."""
         return self.vapor_enthalpy(T) - self.liquid_enthalpy(T)
 
     @property
@@ -109,7 +117,11 @@ class Matter(eqx.Module):
 
     def relative_humidity(self, T: Any, Y: Any) -> Any:
         """Partial pressure of the vapor over its saturation pressure."""
-        return Y / (self.molar_mass_ratio + Y) * self.pressure / vapor_pressure(T)
+        return Y / (self.molar_mass_ratio + Y) * self.pressure / self.saturation_pressure(T)
+
+    def saturation_pressure(self, T: Any) -> Any:
+        """Of the liquid; held at the ends of a range which only a search on its way to the solution leaves."""
+        return self.humid.saturation_pressure(jnp.clip(T, *LIQUID))
 
     def driving_force(self, partial_pressure: Any, Y: Any) -> Any:
         """ln[(1 + Y_s)/(1 + Y)]: Stefan flow in a film whose surface has this partial pressure of vapor."""
@@ -127,12 +139,7 @@ class Matter(eqx.Module):
     def gas_density(self, T: Any, Y: Any) -> Any:
         """Dry gas per volume of moist gas, kg/m³."""
         mean = self.mixture.gases[self.vapor].molar_mass / self.molar_mass_ratio
-        return self.pressure * mean / (8.314462618 * T * (1.0 + Y / self.molar_mass_ratio))
-
-
-def vapor_pressure(T: Any) -> Any:
-    """Of water; held at the ends of its range, which only a search on its way to the solution leaves."""
-    return water_vapor_pressure.function(jnp.clip(T, *LIQUID))
+        return self.pressure * mean / (GAS_CONSTANT * T * (1.0 + Y / self.molar_mass_ratio))
 
 
 def slope(function: Callable[[Any], Any], T: Any) -> tuple[Any, Any]:

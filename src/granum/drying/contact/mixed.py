@@ -23,7 +23,7 @@ from jax import lax
 
 from granum.drying.contact.cells import Profile
 from granum.drying.contact.kinetics import LEAST, AbstractKinetics, Meeting
-from granum.drying.contact.matter import Matter, slope, temperature_at, vapor_pressure
+from granum.drying.contact.matter import Matter, slope, temperature_at
 from granum.numerics import crossing_pair
 from granum.numerics.quick_roots import falling_root
 
@@ -215,7 +215,7 @@ class Bed(eqx.Module):
         Y, T = x
         for _step in range(DEW_STEPS):
             beyond = jnp.log(jnp.maximum(self.matter.relative_humidity(T, Y), LEAST))
-            fall = slope(lambda T: -jnp.log(vapor_pressure(T)), T)[1]
+            fall = slope(lambda T: -jnp.log(self.matter.saturation_pressure(T)), T)[1]
             T = T + jnp.maximum(beyond, 0.0) / jnp.maximum(-fall, 1e-3)
         return jnp.stack([Y, T])
 

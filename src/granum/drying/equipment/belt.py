@@ -10,12 +10,12 @@ from granum.core import equipment
 from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature, Within
 from granum.core.limits import Limit
 from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, Through, humidity_of, sized
+from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, Through, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed
 from granum.streams.cakes import solid_diameter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -68,10 +68,10 @@ class BeltDryer(LayerDryer):
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
         gas = gases[0]
         mass, n = self.holdup(), self.zone_count
-        vapor = Matter.of(feed, gas).vapor
-        per_solid = (gas.gas_flow - gas.gas[vapor]) / mass
+        humid = HumidMixture(gas.mixture)
+        per_solid = humid.dry_flow(gas) / mass
         time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n
-        return [Zone(time, per_solid, self.alternating and i % 2 == 1, humidity_of(gas), gas.temperature) for i in range(n)]
+        return [Zone(time, per_solid, self.alternating and i % 2 == 1, humid.humidity_ratio(gas), gas.temperature) for i in range(n)]
 
     @classmethod
     def size(cls, moisture_outlet: Any, feed: Stream, gas_velocity: Any, gas: Stream, layer_depth: Any, bulk_density_dry: Any,

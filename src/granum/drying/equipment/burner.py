@@ -11,11 +11,11 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, MassRatio, Power, Temperature
 from granum.core.limits import Limit
-from granum.drying.wet_surface import humidity
 from granum.materials.fluids import Combustion
 from granum.materials.library import fluid
 from granum.numerics import safe_divide
-from granum.streams.mixture import Mixture
+from granum.streams.equilibrium import HumidMixture
+from granum.streams.mixture import AIR, Mixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -56,11 +56,12 @@ class Burner(Unit):
 
     def outlets(self, inside: None, gas: Stream, fuel: Stream) -> Fired:
         both = gas + fuel
-        fuels = _fuels(gas.mixture)
+        fuels, m = _fuels(gas.mixture), gas.mixture
+        air, vapor = m.index("gases", AIR), m.index("gases", "water")
         burnt = both.gas
         for i, burns in fuels.items():
             water = burnt[i] * burns.water
-            burnt = burnt.at[0].add(burnt[i] - water).at[gas.mixture.index("gases", "water")].add(water).at[i].set(0.0)
+            burnt = burnt.at[air].add(burnt[i] - water).at[vapor].add(water).at[i].set(0.0)
         loss = self.heat_loss_share * self._heat(both)
         enthalpy = gas.enthalpy_flow + fuel.enthalpy_flow - loss
         return Fired(both.replace(gas=burnt, pressure=gas.pressure).at_enthalpy(enthalpy), -loss)
@@ -76,8 +77,8 @@ class Burner(Unit):
         needed = sum((flows[i] * burns.air for i, burns in fuels.items()), jnp.zeros(()))
         return BurnerFigures(
             temperature=outlets.product.temperature,
-            humidity_ratio=humidity(outlets.product),
-            excess_air_ratio=safe_divide(flows[0], needed, jnp.inf),
+            humidity_ratio=HumidMixture(gas.mixture).humidity_ratio(outlets.product),
+            excess_air_ratio=safe_divide(flows[gas.mixture.index("gases", AIR)], needed, jnp.inf),
             fuel_flow=sum((flows[i] for i in fuels), jnp.zeros(())),
             heat_duty_heater=self._heat(gas.replace(gas=flows)),
         )
@@ -87,8 +88,8 @@ class Burner(Unit):
 
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:
-    """Places of the fuels among the gases, and how they burn; dry air is the first gas."""
+    """Places of the fuels among the gases, and how they burn."""
     found = {i: burns for i, gas in enumerate(mixture.gases) if (burns := fluid(gas.name).combustion) is not None}
-    if not found or mixture.gases[0].name != "dry air" or "water" not in [gas.name for gas in mixture.gases]:
-        raise InputError(_("A burner needs a mixture with the gases dry air (the first), water and a fuel, such as methane."))
+    if not found or not {AIR, "water"} <= {gas.name for gas in mixture.gases}:
+        raise InputError(_("A burner needs a mixture with the gases dry air, water and a fuel, such as methane."))
     return found

@@ -1,4 +1,4 @@
-"""A dryer in a closed circuit, by balance: air dried by a heat pump, or superheated steam whose excess may be compressed to heat it."""
+"""A dryer in a closed circuit, by balance: gas dried on a cold coil, with a heat pump or without, or superheated vapor whose excess may be compressed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import equipment, law
+from granum.core.errors import ApplicabilityError
 from granum.core.flags import unsolved
+from granum.core.i18n import _
 from granum.core.kinds import (
     Fraction,
     Law,
@@ -27,13 +29,12 @@ from granum.core.kinds import (
     TemperatureDifference,
 )  # fmt: skip
 from granum.core.limits import Limit
-from granum.drying.balances.convective import COLDEST, PAIR
 from granum.drying.balances.savings import vapor_recompression
-from granum.drying.wet_surface import boiled, require_water
+from granum.drying.wet_surface import boiled
 from granum.humid_gas.relations import saturated_fraction
 from granum.materials.formulas.steam import steam_enthalpy
-from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import find_root, safe_divide
+from granum.streams.equilibrium import COLDEST, HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -70,6 +71,7 @@ class Circuit(NamedTuple):
     temperature_outlet: Any
     margins: tuple[tuple[str, Any], ...]  # what must not be negative, K or kg/kg
     converged: Any = True
+    cooling: Any = 0.0  # that somebody else takes from the coil
 
 
 class AbstractCircuit(eqx.Module):
@@ -80,12 +82,74 @@ class AbstractCircuit(eqx.Module):
         """The circuit for a duty."""
 
 
-@law("drying_circuit", name="circuit_heat_pump", source="mujumdar2014; keey1978", title="Closed circuit of air with a heat pump",
-     equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\quad P = \frac{\dot Q_e}{\mathrm{COP} - 1}")  # fmt: skip
-class HeatPumpCircuit(AbstractCircuit):
-    """Air leaves the dryer with a relative humidity, sheds its water on the evaporator (part of it passes by) and is heated on the condenser.
+class Coiled(NamedTuple):
+    """Gas around a dryer and over a cold coil: its streams, heat taken by the coil and given to heat the gas again, flow of dry gas."""
 
-    Evaporation and condensation lie a temperature approach beyond coil and hot air. Surplus heat of the condenser is rejected: a negative heat duty.
+    product: Stream
+    stray: Stream
+    condensate: Stream
+    taken: Any
+    given: Any
+    dry_gas: Any
+    temperature_outlet: Any
+    margin: Any
+    converged: Any
+
+
+class AbstractCoilCircuit(AbstractCircuit):
+    """Gas that leaves the dryer with a relative humidity and sheds its vapor on a cold coil, which part of it passes by."""
+
+    relative_humidity_outlet: eqx.AbstractVar[Any]
+    coil_temperature: eqx.AbstractVar[Any]
+    coil_bypass_fraction: eqx.AbstractVar[Any]
+
+    def around(self, duty: Duty) -> Coiled:
+        """Once through dryer, coil and heater."""
+        P, m, bypass = duty.feed.pressure, duty.feed.mixture, self.coil_bypass_fraction
+        humid = HumidMixture(m)
+        carrier = m.index("gases", str(humid.carrier))
+
+        def h(T: Any, w: Any) -> Any:
+            each = m.enthalpies("gases", T)
+            return each[carrier] + w * each[humid.vapor]
+
+        def saturated(T: Any, relative: Any = 1.0) -> Any:
+            return humid.pair.humidity_ratio(relative * saturated_fraction(humid.pair, T, P))
+
+        coil = saturated(self.coil_temperature)
+
+        def humidities(T: Any) -> tuple[Any, Any]:
+            w2 = saturated(T, self.relative_humidity_outlet)
+            return bypass * w2 + (1.0 - bypass) * coil, w2
+
+        def surplus(T: Any) -> Any:
+            """Heat of the gas less what vapor, product and losses take, for each kilogram of dry gas and of liquid."""
+            w1, w2 = humidities(T)
+            _product, _vapor, need = duty.parted(T, T)
+            carried = duty.water * m.enthalpies("gases", T)[humid.vapor]  # the vapor is in the gas here, and in ``need`` too
+            return h(duty.temperature_inlet, w1) - h(T, w2) - (w2 - w1) * (need - carried) / jnp.maximum(duty.water, 1e-300)
+
+        top = jnp.minimum(duty.temperature_inlet, humid.boiling_temperature(P) * (1.0 - 1e-9))
+        outlet = find_root(surplus, jnp.maximum(self.coil_temperature, COLDEST), top, tolerance=1e-14)
+        T2 = outlet.value
+        w1, w2 = humidities(T2)
+        product, vapor, _need = duty.parted(T2, T2)
+        flow = duty.water / (w2 - w1)
+        liquid = jnp.zeros_like(duty.feed.liquid).at[0].set(duty.water)
+        condensate = duty.feed.part().replace(liquid=liquid, temperature=jnp.asarray(self.coil_temperature, dtype=float))
+        cold = bypass * h(T2, w2) + (1.0 - bypass) * h(self.coil_temperature, coil)
+        taken = flow * (h(T2, w2) - cold) - condensate.enthalpy_flow
+        given = flow * (h(duty.temperature_inlet, w1) - cold) - duty.fan_power
+        stray = vapor.replace(gas=duty.feed.gas)
+        return Coiled(product, stray, condensate, taken, given, flow, T2, w2 - coil, outlet.converged)
+
+
+@law("drying_circuit", name="circuit_heat_pump", source="mujumdar2014; keey1978", title="Closed circuit of gas with a heat pump",
+     equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\quad P = \frac{\dot Q_e}{\mathrm{COP} - 1}")  # fmt: skip
+class HeatPumpCircuit(AbstractCoilCircuit):
+    """Gas leaves the dryer with a relative humidity, sheds its vapor on the evaporator (part of it passes by) and is heated on the condenser.
+
+    Evaporation and condensation lie a temperature approach beyond coil and hot gas. Surplus heat of the condenser is rejected: a negative heat duty.
 
     By hand: evaporation at 280.15 K, condensation at 328.15 K, half of Carnot's 6.836.
 
@@ -105,45 +169,48 @@ class HeatPumpCircuit(AbstractCircuit):
         return self.carnot_efficiency * hot / (hot - cold)
 
     def run(self, duty: Duty) -> Circuit:
-        P, gases, bypass = duty.feed.pressure, duty.feed.mixture, self.coil_bypass_fraction
-
-        def h(T: Any, w: Any) -> Any:
-            each = gases.enthalpies("gases", T)
-            return each[0] + w * each[1]
-
-        coil = PAIR.humidity_ratio(saturated_fraction(PAIR, self.coil_temperature, P))
-
-        def humidities(T: Any) -> tuple[Any, Any]:
-            w2 = PAIR.humidity_ratio(self.relative_humidity_outlet * saturated_fraction(PAIR, T, P))
-            return bypass * w2 + (1.0 - bypass) * coil, w2
-
-        def surplus(T: Any) -> Any:
-            """Heat of the air less what vapor, product and losses take, for each kilogram of dry air and of water."""
-            w1, w2 = humidities(T)
-            _product, _vapor, need = duty.parted(T, T)
-            carried = duty.water * gases.enthalpies("gases", T)[1]  # the vapor is in the air here, and in ``need`` too
-            return h(duty.temperature_inlet, w1) - h(T, w2) - (w2 - w1) * (need - carried) / jnp.maximum(duty.water, 1e-300)
-
-        top = jnp.minimum(duty.temperature_inlet, PAIR.boiling_temperature(P) * (1.0 - 1e-9))
-        outlet = find_root(surplus, jnp.maximum(self.coil_temperature, COLDEST), top, tolerance=1e-14)
-        T2 = outlet.value
-        w1, w2 = humidities(T2)
-        product, vapor, _need = duty.parted(T2, T2)
-        air = duty.water / (w2 - w1)
-        liquid = jnp.zeros_like(duty.feed.liquid).at[0].set(duty.water)
-        condensate = duty.feed.part().replace(liquid=liquid, temperature=jnp.asarray(self.coil_temperature, dtype=float))
-        cold = bypass * h(T2, w2) + (1.0 - bypass) * h(self.coil_temperature, coil)
-        taken = air * (h(T2, w2) - cold) - condensate.enthalpy_flow
-        power = taken / (self(duty.temperature_inlet) - 1.0)
-        heater = air * (h(duty.temperature_inlet, w1) - cold) - duty.fan_power - taken - power
-        stray = vapor.replace(gas=duty.feed.gas)
-        return Circuit(product, stray, condensate, heater, power, air, T2, (("coil", w2 - coil),), outlet.converged)
+        c = self.around(duty)
+        power = c.taken / (self(duty.temperature_inlet) - 1.0)
+        heater = c.given - c.taken - power
+        margins = (("coil", c.margin),)
+        return Circuit(c.product, c.stray, c.condensate, heater, power, c.dry_gas, c.temperature_outlet, margins, c.converged)
 
 
-@law("drying_circuit", name="circuit_steam", source="mujumdar2014", title="Closed circuit of superheated steam",
+@law("drying_circuit", name="circuit_condenser", source="mujumdar2014; keey1978", title="Closed circuit of gas with a condenser",
+     equation=r"\dot Q_e = \dot m_g\,(h_2 - h_e) - \dot m_c h_c")  # fmt: skip
+class CondenserCircuit(AbstractCoilCircuit):
+    """Gas leaves the dryer with a relative humidity, sheds its vapor on a coil cooled from outside (part of it passes by) and is heated from outside.
+
+    The usual circuit of nitrogen that dries a product wet with solvent. Called, it gives the least work to cool the coil, per heat taken from it:
+    a Carnot machine that rejects the heat at a temperature.
+
+    By hand: 40 K between a coil at 263.15 K and 303.15 K outside.
+
+    >>> round(float(CondenserCircuit("80 %", "-10 degC")(303.15)), 3)
+    0.152
+    """
+
+    relative_humidity_outlet: RelativeHumidity
+    coil_temperature: Temperature
+    coil_bypass_fraction: Fraction = 0.1
+
+    def __call__(self, temperature: Temperature) -> Number:
+        """Work over heat."""
+        return jnp.maximum(temperature / self.coil_temperature - 1.0, 0.0)
+
+    def run(self, duty: Duty) -> Circuit:
+        c = self.around(duty)
+        margins = (("coil", c.margin),)
+        return Circuit(
+            c.product, c.stray, c.condensate, c.given, jnp.zeros(()), c.dry_gas, c.temperature_outlet, margins, c.converged, c.taken
+        )
+
+
+@law("drying_circuit", name="circuit_steam", source="mujumdar2014", title="Closed circuit of superheated vapor",
      equation=r"M = \frac{\dot Q}{h_v(T_1) - h_v(T_2)},\quad P = \dot m_e\,w(p, p_c)\,\frac{T_2}{T_b}")  # fmt: skip
 class SteamCircuit(AbstractCircuit):
-    """Superheated steam at the pressure of the feed; what evaporates leaves as steam, or is compressed and condenses to heat the circuit.
+    """Superheated steam (or vapor of another solvent) at the pressure of the feed; what evaporates leaves as steam, or is compressed and condenses to
+    heat the circuit.
 
     With ``pressure_condensing`` the excess steam is compressed to it (work of saturated steam times the ratio of temperatures) and gives its heat
     to the circulating steam; its condensate leaves boiling. The product leaves at the boiling temperature unless its temperature is given.
@@ -165,17 +232,29 @@ class SteamCircuit(AbstractCircuit):
         return vapor_recompression.function(pressure, self.pressure_condensing, self.compressor_efficiency).energy_per_water
 
     def run(self, duty: Duty) -> Circuit:
-        boiling, T2 = water_boiling_temperature.function(duty.feed.pressure), jnp.asarray(self.temperature_outlet, dtype=float)
+        humid = HumidMixture(duty.feed.mixture, alone=True)
+        boiling, T2 = humid.boiling_temperature(duty.feed.pressure), jnp.asarray(self.temperature_outlet, dtype=float)
         product, vapor, need = duty.parted(T2, boiling)
-        # how much circulates follows from real steam, whose heat capacity near boiling is above that of the streams' ideal gas
-        P = duty.feed.pressure
-        steam = need / (steam_enthalpy.function(jnp.asarray(duty.temperature_inlet, dtype=float), P) - steam_enthalpy.function(T2, P))
+        P, T1 = duty.feed.pressure, jnp.asarray(duty.temperature_inlet, dtype=float)
+        if humid.solvent == "water":  # real steam, whose heat capacity near boiling is above that of the streams' ideal gas
+            given = steam_enthalpy.function(T1, P) - steam_enthalpy.function(T2, P)
+        else:
+            vapor_of = duty.feed.mixture.gases[humid.vapor]
+            given = vapor_of.enthalpy(T1) - vapor_of.enthalpy(T2)
+        steam = need / given
         heater, nothing = need - duty.fan_power, duty.feed.part()
         margins: tuple[tuple[str, Any], ...] = (("dry", T2 - boiling),)
         if self.pressure_condensing is None:
             return Circuit(product, vapor, nothing, heater, 0.0 * need, steam, T2, margins)
+        if humid.solvent != "water":
+            raise ApplicabilityError(
+                _("Compressed vapor is known for water only, not for {liquid}: leave 'pressure_condensing' out.").format(
+                    liquid=humid.solvent
+                ),
+                name="pressure_condensing",
+            )
         power = duty.water * self(duty.feed.pressure) * T2 / boiling
-        condensing = water_boiling_temperature.function(self.pressure_condensing)
+        condensing = humid.boiling_temperature(self.pressure_condensing)
         liquid = jnp.zeros_like(duty.feed.liquid).at[0].set(duty.water)
         condensate = nothing.replace(liquid=liquid, temperature=condensing, pressure=jnp.asarray(self.pressure_condensing, dtype=float))
         stray = vapor.replace(gas=duty.feed.gas)
@@ -203,6 +282,7 @@ class ClosedFigures(NamedTuple):
     temperature_product: Temperature
     mass_flow_circulating: MassFlow
     heat_duty_heater: Power
+    heat_duty_condenser: Power
     shaft_power: Power
     energy_per_water: SpecificEnergy
     moisture_extraction_rate: SpecificMoistureExtraction
@@ -212,7 +292,8 @@ class ClosedFigures(NamedTuple):
 class ClosedDryer(Unit):
     """Dries a feed to a moisture in a gas that circulates: say what becomes of the gas (``drying_circuit``) and how hot it enters.
 
-    Energy counts heater, compressor and fan; heat given back by a surplus of the condenser is not credited.
+    Energy counts heater, compressor and fan; heat given back by a surplus of the condenser is not credited, and the machine that cools the coil of
+    a circuit with a condenser is not counted.
     """
 
     drying_circuit: Annotated[Any, Law("drying_circuit")]
@@ -232,7 +313,6 @@ class ClosedDryer(Unit):
     }
 
     def inside(self, feed: Stream) -> Circuit:
-        require_water(feed.mixture)
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
         found = self.drying_circuit.run(
             Duty(water, feed, self.temperature_inlet, self.moisture_outlet, self.temperature_product, self.heat_loss, self.fan_power)
@@ -242,7 +322,7 @@ class ClosedDryer(Unit):
 
     def outlets(self, inside: Circuit, feed: Stream) -> ClosedOutlets:
         c = inside
-        return ClosedOutlets(c.product, c.vapor, c.condensate, c.heater - self.heat_loss, c.power + self.fan_power)
+        return ClosedOutlets(c.product, c.vapor, c.condensate, c.heater - c.cooling - self.heat_loss, c.power + self.fan_power)
 
     def figures(self, inside: Circuit, outlets: ClosedOutlets, feed: Stream) -> ClosedFigures:
         c = inside
@@ -255,6 +335,7 @@ class ClosedDryer(Unit):
             temperature_product=c.product.temperature,
             mass_flow_circulating=c.circulating,
             heat_duty_heater=c.heater,
+            heat_duty_condenser=jnp.asarray(-c.cooling),
             shaft_power=outlets.shaft_power,
             energy_per_water=safe_divide(bought, water),
             moisture_extraction_rate=safe_divide(water, bought),

@@ -27,16 +27,14 @@ from granum.core.kinds import (
     Temperature,
 )  # fmt: skip
 from granum.core.limits import Limit
-from granum.drying.balances.convective import PAIR
-from granum.drying.balances.indices import latent_heat
 from granum.drying.equipment.well_mixed import evaporate
-from granum.drying.wet_surface import humidity, require_water
-from granum.humid_gas.relations import saturated_fraction
 from granum.numerics import find_root, safe_divide
+from granum.streams.atmosphere import FLAMMABLE, flammable
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-COLDEST, HOTTEST = 230.0, 1200.0  # K, bracket of the exhaust
+COLDEST, HOTTEST = 200.0, 1200.0  # K, bracket of the exhaust
 _UNSOLVED = "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the heater and the heat loss against the flow of gas, and what is asked of the outlet."
 
 
@@ -90,7 +88,7 @@ class ConvectiveDryer(Unit):
     far, by one of ``moisture_outlet`` of the product, ``temperature_outlet`` or ``relative_humidity_outlet`` of the exhaust. The recirculated fraction
     is of the exhaust. ``effectiveness`` is that of an exchanger from the exhaust, which may condense, to the fresh air. The product leaves
     at the temperature of the exhaust unless ``temperature_product`` is given.
-    Only water evaporates, as pure water; the heat of sorption is left out.
+    Only the first liquid evaporates, as if pure; the heat of sorption is left out.
     """
 
     temperature_inlet: Temperature | None = None
@@ -114,7 +112,7 @@ class ConvectiveDryer(Unit):
         "humidity": Limit("relative humidity of the exhaust against the specification", -1e-6, 1e-6, "dimensionless", "keey1978"),
         "equilibrium": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
-    }
+    } | FLAMMABLE
 
     def __check_init__(self) -> None:
         if self.temperature_inlet is not None and self.heat_duty is not None:
@@ -134,7 +132,7 @@ class ConvectiveDryer(Unit):
 
     def inside(self, feed: Stream, gas: Stream) -> Inside:
         """The whole dryer, solved for the temperature of its exhaust."""
-        require_water(feed.mixture, carried=True)
+        humid = HumidMixture(feed.mixture)
         water = feed.liquid[0]
         r = self.recirculated_fraction
         back = r / (1.0 - r)
@@ -178,8 +176,8 @@ class ConvectiveDryer(Unit):
         else:
 
             def missing(T: Any) -> Any:
-                y = PAIR.fraction(humidity(moved(jnp.clip(water_at(T), 0.0, water))))
-                return y - self.relative_humidity_outlet * saturated_fraction(PAIR, T, gas.pressure)
+                y = humid.fraction(moved(jnp.clip(water_at(T), 0.0, water)))
+                return y - self.relative_humidity_outlet * humid.pair.saturated_fraction(T, gas.pressure, False)
 
             asked = find_root(missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet)
             known, W = asked.converged, water_at(asked.value)
@@ -207,14 +205,13 @@ class ConvectiveDryer(Unit):
         if isinstance(self.effectiveness, float | int) and self.effectiveness == 0:
             return jnp.zeros(()), out, out.part(), jnp.asarray(True)
         # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
-        beyond = jnp.maximum(PAIR.fraction(humidity(out)) / saturated_fraction(PAIR, out.temperature, out.pressure), 1.0)
+        humid = HumidMixture(out.mixture)
+        vapor = out.gas[humid.vapor]
+        beyond = jnp.maximum(safe_divide(vapor, humid.saturated_vapor(out, out.temperature)), 1.0)
 
         def drained(T: Any) -> tuple[Stream, Stream]:
-            ys = jnp.minimum(beyond * saturated_fraction(PAIR, T, out.pressure), 1.0 - 1e-9)
-            left = jnp.minimum(out.gas[1], PAIR.humidity_ratio(ys) * out.gas[0])
-            liquid = jnp.zeros_like(out.liquid).at[0].set(out.gas[1] - left)
-            dry = out.replace(gas=out.gas.at[1].set(left), temperature=T)
-            return dry, out.part().replace(liquid=liquid, temperature=T)
+            both = humid.moved(out, -jnp.maximum(vapor - beyond * humid.saturated_vapor(out, T), 0.0)).replace(temperature=T)
+            return both.part(gas=1.0), both.part(liquid=1.0)
 
         def given(T: Any) -> Any:
             dry, wet = drained(T)
@@ -233,29 +230,31 @@ class ConvectiveDryer(Unit):
         W = feed.liquid[0] - found.product.liquid[0]
         bought = found.heater + self.fan_power
         energy = safe_divide(bought, W)
-        wet = jnp.clip(found.outlet.temperature, ZERO_CELSIUS, 450.0)
-        w2 = humidity(found.outlet)
+        humid = HumidMixture(feed.mixture)
+        latent = humid.heat_of_vaporization(jnp.clip(found.outlet.temperature, ZERO_CELSIUS, 450.0))
         return ConvectiveFigures(
             evaporation_rate=W,
             moisture_dry_basis=found.product.moisture_dry_basis,
             temperature_inlet=found.inlet.temperature,
             temperature_outlet=found.outlet.temperature,
             temperature_product=found.product.temperature,
-            humidity_ratio_inlet=humidity(found.inlet),
-            humidity_ratio_outlet=w2,
-            relative_humidity_outlet=PAIR.fraction(w2) / saturated_fraction(PAIR, found.outlet.temperature, found.outlet.pressure),
-            dry_gas_flow=found.inlet.gas[0],
+            humidity_ratio_inlet=humid.humidity_ratio(found.inlet),
+            humidity_ratio_outlet=humid.humidity_ratio(found.outlet),
+            relative_humidity_outlet=humid.relative_humidity(found.outlet),
+            dry_gas_flow=humid.dry_flow(found.inlet),
             heat_duty_heater=found.heater,
             heat_duty_recovered=found.recovered,
             energy_per_water=energy,
-            energy_consumption_ratio=energy / latent_heat(wet),
-            drying_efficiency=safe_divide(latent_heat(wet), energy),
+            energy_consumption_ratio=energy / latent,
+            drying_efficiency=safe_divide(latent, energy),
             moisture_extraction_rate=safe_divide(W, bought),
         )
 
     def measured(self, inside: Inside, outlets: ConvectiveOutlets, figures: ConvectiveFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
         X, phi = figures.moisture_dry_basis, figures.relative_humidity_outlet
-        found = {"humid": phi, "energy": figures.energy_per_water}
+        found = {"humid": phi} | flammable(inside.outlet)
+        if HumidMixture(feed.mixture).solvent == "water":
+            found["energy"] = figures.energy_per_water
         if self.moisture_outlet is not None:
             found["moisture"] = X - self.moisture_outlet
         if self.temperature_outlet is not None:  # missed where all the water is gone, or none goes
@@ -263,7 +262,7 @@ class ConvectiveDryer(Unit):
         if self.relative_humidity_outlet is not None:
             found["humidity"] = phi - self.relative_humidity_outlet
         if self.isotherm is not None:
-            driest = PAIR.fraction(figures.humidity_ratio_inlet) / saturated_fraction(PAIR, figures.temperature_inlet, gas.pressure)
+            driest = HumidMixture(feed.mixture).relative_humidity(inside.inlet)
             found["equilibrium"] = X - self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit

@@ -34,6 +34,7 @@ from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import safe_divide
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -94,9 +95,10 @@ class DrumDryer(Unit):
 
     def inside(self, feed: Stream) -> dict[str, Any]:
         """What happens to the film on its way."""
-        boiling = water_boiling_temperature(jnp.asarray(STANDARD_ATMOSPHERE) + 0.0 * feed.pressure)
+        humid = HumidMixture(feed.mixture, alone=True)
+        boiling = humid.boiling_temperature(jnp.asarray(STANDARD_ATMOSPHERE) + 0.0 * feed.pressure)
         wall = water_boiling_temperature(self.pressure_steam)
-        latent = water_heat_of_vaporization(boiling)
+        latent = humid.heat_of_vaporization(boiling)
         area = jnp.pi * self.diameter * self.width
         turn = 2.0 * jnp.pi / self.rotation_speed
         load = feed.solid_flow * turn / area
@@ -177,8 +179,9 @@ class DrumDryer(Unit):
             "capacity": figures.evaporation_per_area * 3600.0,
             "time": figures.contact_time,
             "steam": figures.wall_temperature - 273.15,
-            "ratio": figures.steam_per_water,
         }
+        if feed.mixture.liquids[0].name == "water":
+            found["ratio"] = figures.steam_per_water
         if self.temperature_limit is not None:
             found["hot"] = outlets.product.temperature - self.temperature_limit
         return found

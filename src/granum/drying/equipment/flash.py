@@ -14,10 +14,11 @@ from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, 
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Inlet, Network
 from granum.drying.contact.conveyed import Path, convey
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, humidity_of, ready, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -84,7 +85,7 @@ class FlashDryer(Dryer):
 def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> Through:
     dry = counted(feed)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
-    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
     matter = replace(Matter.of(dry, gas), dissolved=composition(feed))
     network = Network.co_current(dryer.cells)
     return Through(*convey(dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, network, dryer.heat_loss))

@@ -13,7 +13,7 @@ from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Inlet, Network, Profile
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, humidity_of, ready, sized
+from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
@@ -26,11 +26,12 @@ from granum.fluidization.formulas.bubbles import (
 from granum.fluidization.formulas.heat import nusselt_number_gunn
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
 from granum.streams.cakes import solid_diameter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 TABLE = NOTES.format(table="IV.16")
-DIFFUSIVITY = 2.6e-5  # m²/s of vapor in air at 25 °C, for the exchange between bubbles and their clouds
+AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 
 
 @equipment("fluidized_bed_dryer", source="kunii1991, ch. 16; vanecek1966; groenewold1997", title="Fluidized-bed dryer")
@@ -78,7 +79,9 @@ class FluidBedDryer(ContactDryer):
         H = self.height(feed)
         diameter = bubble_diameter_darton.function(U, jnp.minimum(first, U), 0.5 * H, 1e-4)
         rise = bubble_rise_velocity_davidson_harrison.function(U, jnp.minimum(first, U), diameter)
-        exchange = bubble_exchange_rate_cloud.function(jnp.minimum(first, U), diameter, DIFFUSIVITY)
+        exchange = bubble_exchange_rate_cloud.function(
+            jnp.minimum(first, U), diameter, HumidMixture(gas.mixture).diffusivity(AMBIENT, gas.pressure)
+        )
         return jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-exchange * H / rise)
 
     def _specific(self, feed: Stream, gas: Stream) -> Any:
@@ -101,13 +104,13 @@ class FluidBedDryer(ContactDryer):
     def bed(self, feed: Stream, gas: Stream) -> Bed:
         """The whole bed, the feed ``counted`` as dry matter and water."""
         matter = Matter.of(feed, gas)
-        dry = (gas.gas_flow - gas.gas[matter.vapor]) * (1.0 - self.bypass(feed, gas))
+        dry = matter.humid.dry_flow(gas) * (1.0 - self.bypass(feed, gas))
         time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
         return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss)
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
-        vapor = gas.gas[feed.mixture.index("gases", "water")]
+        vapor = gas.gas[HumidMixture(feed.mixture).vapor]
         past = gas.part(gas=share).enthalpy_flow  # what bypasses rejoins above the bed
         found = found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
         return Through(found, 1.0 * self.mass)
@@ -145,7 +148,10 @@ def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
     bed = dryer.bed(dry, gas)
     bed = replace(bed, matter=replace(bed.matter, dissolved=composition(feed)))
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
-    before, fresh = Solid(X, jnp.full_like(X, 1.0) * feed.temperature), Gas(humidity_of(gas), jnp.asarray(gas.temperature, dtype=float))
+    before, fresh = (
+        Solid(X, jnp.full_like(X, 1.0) * feed.temperature),
+        Gas(bed.matter.humid.humidity_ratio(gas), jnp.asarray(gas.temperature, dtype=float)),
+    )
     if n == 1:
         return steady_bed(bed, before, fresh)
     return steady_tanks(replace(bed, time=bed.time / n, gas_flow=bed.gas_flow / n, heat_loss=bed.heat_loss / n), before, fresh, n)

@@ -8,6 +8,8 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.errors import ApplicabilityError
+from granum.core.i18n import _
 from granum.core.kinds import (
     Area,
     Frequency,
@@ -30,7 +32,6 @@ from granum.core.limits import Limit
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
 from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
-from granum.drying.wet_surface import require_water
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
@@ -104,7 +105,11 @@ class FreezeDryer(Unit):
     }
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
-        require_water(feed.mixture)
+        first = next((liquid.name for liquid in feed.mixture.liquids), "–")
+        if first != "water":
+            raise ApplicabilityError(
+                _("A freeze dryer sublimes ice only: the first liquid of the mixture must be water (it is {liquid}).").format(liquid=first)
+            )
         keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
         kept = feed.liquid.at[0].set(keep)
         product = feed.replace(liquid=kept, gas=jnp.zeros_like(feed.gas), temperature=jnp.asarray(self.temperature_shelf_secondary))

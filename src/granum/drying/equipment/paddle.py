@@ -40,14 +40,12 @@ from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
 from granum.drying.profile_charts import contact_chart
 from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
-from granum.materials.formulas.steam import water_heat_of_vaporization
-from granum.materials.formulas.water import water_boiling_temperature
 from granum.numerics import Root, find_root, safe_divide
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Operated, Unit
 
 STEPS, PASTY_STEPS = 40, 10
-LIQUID_HEAT, LIQUID_DENSITY = 4187.0, 958.0
 DRIEST = 1e-6  # kg/kg, to which an area may dry
 
 
@@ -80,12 +78,13 @@ class PaddleFigures(NamedTuple):
 
 
 class Heat(NamedTuple):
-    """Boiling temperature, coefficients of wall and of bed, heat capacity of the dry solid."""
+    """Boiling temperature, coefficients of wall and of bed, heat capacities of the dry solid and of the liquid."""
 
     boiling: jax.Array
     wall: jax.Array
     bed: jax.Array
     capacity: jax.Array
+    liquid_capacity: jax.Array
 
 
 class Heated(NamedTuple):
@@ -168,7 +167,7 @@ class PaddleDryer(Unit):
 
     def _area(self, feed: Stream, heat: Heat, paste: Any, curve: ContactCurve) -> Any:
         """To warm the feed to boiling, by the wall and what lies on it, and to dry it."""
-        boiling, wall, bed, _capacity = heat
+        boiling, wall, bed = heat[:3]
         series = 1.0 / (1.0 / wall + 1.0 / bed) if self.pasty_moisture is None else paste
         start = jnp.minimum(feed.temperature, boiling - 1e-6)
         mean = (boiling - start) / jnp.log((self.wall_temperature - start) / (self.wall_temperature - boiling))
@@ -177,8 +176,8 @@ class PaddleDryer(Unit):
 
     def _curve(self, feed: Stream, heat: Heat, paste: Any) -> ContactCurve:
         """Even steps of moisture as a paste, then as grains."""
-        boiling, wall, bed, solid_heat = heat
-        latent = water_heat_of_vaporization(boiling)
+        boiling, wall, bed, solid_heat, liquid_heat = heat
+        latent = HumidMixture(feed.mixture, alone=True).heat_of_vaporization(boiling)
         X0 = safe_divide(feed.liquid[0], feed.solid_flow)
         X2 = jnp.minimum(self.moisture_outlet, X0)
         X1 = X0 if self.pasty_moisture is None else jnp.clip(self.pasty_moisture, X2, X0)
@@ -188,7 +187,7 @@ class PaddleDryer(Unit):
             """dT/d(−X), dt/d(−X) and flux."""
             p = penetration_drying(jnp.maximum(X, 1e-6), self.wall_temperature, T, wall, bed, solid_heat, latent)
             heat = p.heat_transfer_coefficient * (self.wall_temperature - T)
-            warm = heat * (1.0 - p.latent_share) / (solid_heat + X * LIQUID_HEAT)
+            warm = heat * (1.0 - p.latent_share) / (solid_heat + X * liquid_heat)
             return warm / p.drying_flux, self.dry_mass_per_area / p.drying_flux, p.drying_flux
 
         def step(carry: tuple, k: jax.Array) -> tuple:
@@ -211,26 +210,32 @@ class PaddleDryer(Unit):
         return ContactCurve(*(jnp.concatenate(column) for column in zip(*pieces, strict=True)))
 
     def _paste(self, feed: Stream, heat: Heat) -> Any:
-        """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and water while it rests."""
+        """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and liquid while it rests."""
         if self.heat_transfer_coefficient_paste is not None:
             return jnp.asarray(self.heat_transfer_coefficient_paste)
         X = safe_divide(feed.liquid[0], feed.solid_flow)
-        capacity = heat.capacity
-        held = (capacity + X * LIQUID_HEAT) / (1.0 / feed.solid_density + X / LIQUID_DENSITY)  # J/(m³ K)
+        liquid_density = feed.mixture.densities("liquids", heat.boiling)[0]
+        held = (heat.capacity + X * heat.liquid_capacity) / (1.0 / feed.solid_density + X / liquid_density)  # J/(m³ K)
         return heat_transfer_coefficient_penetration(jnp.sqrt(held * self.thermal_conductivity_paste), self._contact())
 
     def _heat(self, feed: Stream) -> Heat:
-        boiling = water_boiling_temperature(self.pressure)
+        humid = HumidMixture(feed.mixture, alone=True)
+        boiling = humid.boiling_temperature(jnp.asarray(self.pressure))
         mean = 0.5 * (self.wall_temperature + boiling)
-        wall = (
-            heat_transfer_coefficient_wall_particles(self.particle_diameter, mean, self.pressure)
-            if self.heat_transfer_coefficient is None
-            else jnp.asarray(self.heat_transfer_coefficient)
-        )
+        if self.heat_transfer_coefficient is not None:
+            wall = jnp.asarray(self.heat_transfer_coefficient)
+        else:
+            vapor = humid.fluid
+            wall = heat_transfer_coefficient_wall_particles(
+                self.particle_diameter, mean, self.pressure, vapor.vapor_conductivity.value(mean), molar_mass=vapor.molar_mass,
+                specific_heat_capacity=vapor.vapor_heat_capacity.value(mean),
+            )  # fmt: skip
         dry = feed.replace(liquid=jnp.zeros_like(feed.liquid), gas=jnp.zeros_like(feed.gas))
         capacity = (dry.enthalpy_at(boiling + 5.0) - dry.enthalpy_at(boiling - 5.0)) / (10.0 * feed.solid_flow)
+        liquid = feed.mixture.liquids[0]
+        liquid_capacity = (liquid.enthalpy(boiling + 5.0) - liquid.enthalpy(boiling - 5.0)) / 10.0
         effusivity = jnp.sqrt(self.bulk_density * capacity * self.thermal_conductivity_bed)
-        return Heat(boiling, wall, heat_transfer_coefficient_penetration(effusivity, self._contact()), capacity)
+        return Heat(boiling, wall, heat_transfer_coefficient_penetration(effusivity, self._contact()), capacity, liquid_capacity)
 
     def _contact(self) -> jax.Array:
         return contact_time_mixing(self.rotation_speed, self.diameter, self.mixing_factor, self.mixing_exponent)
@@ -241,7 +246,7 @@ class PaddleDryer(Unit):
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: Heated, outlets: ContactDried, feed: Stream) -> PaddleFigures:
-        boiling, wall, coefficient, _capacity = inside.heat
+        boiling, wall, coefficient = inside.heat[:3]
         bed, area = inside.curve, inside.area
         water = feed.liquid[0] - outlets.product.liquid[0]
         time = area * self.dry_mass_per_area / feed.solid_flow

@@ -80,10 +80,9 @@ class RotaryDryer(ContactDryer):
         if self.wall_coefficient is not None:
             wall = self.wall_coefficient * self.wetted_share * pi * self.diameter * self.length / (jnp.sum(F) * time)
         matter = Matter.of(feed, gas)
-        vapor = gas.gas[matter.vapor]
         network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
         return Contact(
-            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / time, gas.gas_flow - vapor, network,
+            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / time, matter.humid.dry_flow(gas), network,
             lambda X, Ts, Tg, Y: exchange, wall, self.wall_temperature, self.heat_loss / n,
         )  # fmt: skip
 

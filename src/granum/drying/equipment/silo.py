@@ -21,13 +21,13 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, DryerFigures, Through, dried, humidity_of, ready, sized, warmed
+from granum.drying.contact.dryer import NOTES, DryerFigures, Through, dried, ready, sized, warmed
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.layer import LayerDryer, joined
 from granum.drying.contact.liquor import counted
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
 from granum.streams.cakes import solid_diameter
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Limits
 
@@ -91,16 +91,15 @@ class SiloDryer(LayerDryer):
         return h * surface / self.bulk_density_dry
 
     def zones(self, feed: Stream, *gases: Stream) -> list[Zone]:
-        vapor = Matter.of(feed, gases[0]).vapor
+        humid = HumidMixture(feed.mixture)
         mass = self.holdup()
         time = mass / jnp.maximum(feed.solid_flow, 1e-12)
         cooled = len(gases) > 1
         share = 1.0 - self.cooling_share if cooled else 1.0
 
         def zone(gas: Stream, part: Any, flow_part: Any, backwards: bool) -> Zone:
-            return Zone(
-                time * part, (gas.gas_flow - gas.gas[vapor]) * flow_part / (mass * part), backwards, humidity_of(gas), gas.temperature
-            )
+            per_solid = humid.dry_flow(gas) * flow_part / (mass * part)
+            return Zone(time * part, per_solid, backwards, humid.humidity_ratio(gas), gas.temperature)
 
         halves = 2 if self.turned else 1
         hot = [zone(gases[0], share / halves, 1.0 / halves, i == 1) for i in range(halves)]
@@ -117,9 +116,8 @@ class SiloDryer(LayerDryer):
         assert inside.cooling is not None
         vapor, heat = inside.cooling
         product, exhaust, duty = dried(feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat))
-        index = feed.mixture.index("gases", "water")
         stray = cooling.part(solid=1.0, liquid=1.0)
-        air = cooling.replace(gas=cooling.gas.at[index].set(vapor))
+        air = cooling.replace(gas=cooling.gas.at[HumidMixture(feed.mixture).vapor].set(vapor))
         return DriedGrain(product, exhaust, warmed(air, heat + stray.enthalpy_flow), duty)
 
     @classmethod

@@ -15,11 +15,12 @@ from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNu
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Inlet, Network
 from granum.drying.contact.conveyed import Path, convey, drop_ratio
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, humidity_of, parted, ready, sized
+from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, parted, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
 from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import Liquor
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -114,7 +115,7 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> Through:
     drops = dryer.atomized(dry, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
     matter = replace(Matter.of(drops, gas), dissolved=composition(feed))
-    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, humidity_of(gas), gas.temperature)
+    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
     network = Network.co_current(dryer.cells)
     if dryer.gas_dispersion is not None:
         network = network.dispersed(dryer.gas_dispersion)

@@ -37,15 +37,15 @@ from granum.drying.contact.column import Zone, mean_moisture, pass_zones
 from granum.drying.contact.dryer import ready
 from granum.drying.contact.kinetics import VanMeelKinetics
 from granum.drying.contact.matter import Matter
-from granum.drying.formulas.assisted import drying_rate_assisted
+from granum.drying.formulas.assisted import wet_surface
 from granum.drying.formulas.contact_drying import temperature_outlet_tray
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
 from granum.drying.formulas.times import drying_time
 from granum.drying.quantities import MassPerArea
-from granum.drying.wet_surface import PAIR, boiled, humidity
-from granum.humid_gas.relations import saturated_fraction
-from granum.materials.formulas.steam import water_heat_of_vaporization
+from granum.drying.wet_surface import boiled
 from granum.numerics import safe_divide
+from granum.streams.atmosphere import FLAMMABLE, flammable
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
@@ -136,7 +136,7 @@ class TrayDryer(Unit):
         "reached": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
         "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
-    }
+    } | FLAMMABLE
 
     def outlets(self, inside: dict[str, Any], feed: Stream, gas: Stream) -> TrayDried:
         product, vapor = boiled(feed, self.moisture_outlet, self.temperature_inlet, inside["T2"], gas.pressure)
@@ -146,26 +146,28 @@ class TrayDryer(Unit):
 
     def inside(self, feed: Stream, gas: Stream) -> dict[str, Any]:
         """Air, flux and time."""
-        T, P = jnp.asarray(self.temperature_inlet), gas.pressure
+        T, humid = jnp.asarray(self.temperature_inlet), HumidMixture(gas.mixture)
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
-        w = humidity(gas) + safe_divide(water, gas.gas[0])
-        y = PAIR.fraction(w)
-        density = P / (8.314462618 * T) * ((1.0 - y) * PAIR.gas_molar_mass + y * PAIR.vapor_molar_mass)
-        flux = self.gas_velocity * density
+        moist = gas.replace(gas=gas.gas.at[humid.vapor].add(water), temperature=T)
+        w, c = humid.humidity_ratio(moist), moist.gas_heat_capacity
+        flux = self.gas_velocity * moist.gas_density
         h = (
             heat_transfer_coefficient_parallel(flux)
             if self.heat_transfer_coefficient is None
             else jnp.asarray(self.heat_transfer_coefficient)
         )
-        Tw = drying_rate_assisted.function(T, w, h, self.radiated_heat, pressure=P).surface_temperature
-        unsolved(jnp.isfinite(Tw), type(self).card, reason=_UNSOLVED)
-        c = (1006.0 + 1860.0 * w) / (1.0 + w)
+        transfer = h / (humid.lewis_factor * c * (1.0 + w))
+        wet = wet_surface(
+            lambda Ts: h * (T - Ts) + self.radiated_heat, T, w, transfer, gas.pressure, humid.pair, humid.heat_of_vaporization
+        )
+        unsolved(wet.converged, type(self).card, reason=_UNSOLVED)
+        Tw = wet.value
         end = temperature_outlet_tray(T, Tw, h * self.sides, flux, self.tray_length, self.tray_gap, c)
         mean = flux * c * self.tray_gap * (T - end) / self.tray_length  # W per tray area, both sides
-        N = (mean + self.radiated_heat) / water_heat_of_vaporization(Tw)
+        N = (mean + self.radiated_heat) / humid.heat_of_vaporization(Tw)
         X1 = safe_divide(feed.liquid[0], feed.solid_flow)
-        phi = y / saturated_fraction(PAIR, T, P)
-        Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm.moisture(jnp.clip(phi, 1e-3, 0.99), T)
+        phi = jnp.clip(humid.relative_humidity(moist), 1e-3, 0.99)
+        Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm.moisture(phi, T)
         time = drying_time(self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe).drying_time
         return {"w": w, "h": h, "Tw": Tw, "end": end, "N": N, "Xe": Xe, "time": time, "T2": end, "flux": flux, "water": water}
 
@@ -201,8 +203,8 @@ class TrayDryer(Unit):
             surface_temperature=s["Tw"],
             humidity_ratio=s["w"],
             temperature_outlet=s["end"],
-            relative_humidity=PAIR.fraction(s["w"]) / saturated_fraction(PAIR, s["T2"], gas.pressure),
-            recirculated_fraction=1.0 - safe_divide(gas.gas[0], circulating),
+            relative_humidity=HumidMixture(gas.mixture).relative_humidity(outlets.exhaust),
+            recirculated_fraction=1.0 - safe_divide(HumidMixture(gas.mixture).dry_flow(gas), circulating),
             energy_per_water=safe_divide(duty, s["water"]),
         )
 
@@ -212,7 +214,7 @@ class TrayDryer(Unit):
             "humid": figures.relative_humidity,
             "reached": self.moisture_outlet - inside["Xe"],
             "recycle": figures.recirculated_fraction,
-        }
+        } | flammable(outlets.exhaust)
         if self.temperature_limit is not None:
             found["hot"] = self.temperature_inlet - self.temperature_limit
         return found

@@ -57,7 +57,7 @@ class TunnelDryer(ContactDryer):
         matter = Matter.of(feed, gas)
         network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
         return Contact(
-            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / self.residence_time, gas.gas_flow - gas.gas[matter.vapor], network,
+            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / self.residence_time, matter.humid.dry_flow(gas), network,
             lambda X, Ts, Tg, Y: exchange, heat_loss=self.heat_loss / n,
         )  # fmt: skip
 

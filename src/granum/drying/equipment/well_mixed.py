@@ -11,17 +11,17 @@ from granum.core.flags import unsolved
 from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
 from granum.core.limits import Limit
 from granum.drying.contact.dryer import Dried
-from granum.drying.wet_surface import crystallized, require_water
-from granum.humid_gas.pairs import AirWater
-from granum.humid_gas.relations import saturated_fraction, wet_bulb_balance
-from granum.materials.library import fluid
+from granum.drying.wet_surface import crystallized
+from granum.humid_gas.relations import wet_bulb_balance
 from granum.numerics import find_root, safe_divide
 from granum.particles.formulas.numbers import reynolds_number
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
+from granum.streams.atmosphere import FLAMMABLE, flammable
+from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-COLDEST_FILM = 230.0  # K
+COLDEST_FILM = 200.0  # K
 UNSOLVED = "No temperature of the bed was found at which heat and evaporation agree: give hotter gas or more of it, less wet solid, or a smaller heat loss."
 
 
@@ -45,7 +45,7 @@ class WellMixedDryer(Unit):
     The film is spread over the particle surface in proportion to its area. It evaporates at the wet-bulb temperature of the bed
     gas, with heat transfer after Ranz and Marshall at the superficial velocity, until it is gone; residence times are exponential.
     Particles and gas leave at the bed temperature. What was dissolved in the evaporated water stays on the particles as solid.
-    Simplifications: the saturated film evaporates like pure water, and no moisture is bound inside the crystals.
+    Simplifications: the saturated film evaporates like the pure liquid, and no moisture is bound inside the crystals.
     """
 
     residence_time: Time
@@ -55,12 +55,11 @@ class WellMixedDryer(Unit):
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
         "moist": Limit("moisture of the product", 0.0, 0.01, "kg/kg", "mullin2001, ch. 9"),
-    }
+    } | FLAMMABLE
 
     def inside(self, feed: Stream, gas: Stream) -> Stream:
         """Gas and solid together, as they are in the bed."""
-        require_water(feed.mixture, carried=True)
-        pair = AirWater()
+        humid = HumidMixture(feed.mixture)
         water = feed.liquid[0]
         wet = feed + gas.replace(liquid=jnp.zeros_like(gas.liquid), solid=jnp.zeros_like(gas.solid))
         wet = wet.replace(pressure=gas.pressure)
@@ -77,10 +76,9 @@ class WellMixedDryer(Unit):
 
         def by_kinetics(T: Any, evaporated: Any) -> Any:
             bed = after(jnp.clip(evaporated, 0.0, water), T)
-            y = pair.fraction(safe_divide(bed.gas[1], bed.gas[0]))
-            saturated = jnp.minimum(pair.saturated_fraction(T, bed.pressure, False), 1.0)
-            Tw = self._surface_temperature(T, bed.pressure, jnp.minimum(y, saturated))
-            latent = fluid("water").heat_of_vaporization.value(Tw)
+            saturated = jnp.minimum(humid.pair.saturated_fraction(T, bed.pressure, False), 1.0)
+            Tw = self._surface_temperature(humid, T, bed.pressure, jnp.minimum(humid.fraction(bed), saturated))
+            latent = humid.heat_of_vaporization(Tw)
             flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
             area = (
                 feed.by_size(6.0 / (feed.mixture.sizes * feed.solid_density))
@@ -109,12 +107,12 @@ class WellMixedDryer(Unit):
         return Dried(inside.replace(gas=jnp.zeros_like(inside.gas)), exhaust, -self.heat_loss)
 
     @staticmethod
-    def _surface_temperature(T: Any, P: Any, y: Any) -> Any:
+    def _surface_temperature(humid: HumidMixture, T: Any, P: Any, y: Any) -> Any:
         """Wet bulb over liquid. The general ``wet_bulb`` also knows ice and vast arrays; here its balance alone compiles much faster."""
-        pair = AirWater()
+        pair = humid.pair
         top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
         h = pair.molar_enthalpy(T, P, y)
-        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, None), COLDEST_FILM, top).value
+        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, pair.lewis_factor()), COLDEST_FILM, top).value
 
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
@@ -131,28 +129,26 @@ class WellMixedDryer(Unit):
         return jnp.where(shares > 1e-9, bed.mixture.sizes, jnp.asarray(bed.mixture.sizes)[jnp.argmax(shares)])
 
     def figures(self, inside: Stream, outlets: Dried, feed: Stream, gas: Stream) -> WellMixedFigures:
-        pair, exhaust = AirWater(), outlets.exhaust
-        humidity = safe_divide(exhaust.gas[1], exhaust.gas[0])
-        saturated = saturated_fraction(pair, exhaust.temperature, exhaust.pressure)
+        humid, exhaust = HumidMixture(feed.mixture), outlets.exhaust
         return WellMixedFigures(
             evaporation_rate=feed.liquid[0] - outlets.product.liquid[0],
             moisture_dry_basis=outlets.product.moisture_dry_basis,
             temperature=outlets.product.temperature,
-            humidity_ratio=humidity,
-            relative_humidity=pair.fraction(humidity) / saturated,
+            humidity_ratio=humid.humidity_ratio(exhaust),
+            relative_humidity=humid.relative_humidity(exhaust),
             solid_holdup=outlets.product.solid_flow * self.residence_time,
             area=exhaust.gas_volume_flow / self.gas_velocity,
             heat_duty=outlets.heat_duty,
         )
 
     def measured(self, inside: Stream, outlets: Dried, figures: WellMixedFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
-        return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis}
+        return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis} | flammable(outlets.exhaust)
 
 
 def evaporate(wet: Stream, share: Any) -> Stream:
-    """Move a share of the water into the gas; the same share of each solute crystallizes on the solid of its own name."""
+    """Move a share of the liquid that evaporates into the gas; the same share of each solute crystallizes on the solid of its own name."""
     m = wet.mixture
     for solute in m.liquids[1:]:
         m.index("solids", solute.name)  # says which one is missing
-    gas = wet.gas.at[m.index("gases", m.liquids[0].name)].add(wet.liquid[0] * share)
+    gas = wet.gas.at[HumidMixture(m).vapor].add(wet.liquid[0] * share)
     return crystallized(wet, share).replace(gas=gas)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -20,11 +21,11 @@ from granum.core.kinds import (
     SignedMassFlux,
     Temperature,
 )  # fmt: skip
-from granum.humid_gas.pairs import AirWater
+from granum.humid_gas.pairs import AIR_WATER, AbstractPair
 from granum.materials.formulas.steam import water_heat_of_vaporization
-from granum.numerics import find_root
+from granum.numerics import Root, find_root
 
-PAIR, COLDEST = AirWater(), 230.0
+COLDEST_WATER, COLDEST = 275.0, 200.0  # K
 
 
 class AssistedDrying(NamedTuple):
@@ -59,20 +60,29 @@ def drying_rate_assisted(
     (42, 1.41)
     """
     T, w, P, h = temperature, humidity_ratio, pressure, heat_transfer_coefficient
-    heat = 1006.0 + 1860.0 * w
-
-    def need(Ts: Any) -> Any:
-        y = jnp.minimum(PAIR.saturated_fraction(Ts, P, False), 1.0 - 1e-9)
-        return h / heat * water_heat_of_vaporization.function(Ts) * (PAIR.humidity_ratio(y) - w)
 
     def given(Ts: Any) -> Any:
         return h * (T - Ts) + radiated_heat + emissivity * 5.670374419e-8 * (radiator_temperature**4 - Ts**4)
 
-    top = PAIR.boiling_temperature(P) * (1.0 - 1e-7)
-    root = find_root(lambda Ts: need(Ts) - given(Ts), COLDEST + 45.0, top, start=jnp.minimum(T, top) - 20.0, tolerance=1e-13)
+    root = wet_surface(given, T, w, h / (1006.0 + 1860.0 * w), P, AIR_WATER, water_heat_of_vaporization.function)
     unconverged(root.converged)
     Ts = root.value
     return AssistedDrying(Ts, given(Ts) / water_heat_of_vaporization.function(Ts))
+
+
+def wet_surface(
+    given: Callable[[Any], Any], T: Any, w: Any, transfer: Any, P: Any, pair: AbstractPair, latent: Callable[[Any], Any]
+) -> Root:
+    """Temperature of a surface wet with the liquid of a pair, where the heat ``given`` to it (W/m²) evaporates it; ``transfer`` is the mass
+    transfer coefficient on the difference of humidity ratios, kg/(m² s)."""
+
+    def need(Ts: Any) -> Any:
+        y = jnp.minimum(pair.saturated_fraction(Ts, P, False), 1.0 - 1e-9)
+        return transfer * latent(Ts) * (pair.humidity_ratio(y) - w)
+
+    top = pair.boiling_temperature(P) * (1.0 - 1e-7)
+    low = jnp.minimum(COLDEST_WATER if pair is AIR_WATER else COLDEST, top - 1.0)
+    return find_root(lambda Ts: need(Ts) - given(Ts), low, top, start=jnp.minimum(T, top) - 20.0, tolerance=1e-13)
 
 
 @formula(source="metaxas1983", equation=r"q = \frac{\eta\,P_{el}}{A}\left(1 - e^{-L/D_p}\right)",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import reduce
 from operator import add
 from typing import Any, ClassVar, NamedTuple
@@ -17,7 +18,7 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-FREEZING, COLDEST = 273.15, 200.0
+COLDEST = 200.0
 UNSOLVED = "No temperature was found at which gas and liquid are in equilibrium with the heat they bring: check the temperatures and flows that enter."
 
 
@@ -27,7 +28,7 @@ def _drained(stream: Stream) -> tuple[Stream, Stream]:
 
 
 def _above_freezing(source: str) -> Limits:
-    return {"liquid": Limit("temperature above the freezing point", FREEZING, 2000.0, "K", source)}
+    return {"liquid": Limit("temperature above the freezing point", 0.0, math.inf, "delta_degC", source)}
 
 
 class Mixed(NamedTuple):
@@ -67,7 +68,7 @@ class HumidMixer(Unit):
         return HumidFigures(gas.temperature, humid.humidity_ratio(gas), humid.relative_humidity(gas), gas.mass_flow, gas.liquid_flow)
 
     def measured(self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.product.temperature}
+        return {"liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature}
 
 
 class Cooled(NamedTuple):
@@ -112,7 +113,7 @@ class CondenserCooler(Unit):
         return _cooler_figures(outlets)
 
     def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.product.temperature}
+        return {"liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature}
 
 
 @equipment("dehumidifying_coil", source="ashrae2017, ch. 1; mcquiston2005", title="Dehumidifying coil")
@@ -138,7 +139,7 @@ class DehumidifyingCoil(Unit):
         return _cooler_figures(outlets)
 
     def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.condensate.temperature}
+        return {"liquid": outlets.condensate.temperature - HumidMixture(outlets.condensate.mixture).freezing_temperature}
 
 
 class Humidified(NamedTuple):
