@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -23,6 +24,7 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.run import Line, Movement
 from granum.flowsheet.specifications import Target
+from granum.materials.library import Library
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -110,7 +112,7 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     except GranumError as problem:
         raise CaseError(problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}", **problem.details) from None
     feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
-    units = {name: _unit(name, dict(table)) for name, table in case.units.items()}
+    units = {name: _with_materials(_unit(name, dict(table)), mixture.materials) for name, table in case.units.items()}
     links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
     for name, table in case.streams.items():
         if name in links:
@@ -259,6 +261,15 @@ def _unit(name: str, table: dict[str, Any]) -> Any:
         return thing(**table)
     except GranumError as problem:
         raise CaseError(f"[units.{name}] {problem.message}", **{**problem.details, "unit": name}) from None
+
+
+def _with_materials(unit: Any, materials: Library) -> Any:
+    """The unit, its laws that look for a material by name finding those of the case."""
+
+    def looks(part: Any) -> bool:
+        return hasattr(type(part), "with_materials")
+
+    return jax.tree.map(lambda part: part.with_materials(materials) if looks(part) else part, unit, is_leaf=looks)
 
 
 def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:
