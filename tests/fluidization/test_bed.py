@@ -33,7 +33,7 @@ def test_balance_and_entrainment() -> None:
     assert share[-1] == 0.0
     # what is entrained of a class is K* A times its fraction in the bed, which is that of the product
     fraction = np.asarray(out.product.solid / jnp.sum(out.product.solid))[0]
-    np.testing.assert_allclose(np.asarray(out.gas.solid)[0], np.asarray(bed.rates(feed))[0] * fraction, rtol=1e-6)
+    np.testing.assert_allclose(np.asarray(out.gas.solid)[0], np.asarray(bed.rates(feed, bed.inside(feed)))[0] * fraction, rtol=1e-6)
     figures = bed.operate(feed=feed).figures
     assert all(np.isfinite(float(x)) for x in figures)
     assert figures.minimum_fluidization_velocity < figures.superficial_velocity

@@ -7,5 +7,4 @@ from granum.materials import library
 
 @pytest.fixture(autouse=True)
 def _shipped_materials_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(library, "_LOADED", {sort: {} for sort in library._SORTS})
-    monkeypatch.setattr(library, "_TEXTS", {})
+    monkeypatch.setattr(library, "_session", [library.SHIPPED])

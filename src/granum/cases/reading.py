@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-import jax.numpy as jnp
+import jax
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from granum.cases.fitted import fits_of, fitted_values
-from granum.cases.schema import Case, DynamicTable, FeedTable, MixtureTable, SizeTable, StreamTable
+from granum.cases.schema import Case, DynamicTable, FeedTable, MixtureTable, StreamTable
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.documents import read_toml
@@ -23,9 +23,11 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.dynamics import Profile, check_profiles, check_start
 from granum.flowsheet.run import Line, Movement
 from granum.flowsheet.specifications import Target
+from granum.materials.library import Library
+from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 from granum.streams.mixture import Mixture
-from granum.streams.stream import Stream, empty
+from granum.streams.stream import Stream
 
 Shape = TypeVar("Shape", bound=BaseModel)
 MOST_STEPS = 100_000  # of a run in time
@@ -110,7 +112,7 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     except GranumError as problem:
         raise CaseError(problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}", **problem.details) from None
     feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
-    units = {name: _unit(name, dict(table)) for name, table in case.units.items()}
+    units = {name: _with_materials(_unit(name, dict(table)), mixture.materials) for name, table in case.units.items()}
     links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
     for name, table in case.streams.items():
         if name in links:
@@ -146,106 +148,13 @@ def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
     return mixture_of(table.liquids, table.solids, table.gases, edges, axes=axes, own=own)
 
 
-def _shares(phase: str, given: Mapping[str, Any], mixture: Mixture, where: str) -> np.ndarray:
-    shares = np.zeros(len(getattr(mixture, phase)))
-    for name, value in given.items():
-        shares[mixture.index(phase, name)] = quantity(value, "MassFraction", name, where)
-    if not given and len(shares) == 1:
-        shares[0] = 1.0
-    if abs(shares.sum() - 1.0) > 1e-6:
-        raise CaseError(
-            _("{where}: the shares of the {phase} add up to {total}, not 1.").format(
-                where=where, phase=_(phase), total=f"{shares.sum():.6g}"
-            )
-        )
-    return shares / shares.sum()
-
-
 def _feed(name: str, table: FeedTable, mixture: Mixture) -> Stream:
-    where = _("in [feeds.{name}]").format(name=name)
-    solid_flow, liquid_flow = (
-        None if v is None else quantity(v, "MassFlow", n, where)
-        for n, v in (("solid_flow", table.solid_flow), ("liquid_flow", table.liquid_flow))
-    )
-    if table.mass_flow is not None:
-        if solid_flow is not None or liquid_flow is not None:
-            raise CaseError(_("[feeds.{name}]: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(name=name))
-        total = quantity(table.mass_flow, "MassFlow", "mass_flow", where)
-        share = (
-            quantity(table.solids_mass_fraction, "MassFraction", "solids_mass_fraction", where)
-            if table.solids_mass_fraction is not None
-            else 0.0
-        )
-        solid_flow, liquid_flow = total * share, total * (1.0 - share)
-    stream = empty(
-        mixture,
-        quantity(table.temperature, "Temperature", "temperature", where),
-        quantity(table.pressure, "Pressure", "pressure", where),
-    )
-    if liquid_flow:
-        stream = stream.replace(liquid=jnp.asarray(liquid_flow * _shares("liquids", table.liquid, mixture, where)))
-    if solid_flow:
-        by_class = _size_shares(table.sizes, mixture, where)
-        solid = solid_flow * _shares("solids", table.solid, mixture, where)[:, None] * by_class[None, :]
-        solid = solid.reshape(solid.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
-        cells = int(np.prod(mixture.solid_shape[2:]))
-        stream = stream.replace(solid=jnp.asarray(solid / cells))
-    if table.gas_flow is not None:
-        stream = stream.replace(gas=_gas(table, mixture, stream, where))
-    if float(stream.mass_flow) <= 0:
-        raise CaseError(_("[feeds.{name}] carries nothing: give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(name=name))
-    return stream
-
-
-def _gas(table: FeedTable, mixture: Mixture, stream: Stream, where: str) -> Any:
-    flow = quantity(table.gas_flow, "MassFlow", "gas_flow", where)
-    if table.relative_humidity is None:
-        return jnp.asarray(flow * _shares("gases", table.gas, mixture, where))
-    from granum.humid_gas import state
-    from granum.streams.equilibrium import HumidMixture
-
-    if len(mixture.gases) != 2:
-        raise CaseError(_("{where}: 'relative_humidity' needs a mixture with a carrier gas and a vapor.").format(where=where))
+    words = {n: value for n, value in table if n not in ("to", "sizes")}
+    sizes = None if table.sizes is None else {n: value for n, value in table.sizes if value is not None}
     try:
-        humid = HumidMixture(mixture)
+        return feed(mixture, sizes=sizes, where=_("in [feeds.{name}]").format(name=name), **words)
     except GranumError as problem:
-        raise CaseError(f"{where}: {problem.message}") from None
-    humidity = state(
-        temperature=float(stream.temperature),
-        pressure=float(stream.pressure),
-        relative_humidity=quantity(table.relative_humidity, "RelativeHumidity", "relative_humidity", where),
-        pair=humid.pair,
-    ).humidity_ratio
-    return jnp.full((2,), flow).at[humid.vapor].multiply(humidity)
-
-
-def _size_shares(table: SizeTable | None, mixture: Mixture, where: str) -> np.ndarray:
-    count = len(mixture.sizes)
-    if table is None:
-        raise CaseError(
-            _('{where}: a feed with solid needs its size distribution, as sizes = {{ law = "rosin_rammler", … }}.').format(where=where)
-        )
-    if table.fractions is not None:
-        shares = np.asarray(table.fractions, dtype=float)
-        if shares.shape != (count,) or np.any(shares < 0) or abs(shares.sum() - 1.0) > 1e-6:
-            raise CaseError(
-                _("{where}: 'sizes.fractions' needs {count} values of zero or more that add up to 1.").format(where=where, count=count)
-            )
-        return shares
-    if table.law is None:
-        raise CaseError(_("{where}: 'sizes' needs 'law' or 'fractions'.").format(where=where))
-    options = dict(table.model_extra or {})
-    distribution = registry.law("size_distribution", table.law, where, options)
-    cumulative = np.asarray(distribution(mixture.edges))
-    inside = cumulative[-1] - cumulative[0]
-    if inside < 0.98:
-        raise CaseError(
-            _("{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes].").format(
-                where=where, missing=f"{100 * (1 - inside):.3g}"
-            )
-        )
-    shares = np.asarray(distribution.classes(mixture.edges).to_basis("volume").fractions)
-    return shares
+        raise CaseError(problem.message, **problem.details) from None
 
 
 def _unit(name: str, table: dict[str, Any]) -> Any:
@@ -259,6 +168,15 @@ def _unit(name: str, table: dict[str, Any]) -> Any:
         return thing(**table)
     except GranumError as problem:
         raise CaseError(f"[units.{name}] {problem.message}", **{**problem.details, "unit": name}) from None
+
+
+def _with_materials(unit: Any, materials: Library) -> Any:
+    """The unit, its laws that look for a material by name finding those of the case."""
+
+    def looks(part: Any) -> bool:
+        return hasattr(type(part), "with_materials")
+
+    return jax.tree.map(lambda part: part.with_materials(materials) if looks(part) else part, unit, is_leaf=looks)
 
 
 def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:

@@ -72,7 +72,7 @@ class GivenLaw:
         return isinstance(other, GivenLaw) and self.name == other.name and self.function is other.function
 
     def __hash__(self) -> int:
-        return hash((id(self.function), self.name))
+        return hash(self.name)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__") or name == "function":

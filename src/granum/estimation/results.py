@@ -51,6 +51,17 @@ class Band(NamedTuple):
     high: np.ndarray
 
 
+def by_fit(wanted: Mapping[str, tuple[Fit, str]]) -> list[tuple[Fit, dict[str, str]]]:
+    """Each fit once, with the inputs that take a number from it and its name there."""
+    found: list[tuple[Fit, dict[str, str]]] = []
+    for path, (fit, name) in wanted.items():
+        given = next((given for known, given in found if known is fit), None)
+        if given is None:
+            found.append((fit, given := {}))
+        given[path] = name
+    return found
+
+
 @dataclass(frozen=True)
 class Fit:
     """The outcome of a fit.

@@ -10,6 +10,7 @@ import numpy as np
 from granum.core import registry
 from granum.core.i18n import _
 from granum.estimation import Fit
+from granum.estimation.results import by_fit
 from granum.estimation.verdicts import note
 from granum.flowsheet.sheet import Flowsheet
 from granum.reports.quantities import defaults_text, range_text, value_text
@@ -20,12 +21,7 @@ NEAR = 1e-3  # of a condition: what two settings of the same may differ by
 def fit_notices(fits: Mapping[str, tuple[Fit, str]], sheet: Flowsheet) -> list[dict[str, Any]]:
     """What the fits of a line say about themselves, once for each unit that they give something to, and where it is used beyond what was measured."""
     rows: list[dict[str, Any]] = []
-    seen: set[tuple[str, int]] = set()
-    for path, (fit, _name) in fits.items():
-        unit = path.partition(".")[0]
-        if (unit, id(fit)) in seen:
-            continue
-        seen.add((unit, id(fit)))
+    for fit, unit in ((fit, unit) for fit, given in by_fit(fits) for unit in dict.fromkeys(path.partition(".")[0] for path in given)):
         rows += [{"unit": unit, **flag} for flag in fit.flags]
         told = defaults_text(fit.as_json())
         rows += [{"unit": unit, **note("default", f"{registry.find(fit.card).card.title}: {told}", fit.card)}] if told else []

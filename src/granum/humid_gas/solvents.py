@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import equinox as eqx
@@ -15,7 +16,8 @@ from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import Number, PositiveNumber
 from granum.humid_gas.pairs import AbstractIdealPair, integrated, polynomial
-from granum.materials import fluid, gas_vapor
+from granum.materials import gas_vapor
+from granum.materials.library import Library, session
 from granum.numerics import find_root
 
 _COLD, _HOT = 180.0, 1000.0
@@ -25,8 +27,8 @@ PSYCHROMETER = 0.567  # exponent of the Lewis number, Bedingfield and Drew
 class _Tables:
     """What a pair needs of its two fluids, drawn once from the library as plain numbers."""
 
-    def __init__(self, gas: str, vapor: str):
-        carrier, solvent = fluid(gas), fluid(vapor)
+    def __init__(self, materials: Library, gas: str, vapor: str):
+        carrier, solvent = materials.fluid(gas), materials.fluid(vapor)
         if not solvent.condensable:
             raise ApplicabilityError(_("{name} does not condense here: it cannot be the vapor of a pair.").format(name=solvent.label))
         self.gas_mass, self.vapor_mass = float(carrier.molar_mass), float(solvent.molar_mass)
@@ -45,7 +47,7 @@ class _Tables:
         bottom, above = float(law.value(self.low)), float(law.value(1.02 * self.low))
         self.top_pressure = top
         self.slopes = (float(np.log(above / bottom) / (1 - 1 / 1.02)), float(np.log(top / nearly) / (1 / 0.98 - 1)))
-        both = gas_vapor(vapor, gas)
+        both = gas_vapor(vapor, gas, materials)
         self.lewis_number = float(both.lewis_number(298.15))
 
     def saturation_pressure(self, T: Any) -> Any:
@@ -60,14 +62,10 @@ class _Tables:
         return pressure * jnp.exp(jnp.where(self.low > T, self.slopes[0], self.slopes[1]) * (1.0 - inside / T))
 
 
-_drawn: dict[tuple[str, str], _Tables] = {}
-
-
-def _tables(gas: str, vapor: str) -> _Tables:
-    if (gas, vapor) not in _drawn:
-        with jax.ensure_compile_time_eval():
-            _drawn[gas, vapor] = _Tables(gas, vapor)
-    return _drawn[gas, vapor]
+@lru_cache(maxsize=64)
+def _tables(materials: Library, gas: str, vapor: str) -> _Tables:
+    with jax.ensure_compile_time_eval():
+        return _Tables(materials, gas, vapor)
 
 
 class AbstractFluidPair(AbstractIdealPair):
@@ -81,11 +79,15 @@ class AbstractFluidPair(AbstractIdealPair):
     lewis_exponent: eqx.AbstractVar[Any]
 
     def __check_init__(self) -> None:
-        _tables(self.gas, self.vapor)
+        _ = self._of
+
+    def known(self) -> Library:
+        """Where the two are found by name."""
+        return session()
 
     @property
     def _of(self) -> _Tables:
-        return _tables(self.gas, self.vapor)
+        return _tables(self.known(), self.gas, self.vapor)
 
     @property
     def gas_molar_mass(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -152,6 +154,18 @@ class GasAndVapor(AbstractFluidPair):
 
     def __call__(self) -> Number:
         return self.lewis_factor()
+
+
+class PairOfMixture(AbstractFluidPair):
+    """The carrier gas and the solvent of a mixture, which may be materials of one's own."""
+
+    gas: str = eqx.field(static=True, kw_only=True)
+    vapor: str = eqx.field(static=True, kw_only=True)
+    materials: Library = eqx.field(static=True, kw_only=True)
+    lewis_exponent: Any = eqx.field(static=True, default=PSYCHROMETER)
+
+    def known(self) -> Library:
+        return self.materials
 
 
 def _named(carrier: str, solvent: str, name: str, title: str) -> type:

@@ -11,65 +11,149 @@ examples, ``granum.materials.schema`` is the full description. The smallest usef
 from __future__ import annotations
 
 import tomllib
-from dataclasses import replace
-from functools import cache
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from hashlib import sha256
 from importlib.resources import files
-from math import inf, nan
 from pathlib import Path
 from typing import Any
 
-import jax
-import jax.numpy as jnp
-import numpy as np
-
-from granum.core import flags, registry, units
-from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
-from granum.core.formulas import Formula
 from granum.core.i18n import _
-from granum.core.kinds import KINDS
-from granum.materials.correlation import Correlation, Missing, Tabulated
-from granum.materials.fluids import Combustion, Flammability, Fluid
-from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
+from granum.materials.building import fluid_of, salt_of, solid_of, solute_of
+from granum.materials.fluids import Fluid
 from granum.materials.salts import Salt
-from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry, read_materials
+from granum.materials.schema import read_materials
 from granum.materials.solids import Solid
-from granum.materials.solutes import BASES, REFERENCE, AdditiveHeats, AdditiveVolumes, Branch, LaliberteLaw, NoLaw, SoluteSystem
+from granum.materials.solutes import SoluteSystem
 
-_KIND_OF = {
-    "liquid_density": "Density",
-    "liquid_viscosity": "DynamicViscosity",
-    "liquid_heat_capacity": "HeatCapacity",
-    "liquid_conductivity": "ThermalConductivity",
-    "surface_tension": "SurfaceTension",
-    "vapor_pressure": "Pressure",
-    "heat_of_vaporization": "SpecificEnergy",
-    "vapor_heat_capacity": "HeatCapacity",
-    "vapor_viscosity": "DynamicViscosity",
-    "vapor_conductivity": "ThermalConductivity",
-    "density": "Density",
-    "heat_capacity": "HeatCapacity",
-    "conductivity": "ThermalConductivity",
-}
-_FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
-_SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
+Entries = dict[str, dict[str, Any]]
 _SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
 _SPELLINGS = {"sulph": "sulf", "Sulph": "Sulf", "aluminium": "aluminum", "caesium": "cesium", "·": ".", "•": "."}
-_LOADED: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
-_TEXTS: dict[str, list[str]] = {}  # names of the materials of each file loaded, by its text
+
+
+@dataclass(frozen=True)
+class _File:
+    """The text of a materials file, and where it stands, for messages."""
+
+    text: str
+    path: Path = field(compare=False)
+
+    @classmethod
+    def read(cls, path: Path) -> _File:
+        try:
+            return cls(path.read_text(encoding="utf-8"), path)
+        except OSError as problem:
+            raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
+        except UnicodeDecodeError as problem:
+            raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)) from problem
+
+    def content(self) -> dict[str, Any]:
+        try:
+            return read_toml(self.text)
+        except InputError as problem:
+            raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=self.path, reason=problem)) from problem
+
+
+@dataclass(frozen=True, repr=False)
+class Library:
+    """The materials that come with Granum and those of some files of one's own: a value, equal to another with the same texts.
+
+    What a case names in its files is in the library of its mixture alone, so that other cases may use the same names for other materials.
+    """
+
+    files: tuple[_File, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"Library({sha256(repr([f.text for f in self.files]).encode()).hexdigest() if self.files else ''})"
+
+    def with_files(self, paths: Iterable[str | Path]) -> Library:
+        """The library with the materials of further files, all of which have been made once."""
+        given = dict.fromkeys((*self.files, *(_File.read(Path(path)) for path in paths)))
+        library = Library(tuple(given)) if len(given) > len(self.files) else self
+        for sort in _SORTS:
+            for word in library._entries[sort].keys() - self._entries[sort].keys():
+                getattr(library, sort)(word)
+        return library
+
+    @cached_property
+    def _entries(self) -> Entries:
+        if not self.files:
+            return _shipped()
+        known = {sort: dict(found) for sort, found in _shipped().items()}
+        for file in self.files:
+            _merge(known, file.content(), file.path)
+        return known
+
+    @cached_property
+    def _made(self) -> dict[tuple[str, str], Any]:
+        return {}
+
+    def _find(self, sort: str, name: str, build: Callable[[str, Any], Any]) -> Any:
+        key, entry = self._entry(sort, name)
+        if (sort, key) not in self._made:
+            shipped = key in _shipped()[sort] and self is not SHIPPED
+            self._made[sort, key] = getattr(SHIPPED, sort)(key) if shipped else build(key, entry)
+        return self._made[sort, key]
+
+    def _entry(self, sort: str, name: str) -> tuple[str, Any]:
+        known = self._entries[sort]
+        for word in dict.fromkeys((name, name.strip(), _respelled(name.strip()))):
+            found = (
+                known.get(word)
+                or known.get(word.lower())
+                or _by_formula(known, word)
+                or (self._by_crystal(known, word) if sort == "solute" else None)
+            )
+            if found is not None:
+                return found
+        raise unknown_name(_(_SORTS[sort]), name, known)
+
+    def _by_crystal(self, known: dict[str, Any], word: str) -> Any:
+        """The system that a crystal, such as a hydrate, comes from."""
+        solids = self._entries["solid"]
+        crystal = solids.get(word) or solids.get(word.lower()) or _by_formula(solids, word)
+        return crystal and next((item for item in known.values() if any(b.crystal == crystal[0] for b in item[1].branches)), None)
+
+    def names(self, sort: str = "") -> list[str]:
+        """Names of the materials of a sort, or of all."""
+        if sort and sort not in _SORTS:
+            raise unknown_name(_("Sort of material"), sort, _SORTS)
+        return sorted({key for s in ([sort] if sort else _SORTS) for key, _entry in self._entries[s].values()})
+
+    def fluid(self, name: str) -> Fluid:
+        """A pure fluid by name, chemical formula or French name."""
+        return self._find("fluid", name, fluid_of)
+
+    def solid(self, name: str) -> Solid:
+        """A solid by name, chemical formula or French name."""
+        return self._find("solid", name, solid_of)
+
+    def salt(self, name: str) -> Salt:
+        """A sparingly soluble salt by name, chemical formula or French name."""
+        return self._find("salt", name, salt_of)
+
+    def solute(self, name: str) -> SoluteSystem:
+        """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT`` where the solvent is not water."""
+
+        def build(key: str, entry: Any) -> SoluteSystem:
+            return solute_of(key, entry, self.fluid(entry.solvent), tuple(self.solid(branch.crystal) for branch in entry.branches))
+
+        return self._find("solute", name, build)
 
 
 @cache
-def _shipped() -> dict[str, dict[str, Any]]:
-    found: dict[str, dict[str, Any]] = {sort: {} for sort in _SORTS}
+def _shipped() -> Entries:
+    found: Entries = {sort: {} for sort in _SORTS}
     for path in sorted((files("granum") / "materials" / "data").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".toml"):
             _merge(found, tomllib.loads(path.read_text(encoding="utf-8")), path.name)
     return found
 
 
-def _merge(into: dict[str, dict[str, Any]], content: dict[str, Any], where: str | Path) -> None:
+def _merge(into: Entries, content: dict[str, Any], where: str | Path) -> None:
     """Add a file's checked entries, and their aliases as references to them."""
     parsed = read_materials(content, where)
     for sort in into:
@@ -79,20 +163,6 @@ def _merge(into: dict[str, dict[str, Any]], content: dict[str, Any], where: str 
                     raise InputError(_("'{name}' in {file} is already the name of a {sort}; choose another.").format(
                         name=word, file=where, sort=sort), name=word)  # fmt: skip
                 into[sort][word] = (name, entry)
-
-
-def _entry(sort: str, name: str) -> tuple[str, Any]:
-    known = {**_shipped()[sort], **_LOADED[sort]}
-    for word in dict.fromkeys((name, name.strip(), _respelled(name.strip()))):
-        found = (
-            known.get(word)
-            or known.get(word.lower())
-            or _by_formula(known, word)
-            or (_by_crystal(known, word) if sort == "solute" else None)
-        )
-        if found is not None:
-            return found
-    raise unknown_name(_(_SORTS[sort]), name, known)
 
 
 def _respelled(name: str) -> str:
@@ -106,11 +176,20 @@ def _by_formula(known: dict[str, Any], word: str) -> Any:
     return next((item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula), None)
 
 
-def _by_crystal(known: dict[str, Any], word: str) -> Any:
-    """The system that a crystal, such as a hydrate, comes from."""
-    solids = {**_shipped()["solid"], **_LOADED["solid"]}
-    crystal = solids.get(word) or solids.get(word.lower()) or _by_formula(solids, word)
-    return crystal and next((item for item in known.values() if any(b.crystal == crystal[0] for b in item[1].branches)), None)
+SHIPPED = Library()
+_session = [SHIPPED]
+
+
+def session() -> Library:
+    """What is asked for by name alone: the materials that come with Granum and those added with ``load``."""
+    return _session[0]
+
+
+def load(path: str | Path) -> list[str]:
+    """Add the materials of a TOML file to the library for this session; returns their names. A case file names its own files instead."""
+    _session[0] = session().with_files([path])
+    content = _File.read(Path(path)).content()
+    return sorted({name for sort in _SORTS for name in content.get(sort, {})})
 
 
 def names(sort: str = "") -> list[str]:
@@ -119,10 +198,7 @@ def names(sort: str = "") -> list[str]:
     >>> "ethanol" in names("fluid"), "quartz" in names("solid"), "potassium nitrate" in names("solute")
     (True, True, True)
     """
-    if sort and sort not in _LOADED:
-        raise unknown_name(_("Sort of material"), sort, _LOADED)
-    sorts = [sort] if sort else list(_LOADED)
-    return sorted({key for s in sorts for key, _entry in (*_shipped()[s].values(), *_LOADED[s].values())})
+    return session().names(sort)
 
 
 def fluid(name: str) -> Fluid:
@@ -131,7 +207,7 @@ def fluid(name: str) -> Fluid:
     >>> round(fluid("ethanol").liquid_density("20 degC"), 0)
     790.0
     """
-    return _fluid(*_key("fluid", name))
+    return session().fluid(name)
 
 
 def solid(name: str) -> Solid:
@@ -140,7 +216,7 @@ def solid(name: str) -> Solid:
     >>> solid("quartz").density("20 degC")
     2650.0
     """
-    return _solid(*_key("solid", name))
+    return session().solid(name)
 
 
 def solute(name: str) -> SoluteSystem:
@@ -151,7 +227,7 @@ def solute(name: str) -> SoluteSystem:
     >>> solute("sodium sulphate decahydrate").name, solute("CuSO4·5H2O").name
     ('sodium sulfate', 'copper sulfate')
     """
-    return _solute(*_key("solute", name))
+    return session().solute(name)
 
 
 def salt(name: str) -> Salt:
@@ -160,219 +236,4 @@ def salt(name: str) -> Salt:
     >>> salt("BaSO4").solubility_product
     1.08e-10
     """
-    return _salt(*_key("salt", name))
-
-
-def load(path: str | Path) -> list[str]:
-    """Add the materials of a TOML file to the library for this session; returns their names."""
-    path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-        if text in _TEXTS:  # a second case of the session that uses the same file
-            return _TEXTS[text]
-        content = read_toml(text)
-    except OSError as problem:
-        raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
-    except (InputError, UnicodeDecodeError) as problem:
-        raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)) from problem
-    together = {sort: {**_shipped()[sort], **_LOADED[sort]} for sort in _LOADED}
-    before = {sort: set(known) for sort, known in together.items()}
-    _merge(together, content, path)
-    new = {sort: {word: found for word, found in together[sort].items() if word not in before[sort]} for sort in together}
-    for sort in new:
-        _LOADED[sort].update(new[sort])
-    try:
-        for sort, build in (("fluid", fluid), ("solid", solid), ("solute", solute), ("salt", salt)):
-            for word in new[sort]:
-                build(word)
-    except InputError:
-        for sort in new:
-            for word in new[sort]:
-                _LOADED[sort].pop(word)
-        raise
-    _TEXTS[text] = sorted({key for found in new.values() for key, _entry in found.values()})
-    return _TEXTS[text]
-
-
-def _key(sort: str, name: str) -> tuple[str, bool]:
-    key, _found = _entry(sort, name)
-    return key, key in _LOADED[sort]
-
-
-@cache
-def _forms() -> dict[str, Formula]:
-    cards = registry.everything(("materials",))
-    every = {key.removeprefix("materials."): thing for key, thing in cards.items() if isinstance(thing, Formula)}
-    return {name.removeprefix("correlation_"): thing for name, thing in every.items()}
-
-
-def _form(name: str, owner: str) -> Formula:
-    found = _forms().get(name)
-    if found is None:
-        raise unknown_name(_("Form of correlation"), name, [n for n, f in _forms().items() if f.card.family == "correlation"],
-                           _("for {owner}").format(owner=owner))  # fmt: skip
-    return found
-
-
-def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
-    """From a printed unit to SI; amounts become masses with the molar mass."""
-    if not unit:
-        return 1.0
-    target = units.registry().Unit(KINDS[kind_name].unit)
-    mass = units.registry().Quantity(molar_mass, "kg/mol")
-    quantity = units.registry().Quantity(1.0, units.parse_unit(unit))
-    for candidate in (quantity, quantity * mass, quantity / mass):
-        if candidate.is_compatible_with(target):
-            factor = float(candidate.to(target).magnitude)
-            if factor == factor:
-                return factor
-    raise InputError(_("Unit '{unit}' does not fit {owner}, which is in {target}.").format(unit=unit, owner=owner, target=target))
-
-
-def _property(entry: PropertyEntry | None, name: str, owner: str, molar_mass: float) -> Correlation | Missing:
-    whole = f"{owner}: {name.replace('_', ' ')}"
-    if entry is None:
-        return Missing(whole)
-    factor = _factor(entry.unit, _KIND_OF[name], molar_mass, whole)
-    low, high = entry.range or (0.0, inf)
-    if entry.form is None:
-        assert entry.value is not None
-        return Correlation(_form("polynomial", whole), (entry.value,), factor, low, high, whole, entry.source)
-    coefficients = None if entry.coefficients is None else tuple(entry.coefficients)
-    form = _form(entry.form, whole)
-    needs = any(p.name == "coefficients" for p in form.card.parameters)
-    if needs == (coefficients is None):
-        word = _("needs 'coefficients'") if needs else _("takes no 'coefficients'")
-        raise InputError(_("Form '{form}' {word} ({owner}).").format(form=entry.form, word=word, owner=whole))
-    return Correlation(form, coefficients, factor, low, high, whole, entry.source)
-
-
-def _or_nan(value: float | None) -> float:
-    return nan if value is None else value
-
-
-@cache
-def _fluid(key: str, _own: bool) -> Fluid:
-    entry: FluidEntry = _entry("fluid", key)[1]
-    made = {name: _property(getattr(entry, name), name, key, entry.molar_mass) for name in _FLUID_PROPERTIES}
-    return Fluid(name=key, french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass,
-                 critical_temperature=_or_nan(entry.critical_temperature), critical_pressure=_or_nan(entry.critical_pressure),
-                 diffusion_volume=_or_nan(entry.diffusion_volume),
-                 heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS), combustion=_combustion(entry),
-                 flammability=_flammability(entry), **made)  # fmt: skip
-
-
-def _combustion(entry: FluidEntry) -> Combustion | None:
-    burns = entry.combustion
-    return None if burns is None else Combustion(burns.air, burns.water, burns.lower_heating_value)
-
-
-def _flammability(entry: FluidEntry) -> Flammability | None:
-    burns = entry.flammability
-    return None if burns is None else Flammability(burns.lower_limit, _or_nan(burns.limiting_oxygen))
-
-
-@cache
-def _solid(key: str, _own: bool) -> Solid:
-    entry: SolidEntry = _entry("solid", key)[1]
-    mass = _or_nan(entry.molar_mass)
-    made = {name: _property(getattr(entry, name), name, key, mass) for name in _SOLID_PROPERTIES}
-    return Solid(name=key, french=entry.fr, formula=entry.formula, molar_mass=mass, sphericity=_or_nan(entry.sphericity),
-                 mohs_hardness=_or_nan(entry.mohs_hardness), **made)  # fmt: skip
-
-
-def _constant(function: Any, *values: Any) -> float:
-    """A number worked out once, also when a material is first asked for inside a traced function."""
-    if isinstance(function, Missing):
-        return nan
-    with flags.collect(), jax.ensure_compile_time_eval():  # flags of the build are nobody's inputs
-        return float(function(*values))
-
-
-@cache
-def _salt(key: str, _own: bool) -> Salt:
-    entry: SaltEntry = _entry("salt", key)[1]
-    cation, anion = entry.cation, entry.anion
-    return Salt(name=key, french=entry.fr, formula=entry.formula, cation=cation.name, anion=anion.name,
-                cation_count=float(cation.count), anion_count=float(anion.count), cation_charge=float(cation.charge),
-                anion_charge=float(anion.charge), solubility_product=entry.solubility_product, source=entry.source)  # fmt: skip
-
-
-def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid) -> Branch:
-    whole = f"{owner}: {_('solubility')} ({entry.crystal})"
-    if entry.basis not in BASES:
-        raise unknown_name(_("Basis of solubility"), entry.basis, BASES, _("for {owner}").format(owner=whole))
-    if entry.form == "table":
-        celsius, ratios = _printed(entry.table)
-        with jax.ensure_compile_time_eval():
-            law = Tabulated.through(celsius + ZERO_CELSIUS, ratios, *entry.range, whole, entry.source)
-    else:
-        law = Correlation(_form(entry.form, whole), tuple(entry.coefficients or ()), entry.factor, *entry.range, whole, entry.source)
-    heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass  # released when it crystallizes
-    branch = Branch(crystal=solid(entry.crystal), solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
-                    stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat, heat_given=entry.heat_of_solution is not None,
-                    law=law, basis=entry.basis, misfit=nan, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass), _ends=(0.0, 0.0))  # fmt: skip
-    ends = tuple(_constant(jax.grad(lambda u: jnp.log(branch.inside(1.0 / u))), 1.0 / end) for end in entry.range)
-    return replace(branch, _ends=ends, misfit=_constant(_misfit, branch, entry.table))
-
-
-def _printed(table: list[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
-    """Temperatures in °C and kg of anhydrous solute per kg of solvent."""
-    celsius, percent = np.array(table).T
-    return celsius, percent / (100.0 - percent)
-
-
-def _misfit(branch: Branch, table: list[tuple[float, float]]) -> Any:
-    """Root mean square of the relative deviations of a curve from the points it was drawn through; zero for the formula of a source."""
-    if not table:
-        return 0.0
-    celsius, ratios = _printed(table)
-    return jnp.sqrt(jnp.mean((branch.inside(celsius + ZERO_CELSIUS) / ratios - 1.0) ** 2))
-
-
-@cache
-def _solute(key: str, _own: bool) -> SoluteSystem:
-    entry: SoluteEntry = _entry("solute", key)[1]
-    solvent = fluid(entry.solvent)
-    branches = tuple(_branch(b, key, entry.molar_mass, solvent) for b in entry.branches)
-    dry = branches[-1].crystal
-    density = viscosity = heat_capacity = None
-    if entry.density:
-        density = LaliberteLaw(liquid_density_laliberte, tuple(entry.density), tuple(entry.density_limits or ()))
-    if entry.viscosity:
-        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, tuple(entry.viscosity), tuple(entry.viscosity_limits or ()))
-    if entry.heat_capacity:
-        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, tuple(entry.heat_capacity), tuple(entry.heat_capacity_limits or ()))
-    if heat_capacity is None:
-        parts = (solvent.liquid_heat_capacity, dry.heat_capacity)
-        gap = next((part for part in parts if isinstance(part, Missing)), None)
-        heat_capacity = NoLaw(gap) if gap is not None else AdditiveHeats(*parts)
-    system = SoluteSystem(
-        name=key.split(" in ")[0], french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass, solvent=solvent, branches=branches,
-        density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
-        viscosity_law=viscosity or NoLaw(Missing(f"{key}: {_('viscosity of the solution')}")),
-        heat_capacity_law=heat_capacity, solute_heat_capacity=nan,
-    )  # fmt: skip
-    return _with_enthalpies(system)
-
-
-def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:
-    """The system with the constants that put solution and crystals on one enthalpy scale."""
-
-    if isinstance(system.heat_capacity_law, NoLaw):
-        return system
-
-    def apparent() -> Any:
-        ratio = system.solubility(REFERENCE)
-        whole = system.solution_heat_capacity(REFERENCE, ratio)
-        return ((1.0 + ratio) * whole - system.solvent.liquid_heat_capacity.value(REFERENCE)) / ratio
-
-    system = replace(system, solute_heat_capacity=_constant(apparent))
-
-    def formed(b: Branch) -> float:
-        if isinstance(b.crystal.heat_capacity, Missing):
-            return nan
-        dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(REFERENCE)
-        return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)
-
-    return replace(system, branches=tuple(replace(b, enthalpy_of_formation=_constant(formed, b)) for b in system.branches))
+    return session().salt(name)

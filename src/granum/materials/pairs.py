@@ -12,7 +12,7 @@ from granum.core.i18n import _
 from granum.materials.correlation import as_pressure, as_temperature
 from granum.materials.fluids import Fluid
 from granum.materials.formulas.diffusivity import diffusivity_fuller, diffusivity_marrero_mason, lewis_number
-from granum.materials.library import fluid
+from granum.materials.library import Library, session
 
 
 class GasVapor(eqx.Module):
@@ -48,10 +48,11 @@ class GasVapor(eqx.Module):
         return lewis_number(gas.vapor_conductivity(T), gas.vapor_density(T, p), gas.vapor_heat_capacity(T), self.diffusivity(T, p))
 
 
-def gas_vapor(vapor: str = "water", gas: str = "dry air") -> GasVapor:
-    """A vapor and its carrier gas by name.
+def gas_vapor(vapor: str = "water", gas: str = "dry air", materials: Library | None = None) -> GasVapor:
+    """A vapor and its carrier gas by name, among ``materials`` or those of the session.
 
     >>> round(gas_vapor("water", "dry air").molar_mass_ratio, 3)
     0.622
     """
-    return GasVapor(fluid(gas), fluid(vapor))
+    known = materials or session()
+    return GasVapor(known.fluid(gas), known.fluid(vapor))

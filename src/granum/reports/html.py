@@ -18,6 +18,7 @@ from granum.core.registry import find
 from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number, from_si
+from granum.estimation.results import by_fit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import (
     check_row,
@@ -78,11 +79,9 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
 
 def _fit_sheets(run: Any) -> list[dict[str, Any]]:
     """The lab tests from which parameters of the line were estimated, each once, with what it gave to which unit."""
-    given: dict[int, tuple[Any, list[str]]] = {}
-    for path, (fit, name) in run.line.fits.items():
-        given.setdefault(id(fit), (fit, []))[1].append(f"{path} = {label_of(name)}")
     sheets = []
-    for fit, paths in given.values():
+    for fit, given in by_fit(run.line.fits):
+        paths = [f"{path} = {label_of(name)}" for path, name in given.items()]
         data, card = fit.as_json(), find(fit.card).card
         sheets.append({
             "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), defaults_text(data), ranges_text(data)))),

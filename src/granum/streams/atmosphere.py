@@ -8,7 +8,6 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core.limits import Limit
-from granum.materials import fluid
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import AIR, Mixture
@@ -34,7 +33,7 @@ def inerted(mixture: Mixture) -> bool:
     """Whether a gas that does not burn and brings no oxygen carries the vapor, so that the lack of oxygen is what keeps it safe."""
     humid = HumidMixture(mixture)
     others = [gas.name for gas in mixture.gases if gas.name != humid.solvent and gas.name not in OXYGEN]
-    return any(fluid(name).combustion is None for name in others)
+    return any(mixture.materials.fluid(name).combustion is None for name in others)
 
 
 def flammable(gas: Stream) -> dict[str, Any]:

@@ -5,7 +5,7 @@ Nothing else knows which gas of a mixture is the vapor and which liquid it belon
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 import jax
@@ -16,8 +16,9 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.humid_gas.pairs import AIR_WATER, AbstractPair
-from granum.materials import fluid, gas_vapor
+from granum.materials import gas_vapor
 from granum.materials.fluids import Fluid
+from granum.materials.library import Library
 from granum.numerics import find_root
 from granum.streams.mixture import AIR, Mixture, carrier_of
 from granum.streams.stream import Stream
@@ -26,11 +27,11 @@ COLDEST, HOTTEST = 200.0, 1500.0
 NEARLY_PURE = 1e-9  # dry gas over vapor below which there is a boiling point and no dew point
 
 
-@cache
-def _pair(carrier: str, vapor: str) -> AbstractPair:
-    from granum.humid_gas.solvents import GasAndVapor
+@lru_cache(maxsize=64)
+def _pair(materials: Library, carrier: str, vapor: str) -> AbstractPair:
+    from granum.humid_gas.solvents import PairOfMixture
 
-    return AIR_WATER if (carrier, vapor) == ("dry air", "water") else GasAndVapor(gas=carrier, vapor=vapor)
+    return AIR_WATER if (carrier, vapor) == (AIR, "water") else PairOfMixture(gas=carrier, vapor=vapor, materials=materials)
 
 
 class HumidMixture:
@@ -58,13 +59,13 @@ class HumidMixture:
                     liquid=self.solvent
                 )
             )
-        self.pair = _pair(self.carrier or AIR, self.solvent)  # alone it saturates as in any gas
+        self.pair = _pair(mixture.materials, self.carrier or AIR, self.solvent)  # alone it saturates as in any gas
         self.molar_masses = np.array([g.molar_mass for g in mixture.gases])
 
     @property
     def fluid(self) -> Fluid:
         """The substance that evaporates."""
-        return fluid(self.solvent)
+        return self.mixture.materials.fluid(self.solvent)
 
     @property
     def lewis_factor(self) -> Any:
@@ -74,7 +75,7 @@ class HumidMixture:
 
     def diffusivity(self, T: Any, P: Any) -> Any:
         """Of the vapor in the carrier, m²/s."""
-        return gas_vapor(self.solvent, self.carrier or AIR).diffusivity(T, P)
+        return gas_vapor(self.solvent, self.carrier or AIR, self.mixture.materials).diffusivity(T, P)
 
     def saturation_pressure(self, T: Any) -> Any:
         """Over liquid, Pa."""

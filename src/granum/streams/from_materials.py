@@ -22,7 +22,7 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.materials.correlation import Correlation
 from granum.materials.fluids import Fluid
-from granum.materials.library import fluid, load, names, solid, solute
+from granum.materials.library import Library, session
 from granum.materials.solutes import SoluteSystem
 from granum.streams.mixture import AIR, Mixture, Species, carrier_of
 
@@ -46,26 +46,26 @@ def mixture_of(
     axes: further axes of the solid.
     own: TOML files with the user's own materials.
     """
-    for path in own:
-        load(path)
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
-    systems = {name: system for name in liquids[1:] if (system := _system(name, liquids[0])) is not None}
+    known = session().with_files(own)
+    systems = {name: system for name in liquids[1:] if (system := _system(known, name, liquids[0])) is not None}
     return Mixture(
-        solids=tuple(_crystal(name, systems) or _inert(name) for name in solids),
-        liquids=tuple(_dissolved(name, systems[name]) if name in systems else _liquid(name) for name in liquids),
-        gases=tuple(_gas(name) for name in gases),
+        solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
+        liquids=tuple(_dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids),
+        gases=tuple(_gas(known, name) for name in gases),
         size_edges=tuple(float(e) for e in np.asarray(list(size_edges))),
         axes=axes,
-        liquid_viscosity=SolutionViscosity(tuple(liquids), tuple(systems)) if liquids else None,
-        gas_viscosity=CarrierProperty(carrier, "vapor_viscosity") if carrier else None,
-        gas_conductivity=CarrierProperty(carrier, "vapor_conductivity") if carrier else None,
+        liquid_viscosity=SolutionViscosity(known, tuple(liquids), tuple(systems)) if liquids else None,
+        gas_viscosity=CarrierProperty(known, carrier, "vapor_viscosity") if carrier else None,
+        gas_conductivity=CarrierProperty(known, carrier, "vapor_conductivity") if carrier else None,
+        materials=known,
     )
 
 
-def _system(name: str, solvent: str) -> SoluteSystem | None:
+def _system(known: Library, name: str, solvent: str) -> SoluteSystem | None:
     for candidate in (name, f"{name} in {solvent}"):
-        if candidate in names("solute"):
-            found = solute(candidate)
+        if candidate in known.names("solute"):
+            found = known.solute(candidate)
             if found.solvent.name == solvent:
                 return found
     return None
@@ -78,10 +78,10 @@ def _polynomial(law: Any, hottest: float = HOTTEST, degree: int = 2) -> tuple[fl
     return law()  # a property the library lacks says so
 
 
-def _liquid(name: str) -> Species:
-    if name not in names("fluid"):
-        raise unknown_name(_("Liquid"), name, (*names("fluid"), *names("solute")))
-    f = fluid(name)
+def _liquid(known: Library, name: str) -> Species:
+    if name not in known.names("fluid"):
+        raise unknown_name(_("Liquid"), name, (*known.names("fluid"), *known.names("solute")))
+    f = known.fluid(name)
     return Species(
         f.name, ((f.name, 1.0),), _polynomial(f.liquid_density), _polynomial(f.liquid_heat_capacity), 0.0, float(f.molar_mass), CONDENSED
     )
@@ -122,29 +122,29 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
     return None
 
 
-def _inert(name: str) -> Species:
-    s = solid(name)
+def _inert(known: Library, name: str) -> Species:
+    s = known.solid(name)
     return Species(s.name, ((s.name, 1.0),), _polynomial(s.density), _polynomial(s.heat_capacity), 0.0, float(s.molar_mass), CONDENSED)
 
 
-def _gas(name: str) -> Species:
-    f = fluid(name)
+def _gas(known: Library, name: str) -> Species:
+    f = known.fluid(name)
     heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
     made_of = ((f.name, 1.0),)
     if f.combustion is not None:  # counted as what it burns to, less the air that this takes, so that burning conserves components
         water = f.combustion.water
-        made_of, heat = ((AIR, 1.0 - water), ("water", water)), heat + _heat_held(f)
+        made_of, heat = ((AIR, 1.0 - water), ("water", water)), heat + _heat_held(known, f)
     return Species(f.name, made_of, (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass), (COLDEST, HOTTEST_GAS))
 
 
-def _heat_held(fuel: Fluid) -> float:
+def _heat_held(known: Library, fuel: Fluid) -> float:
     """What a fuel's enthalpy lies above that of the gas it burns to at one temperature, which the heating value is for 25 °C, J/kg."""
     burns = fuel.combustion
     assert burns is not None
     at = 298.15
 
     def above(T: Any) -> Any:
-        flue = (1.0 - burns.water) * fluid(AIR).vapor_enthalpy(T) + burns.water * fluid("water").vapor_enthalpy(T)
+        flue = (1.0 - burns.water) * known.fluid(AIR).vapor_enthalpy(T) + burns.water * known.fluid("water").vapor_enthalpy(T)
         return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
 
     return float(jax.jit(above)(at))
@@ -154,23 +154,24 @@ def _heat_held(fuel: Fluid) -> float:
 class SolutionViscosity:
     """Viscosity of the liquid: the solvent's, raised by each solute as in its binary solution at its own ratio to the solvent."""
 
+    materials: Library
     liquids: tuple[str, ...]
     solutes: tuple[str, ...]
 
     def __call__(self, mass_fractions: Any, temperature: Any) -> Any:
-        pure = fluid(self.liquids[0]).liquid_viscosity(temperature)
+        pure = self.materials.fluid(self.liquids[0]).liquid_viscosity(temperature)
         solvent = jnp.maximum(mass_fractions[0], 1e-12)
         viscosity = pure
         for i, name in enumerate(self.liquids):
             if i == 0:
                 continue
             if name in self.solutes:
-                system = _system(name, self.liquids[0])
+                system = _system(self.materials, name, self.liquids[0])
                 if system is None:
                     raise InputError(_("'{name}' is not a solute in '{solvent}'.").format(name=name, solvent=self.liquids[0]))
                 viscosity = viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / pure
             else:  # a second liquid: logarithmic mixing by mass (Arrhenius), a simplification
-                viscosity = viscosity * (fluid(name).liquid_viscosity(temperature) / pure) ** mass_fractions[i]
+                viscosity = viscosity * (self.materials.fluid(name).liquid_viscosity(temperature) / pure) ** mass_fractions[i]
         return viscosity
 
 
@@ -178,8 +179,9 @@ class SolutionViscosity:
 class CarrierProperty:
     """A transport property of the gas, taken as that of the carrier."""
 
+    materials: Library
     carrier: str
     name: str
 
     def __call__(self, temperature: Any) -> Any:
-        return getattr(fluid(self.carrier), self.name)(temperature)
+        return getattr(self.materials.fluid(self.carrier), self.name)(temperature)

@@ -13,6 +13,7 @@ import numpy as np
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.materials.library import Library, session
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ class Mixture:
     axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis leaves it alone.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
     gas_viscosity, gas_conductivity: functions of temperature → Pa s, W/(m K).
+    materials: where the fluids behind the species are found by name.
     """
 
     solids: tuple[Species, ...]
@@ -81,6 +83,7 @@ class Mixture:
     liquid_viscosity: Callable[[Any, Any], Any] | None = None
     gas_viscosity: Callable[[Any], Any] | None = None
     gas_conductivity: Callable[[Any], Any] | None = None
+    materials: Library = field(default_factory=session)
     _key: Any = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -88,7 +91,7 @@ class Mixture:
         if edges.size < 2 or np.any(np.diff(edges) <= 0) or edges[0] < 0:
             raise InputError(_("Size classes need at least two increasing boundaries of zero or more."))
         key = (self.solids, self.liquids, self.gases, self.size_edges, self.axes, self.liquid_viscosity, self.gas_viscosity,
-               self.gas_conductivity)  # fmt: skip
+               self.gas_conductivity, self.materials)  # fmt: skip
         object.__setattr__(self, "_key", (hash(key), key))
 
     def __hash__(self) -> int:

@@ -14,7 +14,6 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.numerics import find_root
 from granum.streams.mixture import Mixture
-from granum.streams.sharing import shared
 
 COLDEST, HOTTEST = 150.0, 2500.0  # K, the bracket in which a mixing temperature is sought
 
@@ -40,13 +39,11 @@ class Stream(eqx.Module):
 
     # -- totals ------------------------------------------------------------------------------------------------
     @property
-    @shared
     def solid_flow(self) -> Any:
         """Total solid, kg/s."""
         return jnp.sum(self.solid)
 
     @property
-    @shared
     def liquid_flow(self) -> Any:
         """Total liquid, kg/s."""
         return jnp.sum(self.liquid)
@@ -62,7 +59,6 @@ class Stream(eqx.Module):
         return self.solid_flow + self.liquid_flow + self.gas_flow
 
     @property
-    @shared
     def solid_by_species(self) -> Any:
         """Solid summed over all particle axes, kg/s per species."""
         return jnp.sum(self.solid, axis=tuple(range(1, self.solid.ndim)))
@@ -94,7 +90,6 @@ class Stream(eqx.Module):
         return sum(parts, jnp.zeros(()))
 
     @property
-    @shared
     def enthalpy_flow(self) -> Any:
         """Enthalpy flow, W, against the reference states of the mixture."""
         return self.enthalpy_at(self.temperature)
@@ -102,23 +97,21 @@ class Stream(eqx.Module):
     @property
     def liquid_fractions(self) -> Any:
         """Mass fractions of the liquid species (zero when there is no liquid)."""
-        return self.liquid / jnp.where(self.liquid_flow > 0, self.liquid_flow, 1.0)
+        total = self.liquid_flow
+        return self.liquid / jnp.where(total > 0, total, 1.0)
 
     @property
-    @shared
     def size_fractions(self) -> Any:
         """Mass fractions of the size classes (zero when there is no solid)."""
         total = self.solid_flow
         return self.solid_by_size / jnp.where(total > 0, total, 1.0)
 
     @property
-    @shared
     def solid_volume_flow(self) -> Any:
         """Volume of the solid, m³/s."""
         return jnp.sum(self.solid_by_species / self.mixture.densities("solids", self.temperature)) if self.mixture.solids else jnp.zeros(())
 
     @property
-    @shared
     def liquid_volume_flow(self) -> Any:
         """Volume of the liquid, m³/s, component volumes being additive."""
         return jnp.sum(self.liquid / self.mixture.densities("liquids", self.temperature)) if self.mixture.liquids else jnp.zeros(())
@@ -129,30 +122,22 @@ class Stream(eqx.Module):
         return self.solid_volume_flow + self.liquid_volume_flow
 
     @property
-    @shared
     def gas_volume_flow(self) -> Any:
         """Volume of the gas as an ideal gas, m³/s."""
         moles = sum(self.gas[i] / s.molar_mass for i, s in enumerate(self.mixture.gases))
         return moles * GAS_CONSTANT * self.temperature / self.pressure
 
     @property
-    @shared
     def solid_density(self) -> Any:
         """Mean density of the solid present, kg/m³; of the first species when there is none."""
-        some = self.solid_flow > 0
-        volume = jnp.where(some, self.solid_volume_flow, 1.0)
-        return jnp.where(some, self.solid_flow / volume, self.mixture.densities("solids", self.temperature)[0])
+        return _mean_density(self.solid_by_species, self.mixture.densities("solids", self.temperature))
 
     @property
-    @shared
     def liquid_density(self) -> Any:
         """Density of the liquid, kg/m³; of the first species when there is none."""
-        some = self.liquid_flow > 0
-        volume = jnp.where(some, self.liquid_volume_flow, 1.0)
-        return jnp.where(some, self.liquid_flow / volume, self.mixture.densities("liquids", self.temperature)[0])
+        return _mean_density(self.liquid, self.mixture.densities("liquids", self.temperature))
 
     @property
-    @shared
     def liquid_viscosity(self) -> Any:
         """Viscosity of the liquid, Pa s."""
         law = self.mixture.liquid_viscosity
@@ -161,7 +146,6 @@ class Stream(eqx.Module):
         return law(self.liquid_fractions, self.temperature)
 
     @property
-    @shared
     def gas_viscosity(self) -> Any:
         """Viscosity of the gas, Pa s."""
         law = self.mixture.gas_viscosity
@@ -170,7 +154,6 @@ class Stream(eqx.Module):
         return law(self.temperature)
 
     @property
-    @shared
     def gas_conductivity(self) -> Any:
         """Thermal conductivity of the gas, W/(m K)."""
         law = self.mixture.gas_conductivity
@@ -179,14 +162,13 @@ class Stream(eqx.Module):
         return law(self.temperature)
 
     @property
-    @shared
     def gas_heat_capacity(self) -> Any:
         """Heat capacity of the gas, J/(kg K)."""
         slope = jax.jvp(lambda T: self.mixture.enthalpies("gases", T), (jnp.asarray(self.temperature, dtype=float),), (jnp.ones(()),))[1]
-        return jnp.sum(self.gas * slope) / jnp.where(self.gas_flow > 0, self.gas_flow, 1.0)
+        flow = self.gas_flow
+        return jnp.sum(self.gas * slope) / jnp.where(flow > 0, flow, 1.0)
 
     @property
-    @shared
     def gas_density(self) -> Any:
         """Density of the gas, kg/m³ (zero when there is none)."""
         volume = self.gas_volume_flow
@@ -195,20 +177,22 @@ class Stream(eqx.Module):
     @property
     def moisture_dry_basis(self) -> Any:
         """Liquid per solid, kg/kg (zero when there is no solid)."""
-        return self.liquid_flow / jnp.where(self.solid_flow > 0, self.solid_flow, 1.0) * (self.solid_flow > 0)
+        solid = self.solid_flow
+        return self.liquid_flow / jnp.where(solid > 0, solid, 1.0) * (solid > 0)
 
     @property
     def solids_mass_fraction(self) -> Any:
         """Solid in solid and liquid, kg/kg."""
-        total = self.solid_flow + self.liquid_flow
-        return self.solid_flow / jnp.where(total > 0, total, 1.0)
+        solid = self.solid_flow
+        total = solid + self.liquid_flow
+        return solid / jnp.where(total > 0, total, 1.0)
 
     @property
-    @shared
     def solids_volume_fraction(self) -> Any:
         """Solid in the slurry by volume."""
-        total = self.slurry_volume_flow
-        return self.solid_volume_flow / jnp.where(total > 0, total, 1.0)
+        solid = self.solid_volume_flow
+        total = solid + self.liquid_volume_flow
+        return solid / jnp.where(total > 0, total, 1.0)
 
     # -- new streams -------------------------------------------------------------------------------------------
     def replace(self, **changes: Any) -> Stream:
@@ -272,6 +256,13 @@ def empty(mixture: Mixture, temperature: Any = 298.15, pressure: Any = STANDARD_
         pressure=jnp.asarray(pressure, dtype=float),
         mixture=mixture,
     )
+
+
+def _mean_density(flows: Any, densities: Any) -> Any:
+    """Density of what flows, component volumes being additive; of the first species when nothing does."""
+    flow = jnp.sum(flows)
+    some = flow > 0
+    return jnp.where(some, flow / jnp.where(some, jnp.sum(flows / densities), 1.0), densities[0])
 
 
 def median_size(stream: Stream) -> float | None:

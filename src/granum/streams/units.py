@@ -13,7 +13,6 @@ import jax
 
 from granum.core import flags
 from granum.core.limits import Limit
-from granum.streams.sharing import sharing
 from granum.streams.stream import Stream
 
 Limits = dict[str, Limit]
@@ -92,7 +91,7 @@ class Unit(eqx.Module):
         """The one pass: everything about this unit for these inlets; without figures and checks where not ``whole``."""
         figures: Any = None
         checks: tuple[Check, ...] = ()
-        with sharing(), flags.collect() as records:
+        with flags.collect() as records:
             inside = self.inside(**inlets)
             outlets = self.outlets(inside, **inlets)
             if whole:

@@ -19,6 +19,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
 from granum.estimation import Fit
+from granum.estimation.results import by_fit
 
 EDGE = 1e-12
 """Numbers are kept this far from 0 and 1, where a normal distribution is infinite."""
@@ -109,8 +110,7 @@ class FromFit(Source):
 def from_fits(wanted: Mapping[str, tuple[Fit, str]]) -> list[Source]:
     """Sources for inputs that come from fits; those of one fit stay together, so that their correlation is kept."""
     sources: list[Source] = []
-    for found in {id(fit): fit for fit, _name in wanted.values()}.values():
-        mine = {path: name for path, (fit, name) in wanted.items() if fit is found}
+    for found, mine in by_fit(wanted):
         for name in mine.values():
             estimate = found[name]
             if not np.isfinite(estimate.standard_error):

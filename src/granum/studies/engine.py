@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import time
-from collections import OrderedDict
 from collections.abc import Callable, Generator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing
@@ -191,19 +190,10 @@ def _possible(y: np.ndarray, kind: Kind | None) -> np.ndarray:
     return good & (y >= kind.lower - slack) & (y <= kind.upper + slack)
 
 
-_evaluators: OrderedDict[tuple[Any, ...], Evaluator] = OrderedDict()
-
-
 def evaluator(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], count: int) -> Evaluator:
-    """The evaluator of a subject; the last few are kept, compiled."""
-    kept = 1 << max(count - 1, 0).bit_length()
-    key = (id(subject), inputs, outputs, min(kept, max(CHUNKS.values())))
-    if key not in _evaluators:
-        _evaluators[key] = Evaluator.of(subject, inputs, outputs, count)
-        while len(_evaluators) > 8:
-            _evaluators.popitem(last=False)
-    _evaluators.move_to_end(key)
-    return _evaluators[key]
+    """The evaluator of a subject, which keeps the last few, compiled."""
+    size = min(1 << max(count - 1, 0).bit_length(), max(CHUNKS.values()))
+    return subject.kept(("cases", inputs, outputs, size), lambda: Evaluator.of(subject, inputs, outputs, count))
 
 
 def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], x: np.ndarray, *, progress: Report | None = None,

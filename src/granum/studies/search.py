@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -53,13 +52,10 @@ class Stopped(Exception):
     """The study was cancelled."""
 
 
-_functions: OrderedDict[tuple[Any, ...], Any] = OrderedDict()
-
-
 def _compiled(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], logs: tuple[bool, ...], sampled: bool) -> Any:
-    """Figures, exact derivatives and code at a place, compiled; the last few are kept, so that other limits or ranges start at once."""
-    key = (id(subject), inputs, outputs, logs, sampled)
-    if key not in _functions:
+    """Figures, exact derivatives and code at a place, compiled; the subject keeps the last few, so that other limits or ranges start at once."""
+
+    def build() -> Any:
         run = subject.traced(inputs, outputs)
 
         def one(z: Any, numbers: Any, low: Any, high: Any, extra: Any) -> Any:
@@ -76,11 +72,9 @@ def _compiled(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...
                 return jax.vmap(lambda extra: one(z, numbers, low, high, extra))(samples)
             return jax.lax.map(lambda extra: one(z, numbers, low, high, extra), samples)
 
-        _functions[key] = (jax.jit(many if sampled else one), subject)  # the subject is kept, so that its identity stays its own
-        while len(_functions) > 8:
-            _functions.popitem(last=False)
-    _functions.move_to_end(key)
-    return _functions[key][0]
+        return jax.jit(many if sampled else one)
+
+    return subject.kept(("search", inputs, outputs, logs, sampled), build)
 
 
 @dataclass

@@ -6,6 +6,7 @@ import abc
 import functools
 import hashlib
 import re
+from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -32,6 +33,7 @@ solution."""
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
 _DECIMALS = re.compile(r"\d+\.\d{8,}(e[+-]?\d+)?")
 _INDEXED = re.compile(r"^(.*)\[(-?\d+)\]$")
+MOST_KEPT = 8  # compiled functions of a subject
 Traced = Callable[[Any, Any], tuple[Any, Any]]
 
 
@@ -65,6 +67,7 @@ class Subject(abc.ABC):
     quantities: Mapping[str, Quantity] = field(default_factory=dict, kw_only=True)
     recipe: Any = field(default=None, kw_only=True, compare=False)
     """How another process can make the same subject: an object with ``build()``; None when it was made in Python."""
+    _kept: OrderedDict[Any, Any] = field(default_factory=OrderedDict, init=False, repr=False, compare=False)
 
     @property
     @abc.abstractmethod
@@ -99,6 +102,15 @@ class Subject(abc.ABC):
     @abc.abstractmethod
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         """Solves for given inputs: a function that looks up figures, and the code of the outcome. Pure."""
+
+    def kept(self, key: Any, build: Callable[[], Any]) -> Any:
+        """What was compiled for this subject, made when it is first asked for; the last few are kept, as long as the subject is."""
+        if key not in self._kept:
+            self._kept[key] = build()
+            while len(self._kept) > MOST_KEPT:
+                self._kept.popitem(last=False)
+        self._kept.move_to_end(key)
+        return self._kept[key]
 
     def identity(self) -> str:
         """What tells the model from another one, apart from its numbers."""

@@ -7,6 +7,7 @@ from collections.abc import Generator
 from contextlib import ExitStack
 from functools import lru_cache
 from typing import Any
+from uuid import uuid4
 
 import numpy as np
 
@@ -40,11 +41,11 @@ def computed(
         import distributed
     except ImportError:
         raise InputError(_("Workers need Dask: pip install 'granum[distributed]'.")) from None
-    size = max(len(x) for _start, x in chunks)
+    size, own = max(len(x) for _start, x in chunks), uuid4().hex
     with ExitStack() as stack:
         client = workers if isinstance(workers, distributed.Client) else stack.enter_context(_connect(distributed, workers, stack))
         futures = {
-            client.submit(chunk, recipe, inputs, outputs, size, x, key=f"granum-{start}-{id(chunks)}", retries=RETRIES, pure=False): start
+            client.submit(chunk, recipe, inputs, outputs, size, x, key=f"granum-{start}-{own}", retries=RETRIES, pure=False): start
             for start, x in chunks
         }
         try:

@@ -11,7 +11,6 @@ from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.crystallization.vessels.crystals import Crystal
 from granum.crystallization.vessels.msmpr import Feed
-from granum.materials.library import names
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -63,7 +62,7 @@ def given_off(feed: Stream, found: Roles, evaporation: Any, temperature: Any) ->
     if found.vapor is not None:
         gas = gas.at[found.vapor].add(evaporation)
         solvent = feed.mixture.liquids[0].name
-        if found.solvent == 0 and solvent == feed.mixture.gases[found.vapor].name and solvent in names("fluid"):
+        if found.solvent == 0 and solvent == feed.mixture.gases[found.vapor].name and solvent in feed.mixture.materials.names("fluid"):
             boiling = HumidMixture(feed.mixture, alone=True).saturation_pressure(T)
             pressure = jnp.where(evaporation > 0.0, jnp.minimum(boiling, pressure), pressure)
     return empty(feed.mixture, T).replace(gas=gas, pressure=pressure)

@@ -6,6 +6,7 @@ Every law gives kg of anhydrous solute per kg of solvent.
 from __future__ import annotations
 
 from abc import abstractmethod
+from copy import copy
 from typing import Annotated, Any, ClassVar
 
 import equinox as eqx
@@ -15,7 +16,7 @@ from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
 from granum.crystallization.kinds import MolarEntropy
-from granum.materials.library import solute as material_solute
+from granum.materials.library import Library, session
 
 
 class SolubilityLaw(eqx.Module):
@@ -33,9 +34,16 @@ class LibrarySolubility(SolubilityLaw):
 
     solute: str = eqx.field(static=True)
     crystal: str = eqx.field(static=True, default="")
+    materials: Library | None = eqx.field(static=True, init=False, default=None)
+
+    def with_materials(self, materials: Library) -> LibrarySolubility:
+        """The same law with the materials of a case, which may have a solute of its own."""
+        made = copy(self)
+        object.__setattr__(made, "materials", materials)
+        return made
 
     def __call__(self, temperature: Temperature) -> MassRatio:
-        return material_solute(self.solute).solubility(temperature, self.crystal or None)
+        return (self.materials or session()).solute(self.solute).solubility(temperature, self.crystal or None)
 
 
 @law("solubility_law", name="polynomial_solubility", source="mullin2001, ch. 3", title="Solubility by a polynomial in °C",

@@ -48,7 +48,10 @@ class CycloneFigures(NamedTuple):
 
 
 class Swirl(NamedTuple):
-    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by the swirl, saltation velocity, wear, m/s."""
+    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by the swirl, saltation velocity, wear, m/s.
+
+    ``grade``: share of each species and size class collected by the inner vortex.
+    """
 
     velocity: Any
     cut: Any
@@ -57,6 +60,7 @@ class Swirl(NamedTuple):
     pressure_drop: Any
     saltation: Any
     wear: Any
+    grade: Any
 
 
 @equipment("gas_cyclone", source="hoffmann2008; muschelknautz1972; stairmand1949", title="Gas cyclone")
@@ -86,41 +90,33 @@ class GasCyclone(Unit):
         """Lengths of each cyclone."""
         return self.cyclone_geometry(self.diameter)
 
-    def _flow(self, feed: Stream) -> Any:
-        return jnp.maximum(feed.gas_volume_flow, LEAST) / self.parallel_number
-
-    def _density(self, feed: Stream) -> Any:
-        rho = feed.gas_density
-        return jnp.where(rho > 0.0, rho, LEAST)  # without gas nothing is carried
-
-    def grade(self, feed: Stream) -> Any:
-        """Share of each species and size class collected by the inner vortex."""
-        m = feed.mixture
-        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
-        size = jnp.asarray(m.sizes) + 0.0 * density
-        return self.cyclone_efficiency(size, self._flow(feed), density, self._density(feed), feed.gas_viscosity, *self.dimensions)
-
     def inside(self, feed: Stream) -> Swirl:
-        shape, density = self.dimensions, self._density(feed)
-        velocity = self._flow(feed) / (shape.inlet_height * shape.inlet_width)
+        m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
+        volume = feed.gas_volume_flow
+        flow = jnp.maximum(volume, LEAST) / self.parallel_number
+        density = jnp.where(volume > 0.0, safe_divide(feed.gas_flow, volume), LEAST)  # without gas nothing is carried
+        velocity = flow / (shape.inlet_height * shape.inlet_width)
         loading = safe_divide(feed.solid_flow, feed.gas_flow)
-        cut = cut_size_muschelknautz(self._flow(feed), feed.solid_density, density, feed.gas_viscosity, *shape, loading)
+        each = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
+        size = jnp.asarray(m.sizes) + 0.0 * each
+        cut = cut_size_muschelknautz(flow, dust, density, viscosity, *shape, loading)
         below = jnp.cumsum(feed.size_fractions)
         edges = jnp.asarray(feed.mixture.edges)
         median = jnp.exp(jnp.interp(0.5, below, jnp.log(jnp.maximum(edges[1:], LEAST))))
-        saltation = saltation_velocity_kalen_zenz(
-            velocity, self.diameter, shape.inlet_width, feed.solid_density, density, feed.gas_viscosity
-        )
+        saltation = saltation_velocity_kalen_zenz(velocity, self.diameter, shape.inlet_width, dust, density, viscosity)
+        flux = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) / (self.parallel_number * shape.inlet_height * shape.inlet_width)
+        wear = wear_velocity_cyclone_inlet(velocity, flux, self.diameter, shape.inlet_width, size, each, viscosity, self.wall_hardness)
         return Swirl(
             velocity, cut, loading, limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
-            self.inlet_heads(*shape) * 0.5 * density * velocity**2, saltation, self._wear(feed, velocity),
+            self.inlet_heads(*shape) * 0.5 * density * velocity**2, saltation, jnp.sum(wear),
+            self.cyclone_efficiency(size, flow, each, density, viscosity, *shape),
         )  # fmt: skip
 
     def outlets(self, inside: Swirl, feed: Stream) -> CycloneOutlets:
         passes = jnp.clip(
             safe_divide(inside.carried, inside.loading, otherwise=1.0), 0.0, 1.0
         )  # of the dust that stays with the gas past the inlet
-        share = 1.0 - passes * (1.0 - self.grade(feed))
+        share = 1.0 - passes * (1.0 - inside.grade)
         share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
         total = safe_divide(jnp.sum(feed.solid * share), feed.solid_flow)
         dust = feed.part(solid=share, liquid=total)
@@ -135,12 +131,3 @@ class GasCyclone(Unit):
 
     def measured(self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream) -> dict[str, Any]:
         return {"velocity": inside.velocity, "saltation": inside.velocity / inside.saltation, "wear": 1e3 * YEAR * inside.wear}
-
-    def _wear(self, feed: Stream, velocity: Any) -> Any:
-        shape, m = self.dimensions, feed.mixture
-        dust = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
-        flux = dust / (self.parallel_number * shape.inlet_height * shape.inlet_width)
-        density = m.densities("solids", feed.temperature)[:, None] + 0.0 * dust
-        size = jnp.asarray(m.sizes) + 0.0 * dust
-        return jnp.sum(wear_velocity_cyclone_inlet(velocity, flux, self.diameter, shape.inlet_width, size, density,
-                                                   feed.gas_viscosity, self.wall_hardness))  # fmt: skip

@@ -12,7 +12,6 @@ from granum.core.i18n import _
 from granum.core.kinds import Fraction, HumidityRatio, MassFlow, MassRatio, Power, Temperature
 from granum.core.limits import Limit
 from granum.materials.fluids import Combustion
-from granum.materials.library import fluid
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import AIR, Mixture
@@ -89,7 +88,7 @@ class Burner(Unit):
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:
     """Places of the fuels among the gases, and how they burn."""
-    found = {i: burns for i, gas in enumerate(mixture.gases) if (burns := fluid(gas.name).combustion) is not None}
+    found = {i: burns for i, gas in enumerate(mixture.gases) if (burns := mixture.materials.fluid(gas.name).combustion) is not None}
     if not found or not {AIR, "water"} <= {gas.name for gas in mixture.gases}:
         raise InputError(_("A burner needs a mixture with the gases dry air, water and a fuel, such as methane."))
     return found

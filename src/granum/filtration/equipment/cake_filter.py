@@ -81,6 +81,7 @@ class Slurry(NamedTuple):
     dynamic_viscosity: Any
     dry_cake_per_filtrate: Any
     void_volume_flow: Any
+    wash_viscosity: Any
 
 
 class Caked(NamedTuple):
@@ -133,18 +134,18 @@ class CakeFilter(Unit):
         """Resistance of what carries the cake."""
         return self.medium_resistance
 
-    def slurry(self, feed: Stream) -> Slurry:
+    def slurry(self, feed: Stream, wash: Stream | None = None) -> Slurry:
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
         void = void_flow(feed, self.solids_recovery, self.void_fraction)
         filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + TRICKLE)
         cake = jnp.maximum(solid / filtrate, THIN)
-        return Slurry(solid, feed.solid_density, feed.liquid_density, feed.liquid_viscosity, cake, void)
+        own = feed.liquid_viscosity
+        return Slurry(solid, feed.solid_density, feed.liquid_density, own, cake, void, own if wash is None else wash.liquid_viscosity)
 
-    def wash_flux(self, loading: Any, feed: Stream, wash: Stream | None) -> Any:
+    def wash_flux(self, loading: Any, s: Slurry) -> Any:
         """Superficial velocity of wash liquor through a cake of that dry mass per area."""
-        viscosity = feed.liquid_viscosity if wash is None else wash.liquid_viscosity
-        return self.pressure_drop / (viscosity * jnp.maximum(self.resistance * loading + self.media_resistance(), OPEN))
+        return self.pressure_drop / (s.wash_viscosity * jnp.maximum(self.resistance * loading + self.media_resistance(), OPEN))
 
     def thickness(self, loading: Any, solid_density: Any) -> Any:
         """Cake thickness of a dry mass per area."""
@@ -163,7 +164,7 @@ class CakeFilter(Unit):
         """Fraction of the mother liquor that washing leaves in the cake, by dispersion but never better than practice."""
         if wash is None:
             return jnp.ones(())
-        pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, feed, wash) / self.void_fraction
+        pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, s) / self.void_fraction
         number = practical_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), self._diameter(feed), self.diffusivity)
         return remaining_fraction(self.wash_ratio(s, wash), number)
 
@@ -187,7 +188,7 @@ class CakeFilter(Unit):
         return solid_diameter(feed, self.particle_diameter)
 
     def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
-        s = self.slurry(feed)
+        s = self.slurry(feed, wash)
         plan = self.plan(s, feed, wash)
         return Caked(s, plan, self.wash_ratio(s, wash), self.solute_left(s, feed, wash, plan), self.saturation(s, feed, plan))
 
@@ -224,4 +225,4 @@ class CakeFilter(Unit):
     def size(cls, feed: Stream, wash: Stream | None = None, *, capacity_use: float = 1.0, **fields: Any) -> Any:
         """The filter whose area this feed just fills to the share ``capacity_use``, everything else given."""
         trial = cls(area=1.0, **fields)
-        return cls(area=trial.plan(trial.slurry(feed), feed, wash).area_required / capacity_use, **fields)
+        return cls(area=trial.plan(trial.slurry(feed, wash), feed, wash).area_required / capacity_use, **fields)

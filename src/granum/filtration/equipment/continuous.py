@@ -42,7 +42,7 @@ class ContinuousFilter(CakeFilter):
         most = s.dry_cake_per_filtrate * filtrate
         loading = s.solid_flow * turn / self.area
         wash_volume = 0.0 if wash is None else wash.liquid_volume_flow * turn / self.area
-        use = wash_volume / jnp.maximum(self.wash_flux(loading, feed, wash) * washed, 1e-300)
+        use = wash_volume / jnp.maximum(self.wash_flux(loading, s) * washed, 1e-300)
         return Plan(loading, self.thickness(loading, s.solid_density), form, washed, drained, turn, s.solid_flow * turn / most, use)
 
 

@@ -46,6 +46,17 @@ class BedFigures(NamedTuple):
     entrained_share: Fraction
 
 
+class Blown(NamedTuple):
+    """The gas, m/s, kg/m³ and Pa s, on a solid of that density and mean size, and the share of each species and size class that it takes along."""
+
+    velocity: Any
+    density: Any
+    viscosity: Any
+    solid_density: Any
+    mean_size: Any
+    carried: Any = None
+
+
 @equipment("fluidized_bed", source="kunii1991; geldart1979", title="Fluidized bed")
 class FluidizedBed(Unit):
     """Well-mixed gas-fluidized bed of fixed solid mass: every size class leaves with the gas by its elutriation constant, the rest overflows.
@@ -72,25 +83,23 @@ class FluidizedBed(Unit):
         """The bed that gives a gas velocity and a residence time of the solid."""
         return cls(gas_volume_flow / superficial_velocity, solid_mass_flow * residence_time, **more)
 
-    def _density(self, feed: Stream) -> Any:
-        rho = feed.gas_density
-        return jnp.where(rho > 0.0, rho, THIN)
+    def _blown(self, feed: Stream) -> Blown:
+        volume = feed.gas_volume_flow
+        density = jnp.where(volume > 0.0, safe_divide(feed.gas_flow, volume), THIN)
+        mean = 1.0 / jnp.maximum(jnp.sum(feed.size_fractions / jnp.asarray(feed.mixture.sizes)), 1e-9)
+        return Blown(jnp.maximum(volume / self.area, LEAST), density, feed.gas_viscosity, feed.solid_density, mean)
 
-    def _velocity(self, feed: Stream) -> Any:
-        return jnp.maximum(feed.gas_volume_flow / self.area, LEAST)
-
-    def rates(self, feed: Stream) -> Any:
+    def rates(self, feed: Stream, gas: Blown) -> Any:
         """Elutriation of each species and size class per mass fraction in the bed, kg/s."""
         m = feed.mixture
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * density
-        fall = terminal_velocity(size, density, self._density(feed), feed.gas_viscosity)
-        U = self._velocity(feed)
-        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), self._density(feed)), 0.0) * self.area
+        fall, U = terminal_velocity(size, density, gas.density, gas.viscosity), gas.velocity
+        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), gas.density), 0.0) * self.area
 
-    def inside(self, feed: Stream) -> Any:
-        """Share of each species and size class that leaves with the gas."""
-        rates, flows = self.rates(feed), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
+    def inside(self, feed: Stream) -> Blown:
+        gas = self._blown(feed)
+        rates, flows = self.rates(feed, gas), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         total = jnp.maximum(jnp.sum(flows), LEAST)
 
         # x_i = F_i/(P + K_i); the mass fractions sum to one. With P = total the sum is at most one; with P = 0 at least one, or none stays
@@ -101,39 +110,33 @@ class FluidizedBed(Unit):
         root = find_root(surplus, 0.0, total, start=0.5 * total)
         overflow = jnp.where(emptied, 0.0, root.value)
         unsolved(root.converged | emptied, type(self).card, reason=_UNSOLVED)
-        return rates / (overflow + rates + LEAST * total)
+        return gas._replace(carried=rates / (overflow + rates + LEAST * total))
 
-    def _drop(self, feed: Stream) -> Any:
-        weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - self._density(feed) / feed.solid_density)
+    def _drop(self, gas: Blown) -> Any:
+        weight = self.mass * STANDARD_GRAVITY / self.area * (1.0 - gas.density / gas.solid_density)
         return weight * (1.0 + self.distributor_ratio)
 
-    def outlets(self, inside: Any, feed: Stream) -> BedOutlets:
-        share = inside.reshape(inside.shape + (1,) * len(feed.mixture.axes))
+    def outlets(self, inside: Blown, feed: Stream) -> BedOutlets:
+        share = inside.carried.reshape(inside.carried.shape + (1,) * len(feed.mixture.axes))
         carried = feed.solid * share
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)
         gas = feed.part(solid=share, liquid=moist, gas=1.0)
-        lower = jnp.maximum(feed.pressure - self._drop(feed), 1.0)
+        lower = jnp.maximum(feed.pressure - self._drop(inside), 1.0)
         product = feed.replace(solid=feed.solid - carried, liquid=feed.liquid - gas.liquid, gas=0.0 * feed.gas)
         return BedOutlets(gas.replace(pressure=lower), product.replace(pressure=lower))
 
-    def _mean_size(self, feed: Stream) -> Any:
-        return 1.0 / jnp.maximum(jnp.sum(feed.size_fractions / jnp.asarray(feed.mixture.sizes)), 1e-9)
-
-    def _minimum(self, feed: Stream) -> Any:
-        return self.minimum_fluidization(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
-
-    def figures(self, inside: Any, outlets: BedOutlets, feed: Stream) -> BedFigures:
-        U, first = self._velocity(feed), self._minimum(feed)
-        settled = self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
+    def figures(self, inside: Blown, outlets: BedOutlets, feed: Stream) -> BedFigures:
+        U, first = inside.velocity, self.minimum_fluidization(inside.mean_size, inside.solid_density, inside.density, inside.viscosity)
+        settled = self.mass / (self.area * inside.solid_density * (1.0 - self.void_fraction))
         bed = two_phase_bed(U, first, settled, GAS_DIFFUSIVITY, self.void_fraction, diameter=jnp.sqrt(4.0 * self.area / jnp.pi))
         return BedFigures(
-            U, first, self._drop(feed), bed.bubble_diameter, bed.bubble_fraction, bed.height_expanded, bed.bypass_fraction,
+            U, first, self._drop(inside), bed.bubble_diameter, bed.bubble_fraction, bed.height_expanded, bed.bypass_fraction,
             disengaging_height_smolders(U, first, bed.bubble_diameter), safe_divide(outlets.gas.solid_flow, feed.solid_flow),
         )  # fmt: skip
 
-    def measured(self, inside: Any, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
+    def measured(self, inside: Blown, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
         U = figures.superficial_velocity
-        fall = terminal_velocity(self._mean_size(feed), feed.solid_density, self._density(feed), feed.gas_viscosity)
+        fall = terminal_velocity(inside.mean_size, inside.solid_density, inside.density, inside.viscosity)
         return {
             "fluidized": U / figures.minimum_fluidization_velocity,
             "carried": U / fall,

@@ -50,8 +50,9 @@ def class_velocities(feed: Stream, drag: Any, hindrance: Any) -> Any:
     m = feed.mixture
     density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
     size = jnp.asarray(m.sizes) + 0.0 * density
-    alone = terminal_velocity(size, density, feed.liquid_density, feed.liquid_viscosity, drag=drag)
-    reynolds = reynolds_number(size, jnp.abs(alone), feed.liquid_density, feed.liquid_viscosity)
+    liquid = feed.liquid_density, feed.liquid_viscosity
+    alone = terminal_velocity(size, density, *liquid, drag=drag)
+    reynolds = reynolds_number(size, jnp.abs(alone), *liquid)
     crowd = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
     return alone * hindrance(crowd, reynolds)
 

@@ -1,0 +1,153 @@
+"""``feed``: a stream that enters a line, from words and quantities with units, as a case file gives it under ``[feeds]``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from granum.core import registry
+from granum.core.conversion import convert
+from granum.core.errors import GranumError, InputError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.streams.mixture import Mixture
+from granum.streams.stream import Stream, empty
+
+Given = Any
+"""A number in SI, or a text with its unit."""
+LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
+
+
+def feed(
+    mixture: Mixture, *, temperature: Given = "25 degC", pressure: Given = "1 atm", mass_flow: Given = None,
+    solids_mass_fraction: Given = None, liquid_flow: Given = None, liquid: Mapping[str, Given] | None = None,
+    solid_flow: Given = None, solid: Mapping[str, Given] | None = None, gas_flow: Given = None,
+    gas: Mapping[str, Given] | None = None, relative_humidity: Given = None, sizes: Any = None, where: str = "",
+) -> Stream:  # fmt: skip
+    """A stream of given flows. Shares are mass fractions within the phase; flows are of the whole phase.
+
+    Parameters
+    ----------
+    mass_flow: solid and liquid together, divided by ``solids_mass_fraction``; or ``liquid_flow`` and ``solid_flow``.
+    liquid, solid, gas: mass fractions by name; need not be given where there is one species.
+    relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it where there are several.
+    sizes: of the solid: a law of size distribution, the word for one with its parameters (``{"law": "rosin_rammler", …}``), or
+        ``{"fractions": […]}``. where: what a message calls this feed.
+    """
+    where = where or _("in the feed")
+
+    def quantity(value: Given, kind: str, name: str) -> float:
+        return float(convert(value, Parameter(name, KINDS[kind]), " " + where))
+
+    def shares(phase: str, given: Mapping[str, Given] | None) -> np.ndarray:
+        found = np.zeros(len(getattr(mixture, phase)))
+        for name, value in (given or {}).items():
+            found[mixture.index(phase, name)] = quantity(value, "MassFraction", name)
+        if not given and len(found) == 1:
+            found[0] = 1.0
+        if abs(found.sum() - 1.0) > 1e-6:
+            raise InputError(
+                _("{where}: the shares of the {phase} add up to {total}, not 1.").format(
+                    where=where, phase=_(phase), total=f"{found.sum():.6g}"
+                )
+            )
+        return found / found.sum()
+
+    solids, liquids = (
+        None if flow is None else quantity(flow, "MassFlow", n) for n, flow in (("solid_flow", solid_flow), ("liquid_flow", liquid_flow))
+    )
+    if mass_flow is not None:
+        if solids is not None or liquids is not None:
+            raise InputError(_("{where}: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(where=where))
+        total = quantity(mass_flow, "MassFlow", "mass_flow")
+        share = 0.0 if solids_mass_fraction is None else quantity(solids_mass_fraction, "MassFraction", "solids_mass_fraction")
+        solids, liquids = total * share, total * (1.0 - share)
+    stream = empty(mixture, quantity(temperature, "Temperature", "temperature"), quantity(pressure, "Pressure", "pressure"))
+    if liquids:
+        stream = stream.replace(liquid=jnp.asarray(liquids * shares("liquids", liquid)))
+    if solids:
+        by_class = solids * shares("solids", solid)[:, None] * size_shares(sizes, mixture, where)[None, :]
+        spread = by_class.reshape(by_class.shape + (1,) * len(mixture.axes)) * np.ones(mixture.solid_shape)
+        stream = stream.replace(solid=jnp.asarray(spread / int(np.prod(mixture.solid_shape[2:]))))
+    if gas_flow is not None:
+        flow = quantity(gas_flow, "MassFlow", "gas_flow")
+        if relative_humidity is None:
+            stream = stream.replace(gas=jnp.asarray(flow * shares("gases", gas)))
+        else:
+            stream = _humid(
+                stream,
+                flow,
+                shares("gases", gas) if gas else None,
+                quantity(relative_humidity, "RelativeHumidity", "relative_humidity"),
+                where,
+            )
+    if float(stream.mass_flow) <= 0:
+        raise InputError(_("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(where=where))
+    return stream
+
+
+def _humid(stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humidity: float, where: str) -> Stream:
+    """The stream with so much dry gas and the vapor that it then holds, of whatever pair its mixture has."""
+    from granum.humid_gas import state
+    from granum.streams.equilibrium import HumidMixture
+
+    try:
+        humid = HumidMixture(stream.mixture)
+    except GranumError as problem:
+        raise InputError(f"{where}: {problem.message}") from None
+    carriers = [g.name for g in stream.mixture.gases if g.name != humid.solvent]
+    if of_dry is None and len(carriers) > 1:
+        raise InputError(
+            _("{where}: 'relative_humidity' with several dry gases needs the shares of these in 'gas': {names}.").format(
+                where=where, names=", ".join(carriers)
+            )
+        )
+    humidity = state(
+        temperature=float(stream.temperature), pressure=float(stream.pressure), relative_humidity=relative_humidity, pair=humid.pair
+    ).humidity_ratio
+    if of_dry is None:
+        of_dry = np.array([float(g.name != humid.solvent) for g in stream.mixture.gases])
+    if of_dry[humid.vapor]:
+        raise InputError(
+            _("{where}: 'relative_humidity' says how much vapor there is; leave {name} out of 'gas'.").format(
+                where=where, name=humid.solvent
+            )
+        )
+    moles = jnp.sum(dry * of_dry / humid.molar_masses)
+    y = humid.pair.fraction(humidity)
+    return stream.replace(gas=jnp.asarray(dry * of_dry).at[humid.vapor].set(moles * y / (1.0 - y) * humid.molar_masses[humid.vapor]))
+
+
+def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
+    """Mass fractions of the size classes."""
+    count = len(mixture.sizes)
+    if sizes is None:
+        raise InputError(
+            _('{where}: a feed with solid needs its size distribution, as sizes = {{ law = "rosin_rammler", … }}.').format(where=where)
+        )
+    if isinstance(sizes, Mapping) and sizes.get("fractions") is not None:
+        shares = np.asarray(sizes["fractions"], dtype=float)
+        if shares.shape != (count,) or np.any(shares < 0) or abs(shares.sum() - 1.0) > 1e-6:
+            raise InputError(
+                _("{where}: 'sizes.fractions' needs {count} values of zero or more that add up to 1.").format(where=where, count=count)
+            )
+        return shares
+    if isinstance(sizes, Mapping):
+        options = dict(sizes)
+        law = options.pop("law", None)
+        if law is None:
+            raise InputError(_("{where}: 'sizes' needs 'law' or 'fractions'.").format(where=where))
+        sizes = registry.law("size_distribution", law, where, options)
+    cumulative = np.asarray(sizes(mixture.edges))
+    inside = cumulative[-1] - cumulative[0]
+    if inside < LEAST_INSIDE:
+        raise InputError(
+            _("{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes].").format(
+                where=where, missing=f"{100 * (1 - inside):.3g}"
+            )
+        )
+    return np.asarray(sizes.classes(mixture.edges).to_basis("volume").fractions)

@@ -1,0 +1,75 @@
+"""Materials that a case names in its own files are its own: other cases, and the same case read again, are not touched by them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import granum
+from granum import materials
+from granum.core.errors import InputError
+from granum.materials.library import SHIPPED
+
+CASE = """
+title = "A tank"
+[mixture]
+liquids = ["brine"]
+solids = ["zeolite"]
+materials = ["own.toml"]
+sizes = { smallest = "10 um", largest = "1 mm", classes = 2 }
+[feeds.slurry]
+to = "mixer.feed"
+solid_flow = "2 kg/s"
+liquid_flow = "3 kg/s"
+sizes = { fractions = [0.5, 0.5] }
+[units.mixer]
+model = "streams.mixer"
+"""
+OWN = """
+[solid.zeolite]
+density = {{ value = {solid}, source = "own" }}
+heat_capacity = {{ value = 900.0, source = "own" }}
+molar_mass = 0.1
+[fluid.brine]
+molar_mass = 0.02
+liquid_density = {{ value = {liquid}, source = "own" }}
+liquid_heat_capacity = {{ value = 3500.0, source = "own" }}
+liquid_viscosity = {{ value = {viscosity}, source = "own" }}
+"""
+LIGHT = {"solid": 1500.0, "liquid": 1000.0, "viscosity": 1e-3}
+HEAVY = {"solid": 3000.0, "liquid": 1250.0, "viscosity": 4e-3}
+
+
+def case(folder: Path, own: dict[str, float]) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / "own.toml").write_text(OWN.format(**own), encoding="utf-8")
+    (folder / "line.toml").write_text(CASE, encoding="utf-8")
+    return folder / "line.toml"
+
+
+def judged(line: granum.Line, own: dict[str, float]) -> None:
+    """Volume and viscosity of what leaves, by hand."""
+    product = line.solve().streams["mixer.product"]
+    assert float(product.slurry_volume_flow) == pytest.approx(2.0 / own["solid"] + 3.0 / own["liquid"], rel=1e-12)
+    assert float(product.liquid_viscosity) == pytest.approx(own["viscosity"], rel=1e-12)
+
+
+@pytest.mark.parametrize("order", [(LIGHT, HEAVY), (HEAVY, LIGHT)])
+def test_two_cases_with_one_name(tmp_path: Path, order: tuple[dict[str, float], ...]) -> None:
+    lines = [granum.read(case(tmp_path / str(i), own)) for i, own in enumerate(order)]
+    for line, own in zip(lines, order, strict=True):
+        judged(line, own)
+    assert "zeolite" not in materials.names("solid")
+
+
+def test_a_file_edited_between_two_reads(tmp_path: Path) -> None:
+    for own in (LIGHT, HEAVY):
+        judged(granum.read(case(tmp_path, own)), own)
+
+
+def test_the_name_of_a_shipped_material_is_taken(tmp_path: Path) -> None:
+    path = tmp_path / "own.toml"
+    path.write_text('[solid.quartz]\ndensity = { value = 1.0, source = "own" }\n', encoding="utf-8")
+    with pytest.raises(InputError, match="already the name"):
+        SHIPPED.with_files([path])

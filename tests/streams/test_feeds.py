@@ -1,0 +1,69 @@
+"""A feed in Python is the feed of a case file: the same words, quantities and refusals, and one humidity for any pair."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+import pytest
+
+import granum
+from granum.core.errors import InputError
+from granum.materials import fluid
+from granum.streams.feeding import feed
+from granum.streams.from_materials import mixture_of
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+EDGES = (1e-5, 1e-4, 1e-3)
+WET = mixture_of(["water"], ["quartz", "calcite"], ["dry air", "water"], EDGES)
+EVEN = {"fractions": [0.5, 0.5]}
+
+
+def test_flows_and_shares_by_hand() -> None:
+    shares = {"quartz": 0.8, "calcite": "20 %"}
+    made = feed(WET, mass_flow="3.6 t/h", solids_mass_fraction="25 %", solid=shares, sizes=EVEN, temperature="50 degC")
+    np.testing.assert_allclose(made.solid, [[0.1, 0.1], [0.025, 0.025]], rtol=1e-14)
+    np.testing.assert_allclose(made.liquid, [0.75], rtol=1e-14)
+    assert float(made.temperature) == pytest.approx(323.15, rel=1e-14)
+    assert float(made.gas_flow) == 0.0
+
+
+@pytest.mark.parametrize("gases", [("nitrogen", "ethanol"), ("ethanol", "nitrogen")])
+def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
+    """Half the vapor pressure of ethanol at 20 °C: some 0.05 kg per kg of nitrogen, not the 0.007 of water in air."""
+    made = feed(mixture_of(["ethanol"], [], gases, EDGES), gas_flow=2.0, relative_humidity="50 %", temperature="20 degC")
+    vapor, dry = (float(made.gas[gases.index(name)]) for name in ("ethanol", "nitrogen"))
+    share = 0.5 * float(fluid("ethanol").vapor_pressure(293.15)) / 101325.0
+    ratio = float(fluid("ethanol").molar_mass / fluid("nitrogen").molar_mass)
+    assert dry == 2.0
+    assert vapor / dry == pytest.approx(share / (1.0 - share) * ratio, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ({}, "nothing flows"),
+        ({"mass_flow": 1.0, "liquid_flow": 1.0}, "not both"),
+        ({"solid_flow": 1.0, "sizes": EVEN}, "add up to 0"),
+        ({"solid_flow": 1.0, "solid": {"quartz": 1.0}}, "size distribution"),
+        ({"solid_flow": 1.0, "solid": {"quartz": 1.0}, "sizes": {"fractions": [1.0]}}, "2 values"),
+        ({"solid_flow": 1.0, "solid": {"quarz": 1.0}, "sizes": EVEN}, "quartz"),
+        ({"liquid_flow": "1 m"}, "liquid_flow"),
+    ],
+)
+def test_what_is_refused(words: dict[str, Any], told: str) -> None:
+    with pytest.raises(InputError, match=told):
+        feed(WET, **words)
+
+
+def test_the_line_in_python_is_the_line_of_the_case_file() -> None:
+    made = runpy.run_path(str(EXAMPLES / "line-in-python" / "line_in_python.py"))["run"]
+    run = granum.read(EXAMPLES / "grinding-circuit" / "circuit.toml").solve()
+    for own, other in zip(jax.tree.leaves(made.sheet.feeds), jax.tree.leaves(run.sheet.feeds), strict=True):
+        np.testing.assert_array_equal(own, other)
+    assert made.figure("mill.specific_energy") == pytest.approx(run.figure("mill.specific_energy"), rel=1e-9)
+    for name in ("returned", "product"):
+        np.testing.assert_allclose(made.streams[name].solid, run.streams[name].solid, rtol=1e-9, atol=1e-12)
