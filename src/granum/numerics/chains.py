@@ -15,6 +15,9 @@ GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a b
 LATE = 1e8  # first steps that make a step as good as infinite
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
 SHARE = 0.8  # of the largest change allowed, which the next step aims at
+BEND = 0.5  # correction of a step in time, over that step, which the next step aims at; twice as much and the step is taken back
+REST = 0.02  # of the largest change: what is too little to count as bent
+WARY, TRUST = 0.3, 1.5  # of a step taken back, which the next may not exceed; by how much more the one after
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
@@ -203,7 +206,7 @@ def solve_chain(
     first_step: Any = 1.0,
     largest_change: Cells | None = None,
     tolerance: float = 1e-12,
-    max_steps: int = 150,
+    max_steps: int = 2000,
 ) -> ChainSolution:
     """Solve for the state at which all rates vanish: by Newton's method, or where that leads astray along the path the system takes in time.
 
@@ -231,6 +234,7 @@ def solve_chain(
     start = Cells(*(jnp.asarray(v, dtype=float) for v in start))
     capacity = _like(start, capacity)
     size = _like(start, Cells(jnp.inf, jnp.inf) if largest_change is None else largest_change)
+    rest = Cells(REST * size.lanes, REST * jnp.minimum(size.shared, 1.0))
     first_step = lax.stop_gradient(jnp.asarray(first_step, dtype=float))
 
     def search(balance: Callable[[Rates], Rates], guess: Rates) -> tuple[Rates, tuple]:
@@ -239,32 +243,47 @@ def solve_chain(
 
         origin = Cells(guess.lanes, guess.shared)
 
+        def factored(push: Callable[[Cells], Rates], u: Cells, h: Any) -> Factors:
+            return factor_chain(chain_blocks(push, u).shifted(1.0, jax.tree.map(lambda c: -c / h, capacity)))
+
         def step(carry: tuple) -> tuple:
-            u, safe, h, before, last, _next, damping, trial, number = carry
+            u, safe, h, before, last, _next, damping, trial, number, taken, most, then = carry
             value, push = jax.linearize(f, u)
             r = _summed(value)
-            change = solve_factored(factor_chain(chain_blocks(push, u).shifted(1.0, jax.tree.map(lambda c: -c / h, capacity))), r)
+            factors = factored(push, u, h)
+            missing = jax.tree.map(lambda v, c, d: v + c * d / taken, r, capacity, before)  # to the step in time that led here
+            change, correction = solve_factored(factors, r), solve_factored(then, missing)
             far = jnp.maximum(*(jnp.max(abs(d) / s) for d, s in zip(change, size, strict=True)))
-            good = (far <= 1.0) & _all(jax.tree.map(jnp.isfinite, change))
+            bent = jnp.maximum(*(jnp.max(abs(c) / jnp.maximum(abs(d), s)) for c, d, s in zip(correction, before, rest, strict=True)))
+            bent = jnp.where(jnp.isfinite(taken) & ~trial, bent, 0.0)
+            straight = bent <= 2.0 * BEND
+            good = (far <= 1.0) & straight & _all(jax.tree.map(jnp.isfinite, change))
             relative = jnp.maximum(*(jnp.max(abs(d) / jnp.maximum(abs(v), 1.0)) for d, v in zip(change, u, strict=True)))
             turned = jax.tree.map(lambda d, b: jnp.sum(d * b, axis=-1, keepdims=True) < 0, change, before)
             astray = (h >= LATE * first_step) & (relative > 0.5 * last) & (relative > 1e-7)
             # a lane that goes to and fro over a bend takes less of its steps
-            damping = jax.tree.map(lambda t, f: jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0)), turned, damping)
+            damping = jax.tree.map(
+                lambda t, f: jnp.where(trial, jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0)), 1.0), turned, damping
+            )
             failed = trial & (~good | (astray & (number >= PATIENCE)))  # Newton's method from the guess, given up when it goes astray
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
             ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)  # Newton's method is quadratic
             # changes are nearly proportional to a step: the next is to come close to the largest allowed
-            most = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
-            fitting = h * jnp.clip(SHARE / far, CAUTION**2, most)
-            h = jnp.where(failed, first_step, jnp.where(jnp.isfinite(far), jnp.minimum(fitting, 1e4 * LATE * first_step), h * CAUTION))
-            lost = ~(jnp.isfinite(far) & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to where it started
+            growth = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
+            lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to its start
+            began = jnp.where(jnp.isfinite(taken), taken, h)
+            shorter = began * jnp.where(bent > BEND, jnp.clip(BEND / bent, CAUTION**2, 1.0), CAUTION)
+            most = jnp.where(trial, most, jnp.where(lost, WARY * began, jnp.minimum(TRUST * most, 1e4 * LATE * first_step)))
+            fitting = jnp.minimum(h * jnp.clip(jnp.minimum(SHARE / far, BEND / bent), CAUTION**2, growth), most)
+            used, h = h, jnp.where(failed, first_step, jnp.where(lost, shorter, fitting))
             back = jax.tree.map(lambda s, v: jnp.where(lost, s, v), safe, u)
             new = jax.tree.map(lambda g, b, v, d, f: jnp.where(failed, g, jnp.where(good, v - f * d, b)), origin, back, u, change, damping)
             known = jax.tree.map(lambda d: jnp.where(good & ~failed, d, 0.0), change)
             last = jnp.where(good & ~failed, relative, jnp.inf)
-            return new, back, h, known, last, jnp.where(late, relative * ratio**2, jnp.inf), damping, trial & ~failed, number + 1
+            left = jnp.where(late, relative * ratio**2, jnp.inf)
+            taken = jnp.where(good & ~failed, used, jnp.inf)
+            return new, back, h, known, last, left, damping, trial & ~failed, number + 1, taken, most, factors
 
         def unfinished(carry: tuple) -> Any:
             return (carry[5] > tolerance) & (carry[8] < max_steps)
@@ -280,6 +299,9 @@ def solve_chain(
             jax.tree.map(lambda v: jnp.ones_like(v[..., :1]), origin),
             jnp.asarray(True),
             jnp.zeros((), int),
+            none,
+            1e4 * LATE * first_step,
+            jax.tree.map(lambda v: jnp.zeros(v.shape), jax.eval_shape(lambda u: factored(jax.linearize(f, u)[1], u, 1.0), origin)),
         )
         found = lax.while_loop(unfinished, step, first)
         u, left, number = found[0], found[5], found[8]
