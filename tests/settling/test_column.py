@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from granum.core.errors import ApplicabilityError
-from granum.settling.column import Cone, Operation, Simulation, Suspension, settle, simulate, steps_needed
+from granum.settling.column import Cone, Operation, Simulation, Steps, Suspension, settle, simulate, steps_needed
 from granum.settling.compression import LogarithmicStress, PowerStress
 from granum.settling.flux import steady_state
 from granum.settling.velocities import RichardsonZakiConcentration, Takacs, Vesilind
@@ -121,6 +121,16 @@ def test_derivatives_of_the_underflow():
     ]
     np.testing.assert_allclose(exact, by_difference, rtol=2e-2)
     assert exact[1] > 0
+
+
+def test_a_bed_at_rest_does_not_depend_on_the_time_step():
+    """What lies above the critical concentration, taken once a step, lets the top of the bed come and go for ever."""
+    suspension = Suspension(Vesilind(1.3313e-3, 0.3832), LogarithmicStress(7.8595, 0.49161, 4.0), 1050.0, 998.0)
+    times = np.linspace(0.0, 24 * 3600.0, 3)
+    still = np.zeros(2)
+    need = steps_needed(suspension, 0.5, 60, Operation(times, still, still, still))
+    coarse, fine = (settle(suspension, 0.5, 3.0, times, cells=60, steps=Steps(n * need.steps, need.compression)) for n in (1, 2))
+    np.testing.assert_allclose(coarse.concentration[-1], fine.concentration[-1], rtol=1e-6, atol=1e-9)
 
 
 def test_flux_with_two_humps_is_refused():

@@ -17,6 +17,7 @@ from scipy import stats
 from scipy.special import comb
 
 from granum.estimation.losses import SoftL1
+from granum.estimation.searches import JUDGING
 
 if TYPE_CHECKING:
     from granum.estimation.least_squares import Problem
@@ -26,13 +27,14 @@ ERROR = 0.004
 MOST = 3
 """Points that are looked for at once."""
 PROMISING = 0.2
-NEARBY = 50  # evaluations of a refit without some points, which starts at the fit of all
 """Probability below which a set found by linear algebra is refitted."""
 ONE_BY_ONE = 60
 """Points up to which each is left out in turn once something is stray."""
 ROUNDS = 12
 ROUND_OFF = 1e-8
 """Residuals below this part of the data are round-off, not scatter."""
+SAME = 0.3
+"""Part of the residuals by which two starts must differ to be tried both."""
 UNEVEN, LEAST_SET = 3.0, 5
 """Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this takes."""
 LITTLE, SCATTERED = 0.25, 0.15
@@ -182,11 +184,11 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
         # of a set only those are stray that the others, refitted without the set, reject one by one, whatever the law of their scatter
         deviations = _deviations(problem, at, suspects, floor)
         even = _in_proportion(problem, at)
-        relative = _deviations(even, even.solve(at, without=suspects, most=NEARBY)[0], suspects, floor)
+        relative = _deviations(even, even.solve(at, without=suspects, search=JUDGING)[0], suspects, floor)
         limit = stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
         far = tuple(k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit)
         if far == suspects:
-            return far, tuple(deviations), at, robust
+            return far, tuple(deviations), problem.solve(at, without=far)[0], robust
         suspects, at = far, _without(problem, (at, q, robust), far)
     return nothing
 
@@ -207,7 +209,7 @@ def _robust(problem: Problem, q: np.ndarray, floor: float) -> np.ndarray:
         if abs(new - width) <= 1e-3 * new:
             break
         width = new
-        q, _outcome = problem.solve(q, width=width, loss=SoftL1(), most=NEARBY)
+        q, _outcome = problem.solve(q, width=width, loss=SoftL1(), search=JUDGING)
     return q
 
 
@@ -255,13 +257,18 @@ def _chance(before: Any, after: Any, n: int, m: int, p: int, floor: float) -> fl
 
 
 def _without(problem: Problem, starts: tuple[np.ndarray, ...], key: tuple[int, ...]) -> np.ndarray:
-    """The best of the refits without some points from several starts."""
+    """The best of the refits without some points from several starts, of those that the data tell apart."""
 
     def squares(at: np.ndarray) -> float:
         left = np.delete(problem.residual(at), key)
         return float(left @ left)
 
-    return min((problem.solve(start, without=key, most=NEARBY)[0] for start in starts), key=squares)
+    apart: list[np.ndarray] = []
+    for start in starts:
+        here = problem.residual(start)
+        if all(np.linalg.norm(here - problem.residual(other)) > SAME * np.linalg.norm(here) for other in apart):
+            apart.append(start)
+    return min((problem.solve(start, without=key, search=JUDGING)[0] for start in apart), key=squares)
 
 
 def _deviations(problem: Problem, at: np.ndarray, key: tuple[int, ...], floor: float) -> list[float]:

@@ -20,6 +20,7 @@ from granum.estimation.diagnostics import diagnose
 from granum.estimation.evaluation import Evaluated
 from granum.estimation.losses import LeastSquares, Loss
 from granum.estimation.results import Estimate, Fit, derive, t_reach
+from granum.estimation.searches import EXACT, Search
 from granum.estimation.verdicts import Rows, no_relation_note, parameter_notes, stray_note
 
 SCALE_ROUNDS = 50
@@ -72,11 +73,11 @@ class Problem:
         return float(np.sum(weight * (kept - means[group]) ** 2))
 
     def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None, width: float | None = None,
-              loss: Loss | None = None, without: Sequence[int] = (), most: int = 5000) -> tuple[np.ndarray, Any]:  # fmt: skip
+              loss: Loss | None = None, without: Sequence[int] = (), search: Search = EXACT) -> tuple[np.ndarray, Any]:  # fmt: skip
         """Scaled solution and SciPy's outcome, some parameters held, some of the kept points left out.
 
-        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain squares). ``most``: evaluations, few
-        where the start is near the solution and a rough one will do.
+        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain squares). ``search``: when to stop,
+        early where the start is near the solution and the answer only judges a point.
         """
         held = fixed or {}
         loss = loss or self.loss
@@ -105,7 +106,7 @@ class Problem:
         with np.errstate(all="ignore"):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
             outcome = least_squares(
                 lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free], jac=slopes,  # type: ignore[arg-type]
-                bounds=(low[free], high[free]), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=most, **robust,
+                bounds=(low[free], high[free]), **search._asdict(), **robust,
             )  # fmt: skip
         return whole(outcome.x), outcome
 

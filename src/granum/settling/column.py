@@ -234,18 +234,31 @@ class Steps(NamedTuple):
 
 
 def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None = None) -> Steps:
-    """Steps that keep the scheme monotone in the longest interval."""
+    """Steps that keep the scheme monotone in every interval."""
+    return Steps(*(jnp.ceil(jnp.max(count)).astype(int) for count in _steps_by_interval(suspension, depth, cells, operation, cone)))
+
+
+def _steps_by_interval(suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None) -> Steps:
+    """Steps as real numbers: the last one is shorter, so that a course has no jumps where a parameter asks for one step more."""
     speed, dense_speed, spread = suspension.fastest()
     size = depth / cells
-    span, bulk = jnp.max(jnp.diff(operation.times)), jnp.max(operation.feed_velocity)
+    span, bulk = jnp.diff(operation.times), jnp.max(operation.feed_velocity)
     if cone is not None:
         faces, areas = cone.areas(cells)
         wider = jnp.max(faces[:-1] / areas)
         speed, dense_speed, spread, bulk = speed * wider, dense_speed * wider, spread * wider, bulk / jnp.min(areas)
     crossed = jnp.maximum((speed + bulk) / COURANT, (dense_speed + bulk) / BED_COURANT)
-    steps = jnp.maximum(jnp.ceil(span * crossed / size), 1.0)
-    compression = jnp.maximum(jnp.ceil(2.0 * spread * span / (steps * size**2)), 1.0)
-    return Steps(steps.astype(int), compression.astype(int))
+    steps = jnp.maximum(span * crossed / size, 1.0)
+    return Steps(steps, jnp.maximum(2.0 * spread * span / (steps * size**2), 1.0))
+
+
+def _part(number: Any, count: Any) -> Any:
+    """Share of a whole that one of so many steps takes, a real number of which the last has what is left."""
+    return jnp.minimum(1.0, count - number) / count
+
+
+def _whole(count: Any) -> Any:
+    return count if isinstance(count, int) else jnp.ceil(count).astype(int)
 
 
 @eqx.filter_jit
@@ -268,18 +281,19 @@ def _run(
     velocity, compression = suspension.velocity_function(), suspension.compression
     critical = jnp.asarray(0.0 if compression is None else compression.critical_concentration, dtype=float)
     at_critical = 0.0 if compression is None else velocity(critical)
-    count = lax.stop_gradient(steps_needed(suspension, depth, cells, operation, cone)) if steps is None else steps
+    # Whole numbers that are given stay outside the scan: a loop of known length has reverse-mode derivatives.
+    counts = lax.stop_gradient(_steps_by_interval(suspension, depth, cells, operation, cone)) if steps is None else None
 
     def interval(carry: Any, given: Any) -> Any:
-        span, q, qu, Cf = given
-        share = span / (count.steps * size)
+        stable, span, q, qu, Cf = given
+        count = stable if steps is None else steps
         # Faces under the feed carry the underflow down, those above the overflow up.
-        down = share * jnp.where(face >= feed_cell, qu, 0.0)
-        up = -share * jnp.where(face >= feed_cell, 0.0, q - qu)
-        spreads = jnp.where(inside, 0.5 * share / (size * count.compression), 0.0) * wide
-        source = jnp.where(index == feed_cell, share * q * Cf, 0.0)
+        downward, upward = jnp.where(face >= feed_cell, qu, 0.0), -jnp.where(face >= feed_cell, 0.0, q - qu)
+        fed_here = jnp.where(index == feed_cell, q * Cf, 0.0)
 
-        def step(_i: Any, C: Any) -> Any:
+        def step(i: Any, C: Any) -> Any:
+            share = span * _part(i, count.steps) / size
+            down, up, source = share * downward, share * upward, share * fed_here
             # The first and the last element are not cells: they gather what left over the weir and with the underflow.
             v = velocity(C)
             f = C * v
@@ -291,25 +305,22 @@ def _run(
             if compression is None:
                 return C + change
             # Compression takes several short steps, each with its share of the change by flow, so that steady states are
-            # exact; its coefficient (a mean over what lies above the critical concentration) is kept meanwhile.
-            change = change / count.compression
+            # exact; its coefficient is kept meanwhile, but not what lies above the critical concentration: the top of a bed
+            # would come and go from step to step and never rest.
             # Where the bed is at rest the velocity cancels against that of the settling flux, which is the one of the denser
             # cell: taken alike here, the bed does not stand too high on coarse grids.
-            b = jnp.maximum(C, critical)
-            stiff, slow = suspension.stiffness(b), jnp.where(critical < C, v, at_critical)
-            above = critical < C
-            mixed = above[1:] != above[:-1]
-            part = jnp.where(mixed, (b[1:] - b[:-1]) / jnp.where(mixed, C[1:] - C[:-1], 1.0), above[1:])
-            spread = spreads * jnp.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1]) * part
+            stiff, slow = suspension.stiffness(jnp.maximum(C, critical)), jnp.where(critical < C, v, at_critical)
+            spread = 0.5 * share / size * wide * inside * jnp.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1])
 
-            def compress(_j: Any, C: Any) -> Any:
-                rise = spread * (C[1:] - C[:-1])
-                return C + change + (jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))) / roomy
+            def compress(j: Any, C: Any) -> Any:
+                bed = jnp.maximum(C, critical)
+                rise = spread * (bed[1:] - bed[:-1])
+                return C + _part(j, count.compression) * (change + (jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))) / roomy)
 
-            return lax.fori_loop(0, count.compression, compress, C)
+            return lax.fori_loop(0, _whole(count.compression), compress, C)
 
         held, over, under, fed = carry
-        state = lax.fori_loop(0, count.steps, step, jnp.pad(held, 1))
+        state = lax.fori_loop(0, _whole(count.steps), step, jnp.pad(held, 1))
         gone_over, gone_under = state[0] * size, state[-1] * size
         after = (state[1:-1], over + gone_over, under + gone_under, fed + q * Cf * span)
         qe = q - qu
@@ -320,7 +331,7 @@ def _run(
     given = tuple(jnp.broadcast_to(jnp.asarray(x, dtype=float), spans.shape) for x in operation[1:])
     zero = jnp.zeros(())
     first = (initial, zero, zero, zero)
-    _last, (states, means) = lax.scan(interval, first, (spans, *given))
+    _last, (states, means) = lax.scan(interval, first, (counts, spans, *given))
     course = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), first, states)
     depths = (jnp.arange(cells) + 0.5) * size
     return Simulation(operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3], areas)
