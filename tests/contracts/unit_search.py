@@ -98,7 +98,7 @@ def within(figures: Any) -> dict[str, Any]:
     return kept
 
 
-def _present(feeds: Mapping[str, Stream], there: Any) -> dict[str, Stream]:
+def present(feeds: Mapping[str, Stream], there: Any) -> dict[str, Stream]:
     first, *others = feeds
     s = feeds[first]
     found = {first: s.part(solid=there[0], liquid=there[1], gas=there[2])}
@@ -112,7 +112,7 @@ def tried(case: Case, x: np.ndarray, reverse: bool = False) -> Tried:
     def one(row: Any) -> Tried:
         feeds = case.feeds(case.mixture, row[:FEED])
         unit = case.unit(feeds, row[FEED + THERE :])  # made for what is meant to come
-        feeds = _present(feeds, row[FEED : FEED + THERE])
+        feeds = present(feeds, row[FEED : FEED + THERE])
         if reverse:
             feeds = {n: turned(s, opposite) for n, s in feeds.items()}
         line = Flowsheet({"unit": unit}, feeds, {n: ("", f"unit.{n}") for n in feeds})

@@ -27,6 +27,19 @@ class Tried(NamedTuple):
     stands: Any
 
 
+PATIENT: dict[str, Any] = {"method": Anderson(window=10, damping=0.4), "max_steps": 2000}
+EXACT: dict[str, Any] = {"method": Newton(), "max_steps": 50}
+RUNGS = 3
+
+
+def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designed:
+    """The line as the quick solver (0), the patient one (1) or Newton's method from where the quick one ends (2) leaves it. Pure, to be batched."""
+    if rung < RUNGS - 1:
+        return design(sheet, targets, sheets=True, **(PATIENT if rung else {}))
+    left = design(sheet, targets).solution.streams
+    return design(sheet, targets, sheets=True, start={n: left[n] for block in sheet.blocks for n in block.tears}, **EXACT)
+
+
 def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
     found = design(sheet, targets, sheets=True, **how)
     measured = findings(found.line, found.solution)
@@ -41,12 +54,12 @@ def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool) -> Tr
 
 @compiled
 def _patiently(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool, _torn: dict[str, Stream]) -> Tried:
-    return _measured(sheet, targets, method=Anderson(window=10, damping=0.4), max_steps=2000, watched=watched)
+    return _measured(sheet, targets, watched=watched, **PATIENT)
 
 
 @compiled
 def _by_newton(sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, torn: dict[str, Stream]) -> Tried:
-    return _measured(sheet, targets, start=torn, method=Newton(), max_steps=50)
+    return _measured(sheet, targets, start=torn, **EXACT)
 
 
 @compiled

@@ -19,7 +19,19 @@ from granum.core.errors import ConvergenceError, GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.studies.store import Part, Store
-from granum.studies.subjects import EXTRAPOLATED, FINE, IMPOSSIBLE, NOT_RUN, OUTSIDE, RAISED, FormulaSubject, Subject
+from granum.studies.subjects import (
+    EXTRAPOLATED,
+    FINE,
+    IMPOSSIBLE,
+    LOST,
+    NOT_CONVERGED,
+    NOT_RUN,
+    OUTSIDE,
+    RAISED,
+    UNMET,
+    FormulaSubject,
+    Subject,
+)
 
 MEMORY = 512 * 2**20
 """Bytes of working memory that one chunk may take."""
@@ -53,6 +65,8 @@ class Cases:
     codes: np.ndarray
     texts: dict[int, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    rungs: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int8))
+    """Which solver each took, from 0, where there is more than one."""
 
     @property
     def fine(self) -> np.ndarray:
@@ -130,7 +144,7 @@ class Evaluator:
         for j, path in enumerate(self.outputs):
             impossible = (codes <= FINE) & ~_possible(y[:, j], self.subject.output(path).parameter.kind)
             codes[impossible], y[impossible] = IMPOSSIBLE + j, np.nan
-        return Part(y, codes, texts)
+        return Part(y, codes, texts, np.concatenate([part.rungs for part in made]))
 
     def _some(self, x: np.ndarray) -> Part:
         """Those of up to ``size`` cases."""
@@ -140,9 +154,9 @@ class Evaluator:
             if kind is not None:
                 codes[(codes == FINE) & ~np.asarray(kind.contains(x[:, i]) & np.isfinite(x[:, i]))] = OUTSIDE + i
         fine = np.flatnonzero(codes == FINE)
-        y = np.full((len(x), len(self.outputs)), np.nan)
+        y, rungs = np.full((len(x), len(self.outputs)), np.nan), np.zeros(len(x), np.int8)
         if not len(fine):
-            return Part(y, codes, {})
+            return Part(y, codes, {}, rungs)
         if self.compiled is None:
             return self._one_by_one(x, y, codes, fine)
         # a chunk that is not full is filled up with a possible case: one shape, one compilation
@@ -151,7 +165,14 @@ class Evaluator:
         figures, found = (np.asarray(part)[: len(fine)] for part in self.compiled(self.arrays, jnp.asarray(padded), jnp.int32(len(fine))))
         codes[fine], y[fine] = found, figures
         y[codes > FINE] = np.nan
-        return Part(y, codes, {})
+        harder = self.subject.harder
+        lost = np.flatnonzero((codes == NOT_CONVERGED) | (codes == UNMET) | (codes >= LOST))
+        if harder is not None and len(lost):
+            again = evaluator(harder, self.inputs, self.outputs, self.size)._some(x[lost])
+            solved = again.codes <= FINE
+            found = lost[solved]
+            y[found], codes[found], rungs[found] = again.y[solved], again.codes[solved], again.rungs[solved] + 1
+        return Part(y, codes, {}, rungs)
 
     def _one_by_one(self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray) -> Part:
         texts: dict[int, str] = {}
@@ -163,7 +184,7 @@ class Evaluator:
                 y[case] = np.asarray(figures) if int(code) <= FINE else np.nan
             except GranumError as problem:
                 codes[case], texts[int(case)] = RAISED, problem.message
-        return Part(y, codes, texts)
+        return Part(y, codes, texts, np.zeros(len(x), np.int8))
 
 
 def _one_after_the_other(one: Any) -> Any:
@@ -211,7 +232,8 @@ def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...]
     x = np.atleast_2d(np.asarray(x, dtype=float))
     for path in inputs:
         subject.input(path)
-    cases = Cases(subject, inputs, outputs, x, np.full((len(x), len(outputs)), np.nan), np.full(len(x), NOT_RUN, np.int32))
+    cases = Cases(subject, inputs, outputs, x, np.full((len(x), len(outputs)), np.nan), np.full(len(x), NOT_RUN, np.int32),
+                  rungs=np.zeros(len(x), np.int8))  # fmt: skip
     store = Store(Path(folder)) if folder is not None else None
     size = store.open(subject.fingerprint(), (inputs, outputs), x) if store is not None else None
     if size is None:
@@ -289,6 +311,7 @@ def _chunk(subject: Subject, count: int) -> int:
 def _fill(cases: Cases, start: int, part: Part) -> None:
     cases.y[start : start + len(part.y)] = part.y
     cases.codes[start : start + len(part.y)] = part.codes
+    cases.rungs[start : start + len(part.y)] = part.rungs
     cases.texts.update({start + k: v for k, v in part.texts.items()})
 
 

@@ -23,7 +23,8 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
-from granum.flowsheet.specifications import Designed, Target, design
+from granum.flowsheet.ladder import RUNGS, at_rung
+from granum.flowsheet.specifications import Designed, Target
 from granum.streams.stream import Stream
 from granum.studies.expressions import Lookup
 from granum.studies.subjects import (
@@ -57,6 +58,14 @@ class LineSubject(Subject):
     sheet: Flowsheet
     targets: tuple[Target, ...]
     name: str
+    rung: int = 0
+    """Which solver of the ladder."""
+
+    @property
+    def harder(self) -> LineSubject | None:
+        if self.rung == RUNGS - 1 or not any(block.tears for block in self.sheet.blocks):
+            return None
+        return self.kept("harder", lambda: replace(self, rung=self.rung + 1))
 
     @staticmethod
     def of(line: Any, recipe: Any = None) -> LineSubject:
@@ -170,7 +179,7 @@ class LineSubject(Subject):
         return self.sheet
 
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
-        found = design(self._changed(arrays, values), self.targets, sheets=True)
+        found = at_rung(self._changed(arrays, values), self.targets, self.rung)
         code = verdict(found)
         line, streams = found.line, found.solution.streams
         flags.hand_on([r for records in found.solution.records.values() for r in records])

@@ -96,6 +96,7 @@ class Outcome(abc.ABC):
             "run": run,
             "failed": run - int(self.cases.fine.sum()),
             "extrapolated": int(self.cases.extrapolated.sum()),
+            "patient": int((self.cases.rungs > 0).sum()),
             "reasons": self.cases.reasons(),
         }
 

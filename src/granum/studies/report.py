@@ -211,6 +211,8 @@ def warnings_of(outcome: Outcome) -> list[str]:
     if counts["failed"]:
         rows.append(_("{failed} of {run} cases failed; they are kept with their reason and left out of the figures.").format(**counts))
     rows += [f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])]
+    if counts["patient"]:
+        rows.append(_("{patient} of {run} cases were solved by a more patient solver than the first.").format(**counts))
     if counts["extrapolated"]:
         rows.append(_("In {extrapolated} of {run} cases some correlation is used outside its range.").format(**counts))
     if not outcome.complete:

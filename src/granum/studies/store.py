@@ -20,11 +20,12 @@ SEAL = hashlib.sha256().digest_size
 
 
 class Part(NamedTuple):
-    """Figures, codes and texts of refusals of some consecutive cases."""
+    """Figures, codes and texts of refusals of some consecutive cases, and which solver each took, from 0."""
 
     y: np.ndarray
     codes: np.ndarray
     texts: dict[int, str]
+    rungs: np.ndarray
 
 
 class Store:
@@ -94,12 +95,12 @@ class Store:
         if content[-SEAL:] != self._seal(start, content[:-SEAL]):
             raise ValueError(path.name)
         with np.load(io.BytesIO(content), allow_pickle=False) as kept:
-            return Part(kept["y"], kept["codes"], {int(k): v for k, v in json.loads(str(kept["texts"])).items()})
+            return Part(kept["y"], kept["codes"], {int(k): v for k, v in json.loads(str(kept["texts"])).items()}, kept["rungs"])
 
     def save(self, start: int, part: Part) -> None:
         """Keep a finished chunk."""
         buffer = io.BytesIO()
-        np.savez(buffer, y=part.y, codes=part.codes, texts=json.dumps(part.texts))
+        np.savez(buffer, y=part.y, codes=part.codes, texts=json.dumps(part.texts), rungs=part.rungs)
         write_atomic(self.path(start), buffer.getvalue() + self._seal(start, buffer.getvalue()))
 
     def _seal(self, start: int, content: bytes) -> bytes:

@@ -79,6 +79,11 @@ class Subject(abc.ABC):
         """Whether many cases are best computed side by side (``vmap``) rather than one after the other in compiled code."""
         return True
 
+    @property
+    def harder(self) -> Subject | None:
+        """The same with a solver that takes more pains, for the cases that this one leaves unsolved; None when there is none."""
+        return None
+
     @abc.abstractmethod
     def input(self, path: str) -> Variable:
         """An input by path, or an error that suggests the nearest one."""

@@ -153,7 +153,7 @@ class BondMill(Unit):
     work_index: WorkIndex
     efficiency_factor: PositiveNumber = 1.0
 
-    limits: ClassVar[Limits] = {"finest": Limit("product in the finest size class", 0.0, 0.2, "", OWN_LIMIT)}
+    limits: ClassVar[Limits] = {"finest": Limit("product in the finest size class", 0.0, 0.2, "percent", OWN_LIMIT)}
 
     def _product_size(self, feed: Stream) -> Any:
         energy = safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow) / self.efficiency_factor

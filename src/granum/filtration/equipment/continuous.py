@@ -18,6 +18,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
 RPM = 0.10471975511965977  # radian/s
+NO_WASH = 1e-12  # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
 
 
 class ContinuousFilter(CakeFilter):
@@ -42,7 +43,7 @@ class ContinuousFilter(CakeFilter):
         most = s.dry_cake_per_filtrate * filtrate
         loading = s.solid_flow * turn / self.area
         wash_volume = 0.0 if wash is None else wash.liquid_volume_flow * turn / self.area
-        use = wash_volume / jnp.maximum(self.wash_flux(loading, s) * washed, 1e-300)
+        use = wash_volume / jnp.maximum(self.wash_flux(loading, s) * washed, NO_WASH)
         return Plan(loading, self.thickness(loading, s.solid_density), form, washed, drained, turn, s.solid_flow * turn / most, use)
 
 

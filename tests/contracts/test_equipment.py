@@ -1,0 +1,139 @@
+"""What every piece of equipment keeps, at one ordinary setting of the smallest case that holds it.
+
+Balances of each component and of energy close; nothing comes out where nothing goes in; the derivative with respect to a parameter is finite and
+that of central differences; a unit says the same called alone and in a line; limits have a source. Random settings of the same cases, and species
+in another order, are in ``test_unit_fuzz`` and ``test_separator_fuzz``; dryers and units for humid gas are in ``test_dryer_settings``. Those
+under ``LONG`` are tried in the long run only (``GRANUM_RANDOM_SAMPLES``).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from tests.contracts import separator_cases, unit_cases
+from tests.contracts.unit_search import FEED, OWN, QUICK, SAMPLES, THERE, Case, present, rows
+
+from granum.core import registry
+from granum.flowsheet import Flowsheet, solve
+from granum.flowsheet.findings import CLOSURE, LEAST, findings
+
+STEP = 1e-5
+HUMID = {"streams.adiabatic_humidifier", "streams.condenser_cooler", "streams.dehumidifying_coil", "streams.humid_mixer"}
+LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
+    "centrifuges.scroll_screen", "centrifuges.sliding_screen", "centrifuges.tumbling_screen",
+    "crystallization.batch_crystallizer", "crystallization.classified_crystallizer", "crystallization.jacketed_batch_crystallizer",
+    "crystallization.plug_flow_crystallizer", "crystallization.vacuum_batch_crystallizer", "crystallization.vacuum_crystallizer",
+    "filtration.candle_filter", "filtration.deep_bed_filter", "filtration.nutsche", "filtration.plate_and_frame_press",
+    "filtration.pressure_leaf_filter", "filtration.rotary_disc_filter", "settling.clarifier_thickener",
+}  # fmt: skip
+ALONE = ("fluidization.fluidized_bed", "cyclones.gas_cyclone", "filtration.rotary_vacuum_drum")
+GROUPS = (unit_cases.mills, unit_cases.filters, unit_cases.centrifuges, unit_cases.basics, unit_cases.crystallizers)
+
+
+@cache
+def equipment() -> dict[str, Any]:
+    return {key: thing for key, thing in registry.everything().items() if thing.card.sort == "equipment"}
+
+
+@cache
+def cases() -> dict[str, Case]:
+    """The first case of each card."""
+    found: dict[str, Case] = {}
+    named = [case for group in GROUPS for case in group(2).values()]
+    for case in (*named, *map(separator_cases.case_of, separator_cases.UNITS)):
+        x = jnp.full(FEED + OWN, 0.5)
+        key = case.unit(case.feeds(case.mixture, x[:FEED]), x[FEED:]).card.key
+        found.setdefault(key, case)
+    return found
+
+
+def setting() -> np.ndarray:
+    """An ordinary row of numbers: eight for the feeds, six for the unit."""
+    return rows(11)[10][[*range(FEED), *range(FEED + THERE, FEED + THERE + OWN)]]
+
+
+class Outcome(NamedTuple):
+    """What came of one row: closures of the unit, whether it says that it has no solution, its outlets by name, all its figures."""
+
+    mass: Any
+    energy: Any
+    lowest: Any
+    lost: Any
+    flows: Any
+    numbers: Any
+
+
+def outcome(case: Case, row: Any, there: Any) -> Outcome:
+    """A line of the unit alone, solved."""
+    meant = case.feeds(case.mixture, row[:FEED])
+    feeds = present(meant, there)
+    line = Flowsheet({"unit": case.unit(meant, row[FEED:])}, feeds, {n: ("", f"unit.{n}") for n in feeds})
+    solution = solve(line, sheets=True)
+    found = findings(line, solution)
+    products = [solution.streams[n] for n in line.products]
+    numbers = [jnp.ravel(jnp.asarray(v, dtype=float)) for v in jax.tree.leaves((products, solution.powers, solution.sheets["unit"][0]))]
+    flows = jnp.stack([s.mass_flow for s in products])
+    return Outcome(found.mass[0], found.energy[0], jnp.min(found.lowest), found.lost[0], flows, jnp.concatenate(numbers))
+
+
+def test_every_card_has_a_case_or_is_humid() -> None:
+    missing = equipment().keys() - cases().keys()
+    assert all(key.startswith("drying.") for key in missing - HUMID)
+    assert missing >= HUMID
+
+
+@pytest.mark.parametrize("key", sorted(equipment()))
+def test_limits_have_a_source(key: str) -> None:
+    thing = equipment()[key]
+    assert list(thing.card.limits) == list(thing.limits.values())
+    assert all(limit.name and limit.source and limit.unit for limit in thing.card.limits)
+
+
+@pytest.mark.parametrize("key", ALONE)
+def test_a_unit_says_the_same_alone_and_in_a_line(key: str) -> None:
+    """Names, bits and sources of flags, and checks, of the unit called and of the line of it alone."""
+    case = cases()[key]
+    row = jnp.asarray(setting())
+
+    def flagged(row: Any) -> Any:
+        feeds = case.feeds(case.mixture, row[:FEED])
+        unit = case.unit(feeds, row[FEED:])
+        line = Flowsheet({"unit": unit}, feeds, {n: ("", f"unit.{n}") for n in feeds})
+        made, solution = unit.operate(**feeds), solve(line, sheets=True)
+        return (made.records, made.checks), (solution.records["unit"], solution.sheets["unit"][1])
+
+    alone, lined = jax.tree.map(np.asarray, jax.jit(flagged)(row))
+    assert jax.tree.structure(alone) == jax.tree.structure(lined)
+    jax.tree.map(np.testing.assert_array_equal, alone, lined)
+
+
+@pytest.mark.parametrize("key", [key for key in sorted(cases()) if SAMPLES or key not in LONG])
+def test_conserves_keeps_still_and_has_derivatives(key: str) -> None:
+    case, middle = cases()[key], setting()
+    along = np.zeros(FEED + OWN)
+    along[FEED] = 1.0  # the first number of the unit
+    settings = np.stack([middle, middle - STEP * along, middle + STEP * along, middle])
+    there = np.array([[1.0] * THERE] * 3 + [[0.0] * THERE])
+
+    def tried(row: Any, parts: Any) -> tuple[Outcome, Any]:
+        found, slopes = jax.jvp(lambda r: outcome(case, r, parts), (row,), (jnp.asarray(along),))
+        return found, slopes.numbers
+
+    options = {"compiler_options": QUICK} if jax.default_backend() == "cpu" else {}
+    found, slopes = jax.tree.map(np.asarray, jax.jit(jax.vmap(tried), **options)(settings, there))
+    assert not found.lost[:3].any()
+    assert found.mass[:3].max() <= CLOSURE
+    assert found.energy[:3].max() <= CLOSURE
+    assert found.lowest[:3].min() >= LEAST
+    assert np.isfinite(found.numbers).all() or found.lost[3]
+    assert found.lost[3] or not found.flows[3].any()
+    assert np.isfinite(slopes[0]).all()
+    measured = (found.numbers[2] - found.numbers[1]) / (2.0 * STEP)
+    rounding = 1e-6 * found.flows[0].max()  # of what is the rest of two flows
+    apart = np.abs(measured - slopes[0]) / (np.abs(found.numbers[0]) + np.abs(slopes[0]) + rounding)
+    assert apart.max() <= 1e-4
