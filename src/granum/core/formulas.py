@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
-from typing import Any, get_type_hints
+from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints
 
 import jax
 import jax.numpy as jnp
@@ -23,6 +23,9 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 _steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
 
@@ -47,16 +50,16 @@ def _floats(value: Any) -> Any:
     return value.item() if single and not is_tracer(value) else value  # a call on constants inside an outer jit yields a tracer
 
 
-class Formula:
+class Formula(Generic[P, R]):
     """A declared formula. Call it for the bare value, ``evaluate`` it for value, flags and card.
 
     Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise, and so do
     single values that contradict one another; elements of arrays that do give NaN.
     """
 
-    def __init__(self, function: Callable[..., Any], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
+    def __init__(self, function: Callable[P, R], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
                  title: str, output: str, family: str):  # fmt: skip
-        self.function = function
+        self.function: Callable[..., R] = function
         self.fitted = fitted
         self.source = source
         self._declared = {"equation": equation, "title": title, "family": family}
@@ -298,7 +301,7 @@ class Formula:
                 return _DYNAMIC
         return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
 
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         nested = flags.nested()
         heard = flags.listening()
         if not args and not nested and not heard and _steps.get() is None:
@@ -331,7 +334,7 @@ class Formula:
             self.evaluate(*args, **kwargs)
         return out
 
-    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
+    def evaluate(self, *args: P.args, **kwargs: P.kwargs) -> Result:
         """The value with its flags and card."""
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
@@ -361,7 +364,7 @@ _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 
 
 def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, typical: Ranges | None = None,
-            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[..., Any]], Formula]:  # fmt: skip
+            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[P, R]], Formula[P, R]]:  # fmt: skip
     """Declare a formula.
 
     Parameters
@@ -375,7 +378,7 @@ def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, ty
     family: name under which it can be passed as a law; by default the output name.
     """
 
-    def declare(function: Callable[..., Any]) -> Formula:
+    def declare(function: Callable[P, R]) -> Formula[P, R]:
         return Formula(function, source=source, equation=equation, fitted=fitted or {}, typical=typical or {},
                        title=title, output=output, family=family)  # fmt: skip
 
