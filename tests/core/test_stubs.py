@@ -1,5 +1,6 @@
 """What an editor and a type checker see of the domains."""
 
+import inspect
 import json
 import subprocess
 import sys
@@ -7,8 +8,8 @@ from collections import defaultdict
 
 import pytest
 
-import granum
-from granum.core.registry import DOMAINS, everything
+import granum as gr
+from granum.core.registry import everything
 from granum.core.stubs import PACKAGES, path_of, stub_of
 
 
@@ -19,7 +20,7 @@ def test_stub_lists_what_the_domain_offers(domain):
 
 def test_stub_of_the_package_has_all_its_rooms():
     text = (path_of("drying").parents[1] / "__init__.pyi").read_text(encoding="utf-8")
-    for name in dir(granum):
+    for name in dir(gr):
         assert f"{name} as {name}" in text or f"{name}: " in text
 
 
@@ -51,8 +52,33 @@ def test_misspelt_words_are_type_errors(tmp_path):
     """Pyright finds the four wrong lines of the probe, and nothing in the right ones."""
     file = tmp_path / "probe.py"
     file.write_text(PROBE)
+    (tmp_path / "pyrightconfig.json").write_text(json.dumps({"extraPaths": [str(path_of("drying").parents[2])]}))
     done = subprocess.run(
-        [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable, str(file)], capture_output=True, text=True
+        [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
     )
     rows = {row["range"]["start"]["line"] for row in json.loads(done.stdout)["generalDiagnostics"] if row["severity"] == "error"}
     assert rows == {6, 7, 8, 9}
+
+
+def test_help_tells_what_is_declared():
+    """Unit, bounds, default, result, equation, source: of a formula, and of a class with its practical limits."""
+    formula = gr.particles.terminal_velocity.__doc__
+    for words in (
+        "particle_diameter: particle diameter d_p, m, above 0",
+        "terminal_velocity: terminal velocity v_t, m/s",
+        "Equation: v_t",
+        "Brown, P. P.",
+    ):
+        assert words in formula
+    oven = gr.drying.TrayDryer.__doc__
+    for words in (
+        "tray_gap: ",
+        "by default 50 mm",
+        "Practical limit: air speed over the trays, 0.5 … 8 m/s (treybal1980, ch. 12)",
+        "drying_time: drying time",
+    ):
+        assert words in oven
+    assert "critical_moisture" in inspect.signature(gr.drying.TrayDryer).parameters

@@ -12,6 +12,7 @@ import jax
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, is_tracer
+from granum.core.docstrings import CompletedDoc
 from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of
 from granum.core.registry import register
 
@@ -62,14 +63,15 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
     original = cls.__init__
     binder: list[Binder] = []
 
+    @functools.wraps(original)
     def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
         original(self, **binder[0].bind(args, kwargs))
 
-    __init__.__doc__ = original.__doc__
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)
+    type.__setattr__(cls, "__doc__", CompletedDoc(cls.__doc__))
     register(cls, key_of(cls, name), family)
     return cls
 

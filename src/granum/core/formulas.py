@@ -17,6 +17,7 @@ import numpy as np
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, convert, is_tracer
+from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
@@ -67,6 +68,7 @@ class Formula(Generic[P, R]):
         self._compiled: dict[Any, Callable[..., Any]] = {}
         self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
+        del self.__doc__  # which the class completes
         self.key = key_of(function, function.__name__)
         self._result_name = output or quantity_in(function.__name__) or function.__name__
         register(self, self.key, family or self._result_name)
@@ -359,6 +361,8 @@ class Formula(Generic[P, R]):
             steps.append(result)
         return result
 
+
+Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: ignore[assignment]
 
 _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 

@@ -11,6 +11,7 @@ import numpy as np
 from granum.core import bounds
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder
+from granum.core.docstrings import CompletedDoc
 from granum.core.parameters import outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -27,6 +28,7 @@ class Procedure(Generic[P, R]):
         self._sort, self._title = sort, title
         self.source, self._typical = source, typical
         functools.update_wrapper(self, function)
+        del self.__doc__  # which the class completes
         self.key = key_of(function, function.__name__)
         register(self, self.key, "")
 
@@ -60,6 +62,9 @@ class Procedure(Generic[P, R]):
         inputs = self._binder.bind(args, kwargs)
         left = self._binder.left_out(args, kwargs)
         return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left)
+
+
+Procedure.__doc__ = CompletedDoc(Procedure.__doc__, of_instances=True)  # type: ignore[assignment]
 
 
 def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[P, R]], Procedure[P, R]]:

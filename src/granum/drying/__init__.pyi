@@ -107,10 +107,13 @@ from granum.drying.equipment.burner import (
 )
 from granum.drying.equipment.closed import (
     AbstractCircuit as AbstractCircuit,
+    AbstractCoilCircuit as AbstractCoilCircuit,
     Circuit as Circuit,
     ClosedDryer as ClosedDryer,
     ClosedFigures as ClosedFigures,
     ClosedOutlets as ClosedOutlets,
+    Coiled as Coiled,
+    CondenserCircuit as CondenserCircuit,
     Duty as Duty,
     HeatPumpCircuit as HeatPumpCircuit,
     SteamCircuit as SteamCircuit,

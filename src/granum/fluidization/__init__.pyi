@@ -10,6 +10,7 @@ from granum.fluidization.curve import (
 from granum.fluidization.equipment.bed import (
     BedFigures as BedFigures,
     BedOutlets as BedOutlets,
+    Blown as Blown,
     FluidizedBed as FluidizedBed,
 )
 from granum.fluidization.equipment.liquid import (

@@ -75,6 +75,7 @@ from granum.humid_gas.solvents import (
     NitrogenMethanol as NitrogenMethanol,
     NitrogenToluene as NitrogenToluene,
     NitrogenWater as NitrogenWater,
+    PairOfMixture as PairOfMixture,
 )
 from granum.humid_gas.virials import (
     Fit as Fit,

@@ -7,6 +7,7 @@ from granum.materials.correlation import (
 )
 from granum.materials.fluids import (
     Combustion as Combustion,
+    Flammability as Flammability,
     Fluid as Fluid,
 )
 from granum.materials.formulas.correlations import (
@@ -95,6 +96,7 @@ from granum.materials.formulas.water_transport import (
     water_viscosity as water_viscosity,
 )
 from granum.materials.library import (
+    Library as Library,
     fluid as fluid,
     load as load,
     names as names,
@@ -111,6 +113,7 @@ from granum.materials.salts import (
 from granum.materials.schema import (
     BranchEntry as BranchEntry,
     CombustionEntry as CombustionEntry,
+    FlammabilityEntry as FlammabilityEntry,
     FluidEntry as FluidEntry,
     IonEntry as IonEntry,
     MaterialsFile as MaterialsFile,
