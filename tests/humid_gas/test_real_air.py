@@ -23,7 +23,7 @@ def test_saturated_air_against_reference_program() -> None:
     P, T, w, h = SATURATED[:, 0], SATURATED[:, 1] + 273.15, SATURATED[:, 2], SATURATED[:, 3]
     y = rel.saturated_fraction(REAL, T, P)
     np.testing.assert_allclose(REAL.humidity_ratio(y), w, rtol=1.05e-4)
-    own = rel.enthalpy(REAL, rel.Gas(T, y, np.zeros_like(T)), P)
+    own = rel.enthalpy_of(REAL, rel.Gas(T, y, np.zeros_like(T)), P)
     np.testing.assert_allclose(own, h, rtol=1e-4, atol=2.0)
 
 

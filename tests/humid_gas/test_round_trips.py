@@ -72,7 +72,7 @@ def test_two_states_of_one_wet_bulb_and_volume() -> None:
         with flags.collect() as records, flags.inside(state):
             gas, possible = Solver(pair, P, pair.lewis_factor(), given).solve()
         wet = rel.polished_wet_bulb(pair, gas.T, P, gas.y, pair.lewis_factor())
-        return gas.T, possible, wet, rel.specific_volume(pair, gas, P), next(r.mask for r in records if r.bit == flags.LIMIT_ACTIVE)
+        return gas.T, possible, wet, rel.volume_of(pair, gas, P), next(r.mask for r in records if r.bit == flags.LIMIT_ACTIVE)
 
     T, possible, wet, volume, two = map(np.asarray, back(given, P))
     assert np.all(possible)  # also where both states lie between two samples of the search

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from granum.core.docstrings import written_doc
 from granum.core.glossary import ending, quantity_in, term
 from granum.core.i18n import _
 from granum.core.limits import Limit
@@ -133,7 +133,7 @@ def make_card(
         fitted=fitted or {},
         family=family,
         given_title=title,
-        doc=inspect.cleandoc(thing.__doc__ or ""),
+        doc=written_doc(thing),
         module=thing.__module__,
         limits=limits,
     )

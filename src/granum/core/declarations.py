@@ -5,15 +5,18 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections.abc import Callable
-from typing import Any, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 import jax
 
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, is_tracer
+from granum.core.docstrings import CompletedDoc
 from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of
 from granum.core.registry import register
+
+T = TypeVar("T")
 
 
 class _LazyCard:
@@ -43,8 +46,8 @@ def field_parameters(cls: type, fitted: Ranges, typical: Ranges) -> tuple[Parame
     return tuple(found)
 
 
-def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted: Ranges, typical: Ranges, family: str,
-             title: str, results: Callable[..., Any] | None) -> type:  # fmt: skip
+def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fitted: Ranges, typical: Ranges, family: str,
+             title: str, results: Callable[..., Any] | None) -> type[T]:  # fmt: skip
     def build() -> Card:
         outputs: tuple[Parameter, ...] = ()
         if results is not None:
@@ -60,14 +63,15 @@ def _declare(cls: type, name: str, sort: str, source: str, equation: str, fitted
     original = cls.__init__
     binder: list[Binder] = []
 
+    @functools.wraps(original)
     def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
         original(self, **binder[0].bind(args, kwargs))
 
-    __init__.__doc__ = original.__doc__
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)
+    type.__setattr__(cls, "__doc__", CompletedDoc(cls.__doc__))
     register(cls, key_of(cls, name), family)
     return cls
 
@@ -86,13 +90,13 @@ def _judged(call: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def law(family: str, *, source: str, name: str, equation: str = "", fitted: Ranges | None = None,
-        typical: Ranges | None = None, title: str = "") -> Callable[[type], type]:  # fmt: skip
+        typical: Ranges | None = None, title: str = "") -> Callable[[type[T]], type[T]]:  # fmt: skip
     """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share the family.
     """
 
-    def declare(cls: type) -> type:
+    def declare(cls: type[T]) -> type[T]:
         if any("__call__" in vars(base) for base in cls.__mro__):
             type.__setattr__(cls, "__call__", _judged(cls.__call__))
         return _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
@@ -101,14 +105,23 @@ def law(family: str, *, source: str, name: str, equation: str = "", fitted: Rang
 
 
 def equipment(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
-              typical: Ranges | None = None) -> Callable[[type], type]:  # fmt: skip
+              typical: Ranges | None = None) -> Callable[[type[T]], type[T]]:  # fmt: skip
     """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``figures`` its outputs."""
     return lambda cls: _declare(
-        cls, name, "equipment", source, equation, fitted or {}, typical or {}, "", title, getattr(cls, "results", cls.figures)
+        cls,
+        name,
+        "equipment",
+        source,
+        equation,
+        fitted or {},
+        typical or {},
+        "",
+        title,
+        cls.figures,  # type: ignore[attr-defined]
     )
 
 
 def lab_test(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
-             typical: Ranges | None = None) -> Callable[[type], type]:  # fmt: skip
+             typical: Ranges | None = None) -> Callable[[type[T]], type[T]]:  # fmt: skip
     """Declare a lab test: ``Series`` fields are the columns of the data file, the others its conditions; ``fit`` its outcome."""
     return lambda cls: _declare(cls, name, "lab test", source, equation, fitted or {}, typical or {}, "", title, None)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
-from typing import Any, get_type_hints
+from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints
 
 import jax
 import jax.numpy as jnp
@@ -17,12 +17,16 @@ import numpy as np
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, convert, is_tracer
+from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 _steps: ContextVar[list[Result] | None] = ContextVar("granum_steps", default=None)
 
@@ -47,16 +51,16 @@ def _floats(value: Any) -> Any:
     return value.item() if single and not is_tracer(value) else value  # a call on constants inside an outer jit yields a tracer
 
 
-class Formula:
+class Formula(Generic[P, R]):
     """A declared formula. Call it for the bare value, ``evaluate`` it for value, flags and card.
 
     Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise, and so do
     single values that contradict one another; elements of arrays that do give NaN.
     """
 
-    def __init__(self, function: Callable[..., Any], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
+    def __init__(self, function: Callable[P, R], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
                  title: str, output: str, family: str):  # fmt: skip
-        self.function = function
+        self.function: Callable[..., R] = function
         self.fitted = fitted
         self.source = source
         self._declared = {"equation": equation, "title": title, "family": family}
@@ -64,6 +68,7 @@ class Formula:
         self._compiled: dict[Any, Callable[..., Any]] = {}
         self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
+        del self.__doc__  # which the class completes
         self.key = key_of(function, function.__name__)
         self._result_name = output or quantity_in(function.__name__) or function.__name__
         register(self, self.key, family or self._result_name)
@@ -298,7 +303,7 @@ class Formula:
                 return _DYNAMIC
         return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
 
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         nested = flags.nested()
         heard = flags.listening()
         if not args and not nested and not heard and _steps.get() is None:
@@ -331,7 +336,7 @@ class Formula:
             self.evaluate(*args, **kwargs)
         return out
 
-    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
+    def evaluate(self, *args: P.args, **kwargs: P.kwargs) -> Result:
         """The value with its flags and card."""
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
@@ -357,11 +362,13 @@ class Formula:
         return result
 
 
+Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: ignore[assignment]
+
 _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 
 
 def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, typical: Ranges | None = None,
-            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[..., Any]], Formula]:  # fmt: skip
+            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[P, R]], Formula[P, R]]:  # fmt: skip
     """Declare a formula.
 
     Parameters
@@ -375,7 +382,7 @@ def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, ty
     family: name under which it can be passed as a law; by default the output name.
     """
 
-    def declare(function: Callable[..., Any]) -> Formula:
+    def declare(function: Callable[P, R]) -> Formula[P, R]:
         return Formula(function, source=source, equation=equation, fitted=fitted or {}, typical=typical or {},
                        title=title, output=output, family=family)  # fmt: skip
 

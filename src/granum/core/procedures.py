@@ -4,25 +4,31 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, get_type_hints
+from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints
 
 import numpy as np
 
 from granum.core import bounds
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder
+from granum.core.docstrings import CompletedDoc
 from granum.core.parameters import outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
 
+P = ParamSpec("P")
+R = TypeVar("R")
 
-class Procedure:
+
+class Procedure(Generic[P, R]):
     """A declared function that is not traced: arguments are converted and checked like those of a formula."""
 
-    def __init__(self, function: Callable[..., Any], sort: str, source: str, title: str, typical: Ranges):
-        self.function, self._sort, self._title = function, sort, title
+    def __init__(self, function: Callable[P, R], sort: str, source: str, title: str, typical: Ranges):
+        self.function: Callable[..., R] = function
+        self._sort, self._title = sort, title
         self.source, self._typical = source, typical
         functools.update_wrapper(self, function)
+        del self.__doc__  # which the class completes
         self.key = key_of(function, function.__name__)
         register(self, self.key, "")
 
@@ -42,7 +48,7 @@ class Procedure:
     def __repr__(self) -> str:
         return f"<{self._sort} {self.key}>"
 
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         return self._run(self._binder.bind(args, kwargs))
 
     def _run(self, inputs: dict[str, Any]) -> Any:
@@ -51,18 +57,21 @@ class Procedure:
         bounds.refuse_outside(self.card.outputs, out, self.key)
         return out
 
-    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
+    def evaluate(self, *args: P.args, **kwargs: P.kwargs) -> Result:
         """The value with its card (a procedure reports problems by raising, so there are no flags)."""
         inputs = self._binder.bind(args, kwargs)
         left = self._binder.left_out(args, kwargs)
         return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left)
 
 
-def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:
+Procedure.__doc__ = CompletedDoc(Procedure.__doc__, of_instances=True)  # type: ignore[assignment]
+
+
+def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[P, R]], Procedure[P, R]]:
     """Declare a function on concrete values whose result is data: a ranking, a table, a design."""
     return lambda function: Procedure(function, "procedure", source, title, typical or {})
 
 
-def chart(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[..., Any]], Procedure]:
+def chart(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[P, R]], Procedure[P, R]]:
     """Declare a function that returns a Plotly figure made with ``granum.core.charts``."""
     return lambda function: Procedure(function, "chart", source, title, typical or {})

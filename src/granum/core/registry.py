@@ -19,6 +19,7 @@ DOMAINS = ("materials", "particles", "porous", "humid_gas", "streams", "comminut
 _declared: dict[str, Any] = {}
 _families: dict[str, dict[str, Any]] = {}
 _loaded: set[str] = set()
+_offered: dict[str, tuple[str, ...]] = {}
 
 
 def register(thing: Any, key: str, family: str) -> None:
@@ -115,22 +116,32 @@ def abilities(family_name: str) -> tuple[str, ...]:
     return tuple(sorted(set.intersection(*shared))) if shared else ()
 
 
-def domain_names(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """``__getattr__`` and ``__dir__`` of a domain package: its declared things and classes, imported on first use."""
-    domain = domain_of(package)
+def public_names(domain: str) -> dict[str, Any]:
+    """What users see of a domain: what is declared there, its classes, and the functions it offers. Helpers are found in their modules."""
+    load(domain)
+    offered = _offered.get(domain, ())
+    found: dict[str, Any] = {}
+    for module_name, module in list(sys.modules.items()):
+        if module is not None and module_name.startswith(f"granum.{domain}."):
+            found |= {
+                n: v
+                for n, v in vars(module).items()
+                if not n.startswith("_")
+                and getattr(v, "__module__", None) == module_name
+                and (isinstance(v, type) or getattr(v, "key", None) in _declared or n in offered)
+            }
+    return found
 
-    def names() -> dict[str, Any]:
-        load(domain)
-        found: dict[str, Any] = {}
-        for module_name, module in list(sys.modules.items()):
-            if module is not None and module_name.startswith(f"granum.{domain}."):
-                found |= {n: v for n, v in vars(module).items() if not n.startswith("_") and getattr(v, "__module__", None) == module_name}
-        return found
+
+def domain_names(package: str, *offered: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+    """``__getattr__`` and ``__dir__`` of a domain package: its declared things, classes and the functions it ``offered``, imported on first use."""
+    domain = domain_of(package)
+    _offered[domain] = offered
 
     def lookup(name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        found = names()
+        found = public_names(domain)
         if name not in found:
             from granum.core.errors import nearest
 
@@ -140,4 +151,4 @@ def domain_names(package: str) -> tuple[Callable[[str], Any], Callable[[], list[
         setattr(sys.modules[package], name, found[name])
         return found[name]
 
-    return lookup, lambda: sorted(names())
+    return lookup, lambda: sorted(public_names(domain))

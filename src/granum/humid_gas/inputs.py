@@ -105,7 +105,7 @@ class Solver:
     def _specific(self, quantity: str, T: Any, y: Any) -> Any:
         """Enthalpy or volume of the gas per mass of dry gas."""
         gas = Gas(T, y, jnp.zeros_like(T * y))
-        return rel.enthalpy(self.pair, gas, self.P) if quantity == "enthalpy" else rel.specific_volume(self.pair, gas, self.P)
+        return rel.enthalpy_of(self.pair, gas, self.P) if quantity == "enthalpy" else rel.volume_of(self.pair, gas, self.P)
 
     def _molar(self, quantity: str) -> Callable[..., Any]:
         return self.pair.molar_enthalpy if quantity == "enthalpy" else self.pair.molar_volume
@@ -164,7 +164,7 @@ class Solver:
         )  # fmt: skip
         saturated = Gas(T, jnp.where(foggy, ys, 0.5), jnp.zeros_like(y))
         liquid = pair.condensate_molar_enthalpy(T, P, False) / pair.gas_molar_mass
-        fog = (h - rel.enthalpy(pair, saturated, P)) / jnp.where(foggy, liquid, 1.0)
+        fog = (h - rel.enthalpy_of(pair, saturated, P)) / jnp.where(foggy, liquid, 1.0)
         return Gas(T, gas.y, jnp.where(foggy, fog, 0.0)), possible
 
     # --- moisture and another

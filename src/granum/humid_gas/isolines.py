@@ -41,7 +41,7 @@ class Isolines:
             "wet_bulb_temperature": jax.jit(lambda Ts, T: rel.fraction_at_wet_bulb(pair, T, P, Ts, self.lewis)),
         }
         self._describe(states)
-        self._enthalpy = jax.jit(lambda T, w: rel.enthalpy(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P))
+        self._enthalpy = jax.jit(lambda T, w: rel.enthalpy_of(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P))
 
     def _humidity(self, y: Any) -> np.ndarray:
         y = np.asarray(y, dtype=float)
@@ -92,7 +92,7 @@ class Isolines:
         if kind == "wet_bulb":
             return self.T_low, self._wettest
         found = [
-            rel.specific_volume(self.pair, rel.Gas(jnp.asarray(T), self.pair.fraction(jnp.asarray(h)), jnp.zeros(())), self.P)
+            rel.volume_of(self.pair, rel.Gas(jnp.asarray(T), self.pair.fraction(jnp.asarray(h)), jnp.zeros(())), self.P)
             for T, h in ((self.T_low, 0.0), (self.T_high, float(w[-1])))
         ]
         return float(found[0]), float(found[1])

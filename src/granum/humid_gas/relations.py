@@ -31,19 +31,19 @@ def saturated_fraction(pair: AbstractPair, T: Any, P: Any) -> Any:
     return pair.saturated_fraction(T, P, pair.is_frozen(T))
 
 
-def enthalpy(pair: AbstractPair, gas: Gas, P: Any) -> Any:
+def enthalpy_of(pair: AbstractPair, gas: Gas, P: Any) -> Any:
     """J per kg of dry gas, fog included."""
     h = pair.molar_enthalpy(gas.T, P, gas.y) / (1.0 - gas.y)
     fog = jnp.where(gas.fog > 0, gas.fog * pair.condensate_molar_enthalpy(gas.T, P, pair.is_frozen(gas.T)), 0.0)
     return (h + fog) / pair.gas_molar_mass
 
 
-def specific_volume(pair: AbstractPair, gas: Gas, P: Any) -> Any:
+def volume_of(pair: AbstractPair, gas: Gas, P: Any) -> Any:
     """Gas-phase volume, m³ per kg of dry gas (the volume of fog drops is left out)."""
     return pair.molar_volume(gas.T, P, gas.y) / ((1.0 - gas.y) * pair.gas_molar_mass)
 
 
-def humidity_ratio(pair: AbstractPair, gas: Gas) -> Any:
+def humidity_of(pair: AbstractPair, gas: Gas) -> Any:
     """All vapor and fog per dry gas."""
     return pair.humidity_ratio(gas.y) + pair.molar_mass_ratio * gas.fog
 

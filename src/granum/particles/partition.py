@@ -21,8 +21,10 @@ ORDER = "The coarser of two sizes goes to the coarse product with the greater sh
 class PartitionCurve(eqx.Module):
     """What every partition curve can do: its value, and the size at which it takes a value."""
 
-    if TYPE_CHECKING:
-        cut_size: Any
+    if TYPE_CHECKING:  # a field of most subclasses, not declared here because a dataclass would put it first
+
+        @property
+        def cut_size(self) -> Any: ...
 
     @abstractmethod
     def __call__(self, particle_diameter: Length) -> Fraction:

@@ -25,8 +25,10 @@ _NODES = 64
 class SizeLaw(eqx.Module):
     """What every size law can do. Its own basis is the one its cumulative curve counts."""
 
-    if TYPE_CHECKING:
-        basis: Any
+    if TYPE_CHECKING:  # a field of every subclass, not declared here because a dataclass would put it first
+
+        @property
+        def basis(self) -> Any: ...
 
     @abstractmethod
     def __call__(self, particle_diameter: Length) -> Fraction:

@@ -52,11 +52,11 @@ def settling_curve_chart(
     for i in chosen:
         cut, v = found.intercept_height[i], found.settling_velocity[i]
         stop = min(cut / v, c.time[-1])
-        density = float(initial_concentration) * c.initial_height / cut
+        density = float(initial_concentration * c.initial_height / cut)
         label = f"{format_number(density, 3)} g/L"
         add_line(drawing, [lag / MINUTE, (lag + stop) / MINUTE], [cut * CM, (cut - v * stop) * CM], _("tangent"), color=GAS, dash="dash", width=1,
                  showlegend=bool(i == chosen[0]))  # fmt: skip
-        add_label(drawing, lag / MINUTE, cut * CM, label, color=GAS, xanchor="left", yanchor="bottom")
+        add_label(drawing, lag / MINUTE, float(cut * CM), label, color=GAS, xanchor="left", yanchor="bottom")
     add_line(drawing, (c.time + lag) / MINUTE, c.convex.height * CM, _("convex curve"))
     add_points(drawing, np.asarray(time) / MINUTE, np.asarray(interface_height) * CM, _("data"))
     if c.compression is not None:

@@ -57,7 +57,7 @@ def gas_at(pair: Any, T: Any, w: Any, P: Any) -> tuple[rel.Gas, Any]:
     T, w, P = (jnp.asarray(x, dtype=float) for x in (T, w, P))
     within_pair(pair, P)
     gas = rel.settled(pair, T, P, pair.fraction(w))
-    return gas, rel.enthalpy(pair, gas, P)
+    return gas, rel.enthalpy_of(pair, gas, P)
 
 
 def after(pair: Any, w: Any, h: Any, P: Any) -> Process:
@@ -167,7 +167,7 @@ def cooling(
     dry = rel.Gas(gas.T, gas.y, 0.0 * gas.fog)
     phi = gas.y / rel.saturated_fraction(pair, gas.T, pressure)
     return Duty(
-        gas.T, pair.humidity_ratio(gas.y), phi, rel.enthalpy(pair, dry, pressure), dry_gas_flow * (h_fog - h1), dry_gas_flow * drained
+        gas.T, pair.humidity_ratio(gas.y), phi, rel.enthalpy_of(pair, dry, pressure), dry_gas_flow * (h_fog - h1), dry_gas_flow * drained
     )
 
 
@@ -191,7 +191,7 @@ def dehumidifying(
     _gas, h1 = gas_at(pair, temperature, humidity_ratio, pressure)
     cold, h_fog = gas_at(pair, coil_temperature, humidity_ratio, pressure)
     drained = pair.molar_mass_ratio * cold.fog
-    touched = rel.enthalpy(pair, rel.Gas(cold.T, cold.y, 0.0 * cold.fog), pressure)
+    touched = rel.enthalpy_of(pair, rel.Gas(cold.T, cold.y, 0.0 * cold.fog), pressure)
     share = 1.0 - coil_bypass_fraction
     w2 = humidity_ratio - share * drained
     h2 = coil_bypass_fraction * h1 + share * touched

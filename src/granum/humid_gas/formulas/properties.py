@@ -120,7 +120,7 @@ def enthalpy(
     >>> round(enthalpy(temperature="55 degC", humidity_ratio=0.01) / 1e3, 1)
     81.4
     """
-    return rel.enthalpy(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
+    return rel.enthalpy_of(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
 
 
 @formula(source="ashrae2017, ch. 1, eq. 30", equation=r"h = c_g t + w\,(L_0 + c_v t)", typical=_WARM, output="enthalpy",
@@ -154,7 +154,7 @@ def specific_volume(
     >>> round(specific_volume(temperature="22.2 degC", humidity_ratio=0.01005), 2)
     0.85
     """
-    return rel.specific_volume(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
+    return rel.volume_of(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
 
 
 @formula(
@@ -169,7 +169,7 @@ def gas_density(
     1.204
     """
     gas = _gas(pair, temperature, humidity_ratio, pressure)
-    return (1.0 + humidity_ratio) / rel.specific_volume(pair, gas, jnp.asarray(pressure, dtype=float))
+    return (1.0 + humidity_ratio) / rel.volume_of(pair, gas, jnp.asarray(pressure, dtype=float))
 
 
 @formula(

@@ -159,7 +159,7 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
         flags.record(flags.EXTRAPOLATED, above, wet, "wet_bulb_temperature", "humid_gas.state", pair.lowest_temperature, critical)
     driest = y < rel.saturated_fraction(pair, jnp.asarray(pair.lowest_temperature), P)
     flags.limit_active(possible & driest, pair.lowest_temperature, "dew_point_temperature", NO_DEW_POINT)
-    humidity = rel.humidity_ratio(pair, gas)
+    humidity = rel.humidity_of(pair, gas)
     heat = jax.jvp(lambda T: pair.molar_enthalpy(T, P, y), (T,), (jnp.ones_like(T),))[1]
     values = {
         "temperature": T,
@@ -168,8 +168,8 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
         "wet_bulb_temperature": wet,
         "adiabatic_saturation_temperature": adiabatic,
         "dew_point_temperature": rel.dew_point(pair, P, y),
-        "enthalpy": rel.enthalpy(pair, gas, P),
-        "specific_volume": rel.specific_volume(pair, gas, P),
+        "enthalpy": rel.enthalpy_of(pair, gas, P),
+        "specific_volume": rel.volume_of(pair, gas, P),
         "vapor_pressure": y * P,
         "vapor_mole_fraction": y,
         "condensate_ratio": pair.molar_mass_ratio * fog,

@@ -39,7 +39,7 @@ def _spread(d: SizeDistribution) -> float:
     return max(log(_percentile(d, 0.9) / max(_percentile(d, 0.1), 1e-12)), 1e-3)
 
 
-def _two_log_normals(p: dict[str, Any], basis: str) -> SizeLaw:
+def _two_log_normals(p: dict[str, Any], basis: Any) -> SizeLaw:
     fine, coarse = (LogNormal(p[f"median_diameter_{n}"], p[f"geometric_standard_deviation_{n}"], basis) for n in ("fine", "coarse"))
     return Mixture(fine, coarse, p["first_share"])
 

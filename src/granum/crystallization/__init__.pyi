@@ -1,0 +1,293 @@
+"""Crystallization: equilibrium, kinetics, population balances, vessels."""
+
+from granum.crystallization.charts import (
+    batch_chart as batch_chart,
+    seed_chart_figure as seed_chart_figure,
+    size_distribution_chart as size_distribution_chart,
+    solubility_chart as solubility_chart,
+)
+from granum.crystallization.equipment.batch import (
+    BatchCrystallizer as BatchCrystallizer,
+    BatchFigures as BatchFigures,
+    BatchOutlets as BatchOutlets,
+    Grown as Grown,
+    JacketedBatchCrystallizer as JacketedBatchCrystallizer,
+    JacketedBatchFigures as JacketedBatchFigures,
+    PlugFlowCrystallizer as PlugFlowCrystallizer,
+    PlugFlowFigures as PlugFlowFigures,
+    VacuumBatchCrystallizer as VacuumBatchCrystallizer,
+    VacuumBatchFigures as VacuumBatchFigures,
+    VacuumBatchOutlets as VacuumBatchOutlets,
+)
+from granum.crystallization.equipment.heat import (
+    StreamHeat as StreamHeat,
+)
+from granum.crystallization.equipment.in_time import (
+    Crystallized as Crystallized,
+    Held as Held,
+    InTime as InTime,
+)
+from granum.crystallization.equipment.msmpr import (
+    ClassifiedCrystallizer as ClassifiedCrystallizer,
+    CrystallizerFigures as CrystallizerFigures,
+    Msmpr as Msmpr,
+    VacuumCrystallizer as VacuumCrystallizer,
+)
+from granum.crystallization.equipment.roles import (
+    Roles as Roles,
+)
+from granum.crystallization.formulas.agglomeration import (
+    AgglomerationKernel as AgglomerationKernel,
+    Attrition as Attrition,
+    Breakage as Breakage,
+    BrownianKernel as BrownianKernel,
+    ConstantKernel as ConstantKernel,
+    PowerBreakage as PowerBreakage,
+    ProductKernel as ProductKernel,
+    SumKernel as SumKernel,
+    TurbulentKernel as TurbulentKernel,
+    agglomeration_coefficient_brownian as agglomeration_coefficient_brownian,
+    agglomeration_coefficient_turbulent as agglomeration_coefficient_turbulent,
+    shear_rate_turbulent as shear_rate_turbulent,
+)
+from granum.crystallization.formulas.balances import (
+    Balance as Balance,
+    FlashBalance as FlashBalance,
+    KnownSoluteBalance as KnownSoluteBalance,
+    area_jacket as area_jacket,
+    crystallizer_balance as crystallizer_balance,
+    crystallizer_balance_library as crystallizer_balance_library,
+    evaporation_for_yield as evaporation_for_yield,
+    heat_duty_crystallizer as heat_duty_crystallizer,
+    log_mean_temperature_difference as log_mean_temperature_difference,
+    solute_fraction_of_crystal as solute_fraction_of_crystal,
+    vacuum_crystallizer_balance as vacuum_crystallizer_balance,
+    yield_fraction_anhydrous as yield_fraction_anhydrous,
+)
+from granum.crystallization.formulas.batch_balances import (
+    BatchBalance as BatchBalance,
+    KnownSoluteBatch as KnownSoluteBatch,
+    crystallizer_batch_balance as crystallizer_batch_balance,
+    crystallizer_batch_balance_library as crystallizer_batch_balance_library,
+)
+from granum.crystallization.formulas.classified import (
+    ClassifyingProduction as ClassifyingProduction,
+    population_density_classified as population_density_classified,
+    population_density_second_stage as population_density_second_stage,
+    production_classifying as production_classifying,
+)
+from granum.crystallization.formulas.critical_nucleus import (
+    CriticalNucleus as CriticalNucleus,
+    critical_nucleus as critical_nucleus,
+    critical_nucleus_melt as critical_nucleus_melt,
+    critical_radius as critical_radius,
+)
+from granum.crystallization.formulas.driving_forces import (
+    AbsoluteSupersaturation as AbsoluteSupersaturation,
+    DrivingForce as DrivingForce,
+    LogarithmicSupersaturation as LogarithmicSupersaturation,
+    MolarSupersaturation as MolarSupersaturation,
+    RelativeSupersaturation as RelativeSupersaturation,
+)
+from granum.crystallization.formulas.encrustation import (
+    temperature_difference_encrustation as temperature_difference_encrustation,
+    wall_temperature_jacket as wall_temperature_jacket,
+)
+from granum.crystallization.formulas.film import (
+    FilmGrowth as FilmGrowth,
+    FilmGrowthLaw as FilmGrowthLaw,
+    damkohler_growth as damkohler_growth,
+    diffusion_coefficient_sherwood as diffusion_coefficient_sherwood,
+    film_growth as film_growth,
+    growth_rate_from_flux as growth_rate_from_flux,
+    sherwood_number_levins_glastonbury as sherwood_number_levins_glastonbury,
+    sherwood_number_ranz_marshall as sherwood_number_ranz_marshall,
+)
+from granum.crystallization.formulas.growth import (
+    BirthAndSpreadGrowth as BirthAndSpreadGrowth,
+    GrowthLaw as GrowthLaw,
+    PowerLawDissolution as PowerLawDissolution,
+    PowerLawGrowth as PowerLawGrowth,
+    SpiralGrowth as SpiralGrowth,
+    growth_rate_birth_and_spread as growth_rate_birth_and_spread,
+    growth_rate_power as growth_rate_power,
+    growth_rate_spiral as growth_rate_spiral,
+)
+from granum.crystallization.formulas.msmpr import (
+    coefficient_of_variation as coefficient_of_variation,
+    crystal_size_at_undersize as crystal_size_at_undersize,
+    dominant_size as dominant_size,
+    dominant_size_changed as dominant_size_changed,
+    magma_density as magma_density,
+    mass_median_size as mass_median_size,
+    nucleation_rate_msmpr as nucleation_rate_msmpr,
+    nuclei_population_density as nuclei_population_density,
+    population_density as population_density,
+    population_density_size_dependent as population_density_size_dependent,
+    relative_nucleation_order as relative_nucleation_order,
+    size_factor as size_factor,
+    undersize_mass_fraction as undersize_mass_fraction,
+)
+from granum.crystallization.formulas.nucleation import (
+    ClassicalNucleation as ClassicalNucleation,
+    NoNucleation as NoNucleation,
+    NucleationLaw as NucleationLaw,
+    PowerLawNucleation as PowerLawNucleation,
+    SummedNucleation as SummedNucleation,
+    heterogeneous_factor as heterogeneous_factor,
+    interfacial_energy_mersmann as interfacial_energy_mersmann,
+    nucleation_barrier as nucleation_barrier,
+    nucleation_rate_classical as nucleation_rate_classical,
+    nucleation_rate_secondary as nucleation_rate_secondary,
+    supersaturation_ratio_nucleation as supersaturation_ratio_nucleation,
+)
+from granum.crystallization.formulas.polymorphs import (
+    supersaturation_ratio_polymorphs as supersaturation_ratio_polymorphs,
+    temperature_transition_polymorphs as temperature_transition_polymorphs,
+)
+from granum.crystallization.formulas.programs import (
+    ConstantFlow as ConstantFlow,
+    CoolingShares as CoolingShares,
+    NaturalCooling as NaturalCooling,
+    PowerCooling as PowerCooling,
+    Program as Program,
+    TemperaturePoints as TemperaturePoints,
+    temperature_cooling_power as temperature_cooling_power,
+)
+from granum.crystallization.formulas.ripening import (
+    crystal_size_ripened as crystal_size_ripened,
+    supersaturation_ratio_gibbs_thomson as supersaturation_ratio_gibbs_thomson,
+)
+from granum.crystallization.formulas.seeding import (
+    GrownSeed as GrownSeed,
+    SeedChart as SeedChart,
+    duration_for_growth as duration_for_growth,
+    grown_seed as grown_seed,
+    product_size_from_seed as product_size_from_seed,
+    seed_chart as seed_chart,
+    seed_loading_critical as seed_loading_critical,
+    seed_mass_for_product as seed_mass_for_product,
+)
+from granum.crystallization.formulas.solubility_laws import (
+    AntisolventSolubility as AntisolventSolubility,
+    ApelblatSolubility as ApelblatSolubility,
+    LibrarySolubility as LibrarySolubility,
+    PolynomialSolubility as PolynomialSolubility,
+    SolubilityLaw as SolubilityLaw,
+    VantHoffSolubility as VantHoffSolubility,
+)
+from granum.crystallization.formulas.supersaturation import (
+    absolute_supersaturation as absolute_supersaturation,
+    driving_force_thermodynamic as driving_force_thermodynamic,
+    relative_supersaturation as relative_supersaturation,
+    solute_mass_fraction as solute_mass_fraction,
+    solute_per_solvent_fraction as solute_per_solvent_fraction,
+    solute_per_solvent_from_hydrate as solute_per_solvent_from_hydrate,
+    solute_per_solvent_hydrate as solute_per_solvent_hydrate,
+    supersaturation_ratio as supersaturation_ratio,
+    supersaturation_ratio_solution_basis as supersaturation_ratio_solution_basis,
+    undercooling as undercooling,
+)
+from granum.crystallization.lab_tests.batch_kinetics import (
+    BatchKinetics as BatchKinetics,
+)
+from granum.crystallization.lab_tests.induction_time import (
+    InductionTime as InductionTime,
+)
+from granum.crystallization.lab_tests.metastable_zone import (
+    MetastableZone as MetastableZone,
+    MetastableZoneSangwal as MetastableZoneSangwal,
+    undercooling_metastable as undercooling_metastable,
+)
+from granum.crystallization.lab_tests.msmpr_analysis import (
+    MsmprAnalysis as MsmprAnalysis,
+    population_densities as population_densities,
+)
+from granum.crystallization.lab_tests.next_batch import (
+    NextBatches as NextBatches,
+    next_batch as next_batch,
+)
+from granum.crystallization.lab_tests.solubility import (
+    SolubilityAntisolvent as SolubilityAntisolvent,
+    SolubilityApelblat as SolubilityApelblat,
+    SolubilityPolynomial as SolubilityPolynomial,
+    SolubilityVantHoff as SolubilityVantHoff,
+)
+from granum.crystallization.population.grid import (
+    Classes as Classes,
+    Collisions as Collisions,
+)
+from granum.crystallization.population.lagrangian import (
+    Course as Course,
+    Equilibrium as Equilibrium,
+    Model as Model,
+    SolventVolume as SolventVolume,
+    SuspensionVolume as SuspensionVolume,
+)
+from granum.crystallization.population.operations import (
+    Addition as Addition,
+    Contents as Contents,
+    Flashing as Flashing,
+    Heat as Heat,
+    HeatData as HeatData,
+    Jacketed as Jacketed,
+    Operation as Operation,
+    Programmed as Programmed,
+)
+from granum.crystallization.population.packets import (
+    DispersedMoments as DispersedMoments,
+    GrowthDispersion as GrowthDispersion,
+    Packets as Packets,
+    Population as Population,
+    Seeds as Seeds,
+    ShiftedMoments as ShiftedMoments,
+    SizeMap as SizeMap,
+)
+from granum.crystallization.recipes import (
+    CoolingRecipe as CoolingRecipe,
+    Processes as Processes,
+    choose as choose,
+    optimal_cooling as optimal_cooling,
+)
+from granum.crystallization.vessels.batch import (
+    AgglomeratingCourse as AgglomeratingCourse,
+    BatchCourse as BatchCourse,
+    agglomerating_batch as agglomerating_batch,
+    batch as batch,
+)
+from granum.crystallization.vessels.crystals import (
+    Crystal as Crystal,
+)
+from granum.crystallization.vessels.driven import (
+    Constant as Constant,
+    JacketedCourse as JacketedCourse,
+    VacuumCourse as VacuumCourse,
+    jacketed_batch as jacketed_batch,
+    vacuum_batch as vacuum_batch,
+)
+from granum.crystallization.vessels.dynamic import (
+    ConstantProgram as ConstantProgram,
+    ContinuousCourse as ContinuousCourse,
+    Exchanged as Exchanged,
+    Inflow as Inflow,
+    StageCourse as StageCourse,
+    SteadyFeed as SteadyFeed,
+    Surviving as Surviving,
+    msmpr_over_time as msmpr_over_time,
+)
+from granum.crystallization.vessels.moving import (
+    Moving as Moving,
+)
+from granum.crystallization.vessels.msmpr import (
+    AdditiveVolumes as AdditiveVolumes,
+    Feed as Feed,
+    Removal as Removal,
+    SteadyState as SteadyState,
+)
+from granum.crystallization.vessels.precipitation import (
+    Ions as Ions,
+    PrecipitationCourse as PrecipitationCourse,
+    ReagentAddition as ReagentAddition,
+    SaltEquilibrium as SaltEquilibrium,
+    precipitation_batch as precipitation_batch,
+)

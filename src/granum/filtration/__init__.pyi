@@ -1,0 +1,169 @@
+"""Cake, depth and membrane filtration."""
+
+from granum.filtration.charts import (
+    cake_profile_chart as cake_profile_chart,
+    filtration_cycle_chart as filtration_cycle_chart,
+    washing_chart as washing_chart,
+)
+from granum.filtration.equipment.batch import (
+    BatchFilter as BatchFilter,
+    CandleFilter as CandleFilter,
+    ChamberPress as ChamberPress,
+    MembranePress as MembranePress,
+    Nutsche as Nutsche,
+    PlateAndFramePress as PlateAndFramePress,
+    Press as Press,
+    PressureLeafFilter as PressureLeafFilter,
+)
+from granum.filtration.equipment.cake_filter import (
+    CakeFigures as CakeFigures,
+    CakeFilter as CakeFilter,
+    Caked as Caked,
+    Plan as Plan,
+    Slurry as Slurry,
+)
+from granum.filtration.equipment.continuous import (
+    ContinuousFilter as ContinuousFilter,
+    HorizontalBeltFilter as HorizontalBeltFilter,
+    PrecoatDrum as PrecoatDrum,
+    RotaryDiscFilter as RotaryDiscFilter,
+    RotaryVacuumDrum as RotaryVacuumDrum,
+    VacuumFilter as VacuumFilter,
+)
+from granum.filtration.equipment.deep_bed import (
+    Cycle as Cycle,
+    DeepBedFigures as DeepBedFigures,
+    DeepBedFilter as DeepBedFilter,
+    DeepBedOutlets as DeepBedOutlets,
+)
+from granum.filtration.formulas.backwash import (
+    backwash_velocity as backwash_velocity,
+    head_loss_backwash as head_loss_backwash,
+)
+from granum.filtration.formulas.compressible import (
+    CakeProfile as CakeProfile,
+    cake_profile as cake_profile,
+    cake_resistance_local_power as cake_resistance_local_power,
+    cake_resistance_tiller as cake_resistance_tiller,
+    void_fraction_mean_tiller as void_fraction_mean_tiller,
+)
+from granum.filtration.formulas.constant_pressure import (
+    Ruth as Ruth,
+    filtrate_flow_washing as filtrate_flow_washing,
+    filtrate_flux as filtrate_flux,
+    filtrate_volume_constant_pressure as filtrate_volume_constant_pressure,
+    filtration_time_constant_pressure as filtration_time_constant_pressure,
+    ruth_constants as ruth_constants,
+)
+from granum.filtration.formulas.constant_rate import (
+    cake_thickness_constant_rate as cake_thickness_constant_rate,
+    filtration_time_rate_then_pressure as filtration_time_rate_then_pressure,
+    pressure_drop_constant_rate as pressure_drop_constant_rate,
+    pressure_drop_constant_rate_compressible as pressure_drop_constant_rate_compressible,
+)
+from granum.filtration.formulas.cycle import (
+    filtrate_flow_drum as filtrate_flow_drum,
+    filtrate_volume_optimum as filtrate_volume_optimum,
+    filtration_cycle as filtration_cycle,
+    filtration_time_pump as filtration_time_pump,
+)
+from granum.filtration.formulas.deliquoring import (
+    capillary_number_cake as capillary_number_cake,
+    gas_velocity_deliquoring as gas_velocity_deliquoring,
+    irreducible_saturation as irreducible_saturation,
+    moisture_dry_basis_cake as moisture_dry_basis_cake,
+    saturation_after_deliquoring as saturation_after_deliquoring,
+    threshold_pressure_cake as threshold_pressure_cake,
+)
+from granum.filtration.formulas.depth import (
+    collector_efficiency_tufenkji as collector_efficiency_tufenkji,
+    concentration_iwasaki as concentration_iwasaki,
+    filter_coefficient as filter_coefficient,
+    head_loss_clean_bed as head_loss_clean_bed,
+    head_loss_deep_bed as head_loss_deep_bed,
+    run_time_deep_bed as run_time_deep_bed,
+    specific_deposit_iwasaki as specific_deposit_iwasaki,
+)
+from granum.filtration.formulas.expression import (
+    consolidation_ratio_shirato as consolidation_ratio_shirato,
+    consolidation_ratio_terzaghi as consolidation_ratio_terzaghi,
+    consolidation_time as consolidation_time,
+)
+from granum.filtration.formulas.gas_filters import (
+    penetration_fibers as penetration_fibers,
+    pressure_drop_dust_cake as pressure_drop_dust_cake,
+    pressure_drop_fibers as pressure_drop_fibers,
+)
+from granum.filtration.formulas.mass_balance import (
+    cake_thickness as cake_thickness,
+    dry_cake_per_filtrate as dry_cake_per_filtrate,
+    solids_mass_fraction_mixed as solids_mass_fraction_mixed,
+    solids_mass_fraction_sampled as solids_mass_fraction_sampled,
+    solids_mass_fraction_weighed as solids_mass_fraction_weighed,
+    void_fraction_cake as void_fraction_cake,
+    wet_to_dry_mass_ratio as wet_to_dry_mass_ratio,
+)
+from granum.filtration.formulas.membranes import (
+    concentration_retentate_batch as concentration_retentate_batch,
+    filtrate_flux_limiting as filtrate_flux_limiting,
+    filtrate_flux_membrane as filtrate_flux_membrane,
+    filtrate_flux_permeance as filtrate_flux_permeance,
+    filtration_area_membrane as filtration_area_membrane,
+    osmotic_pressure as osmotic_pressure,
+    rejection_solution_diffusion as rejection_solution_diffusion,
+)
+from granum.filtration.formulas.pleats import (
+    pleat_pitch_best as pleat_pitch_best,
+    pressure_drop_pleated as pressure_drop_pleated,
+)
+from granum.filtration.formulas.readings import (
+    Resistances as Resistances,
+    filtration_time_ruth as filtration_time_ruth,
+    resistances_constant_pressure as resistances_constant_pressure,
+    resistances_constant_rate as resistances_constant_rate,
+    ruth_constants_readings as ruth_constants_readings,
+)
+from granum.filtration.formulas.resistance import (
+    cake_permeability as cake_permeability,
+    cake_resistance_kozeny_carman as cake_resistance_kozeny_carman,
+    cake_resistance_power_law as cake_resistance_power_law,
+    cake_resistance_threshold as cake_resistance_threshold,
+)
+from granum.filtration.formulas.washing import (
+    axial_dispersion_cake as axial_dispersion_cake,
+    dispersion_number as dispersion_number,
+    solute_remaining_dahlstrom as solute_remaining_dahlstrom,
+    solute_remaining_dispersion as solute_remaining_dispersion,
+    solute_remaining_reslurry as solute_remaining_reslurry,
+    wash_effluent_concentration as wash_effluent_concentration,
+)
+from granum.filtration.lab_tests.cake_tests import (
+    CompressionCell as CompressionCell,
+    DeliquoringCurve as DeliquoringCurve,
+    WashingCurve as WashingCurve,
+)
+from granum.filtration.lab_tests.compressibility import (
+    Compressibility as Compressibility,
+)
+from granum.filtration.lab_tests.expression import (
+    ExpressionTest as ExpressionTest,
+)
+from granum.filtration.lab_tests.leaf_test import (
+    LeafTest as LeafTest,
+)
+from granum.filtration.lab_tests.rate_tests import (
+    ConstantRateTest as ConstantRateTest,
+    VariablePressureTest as VariablePressureTest,
+)
+from granum.filtration.lab_tests.slurry import (
+    PumpCurve as PumpCurve,
+    SlurryJar as SlurryJar,
+)
+from granum.filtration.lab_tests.stepped import (
+    SteppedPressureTest as SteppedPressureTest,
+)
+from granum.filtration.selection import (
+    Separators as Separators,
+    air_filter_class as air_filter_class,
+    separator_choice as separator_choice,
+)

@@ -1,0 +1,68 @@
+"""Streams that carry solids, liquid and gas; abstract equipment; audits."""
+
+from granum.streams.audit import (
+    Closure as Closure,
+)
+from granum.streams.cakes import (
+    Filtered as Filtered,
+)
+from granum.streams.dissolution import (
+    SaturatingWash as SaturatingWash,
+)
+from granum.streams.equilibrium import (
+    HumidMixture as HumidMixture,
+)
+from granum.streams.equipment.agglomerator import (
+    Agglomerator as Agglomerator,
+    AgglomeratorFigures as AgglomeratorFigures,
+    Grid as Grid,
+    Meetings as Meetings,
+)
+from granum.streams.equipment.basics import (
+    Contents as Contents,
+    Heated as Heated,
+    Heater as Heater,
+    HeaterFigures as HeaterFigures,
+    Mixer as Mixer,
+    Single as Single,
+    SplitFigures as SplitFigures,
+    Splitter as Splitter,
+    StirredTank as StirredTank,
+    TankFigures as TankFigures,
+    TwoWays as TwoWays,
+)
+from granum.streams.equipment.humid_gas import (
+    AdiabaticHumidifier as AdiabaticHumidifier,
+    CondenserCooler as CondenserCooler,
+    Cooled as Cooled,
+    CoolerFigures as CoolerFigures,
+    DehumidifyingCoil as DehumidifyingCoil,
+    HumidFigures as HumidFigures,
+    HumidMixer as HumidMixer,
+    Humidified as Humidified,
+    HumidifierFigures as HumidifierFigures,
+    Mixed as Mixed,
+)
+from granum.streams.from_materials import (
+    CarrierProperty as CarrierProperty,
+    SolutionViscosity as SolutionViscosity,
+)
+from granum.streams.holdup import (
+    Held as Held,
+)
+from granum.streams.mixture import (
+    Mixture as Mixture,
+    Species as Species,
+)
+from granum.streams.stream import (
+    Stream as Stream,
+)
+from granum.streams.turnover import (
+    Turnover as Turnover,
+)
+from granum.streams.units import (
+    Check as Check,
+    Dynamic as Dynamic,
+    Operated as Operated,
+    Unit as Unit,
+)
