@@ -1,5 +1,6 @@
 """Shared test settings: importing granum switches JAX to double precision before anything else does."""
 
+import ctypes
 import gc
 import os
 import tempfile
@@ -22,15 +23,35 @@ settings.load_profile("granum")
 
 MAPS = Path("/proc/self/maps")
 MANY_MAPS = 20_000  # of the 65 530 that Linux gives a process by default; every compiled function takes several
+RESIDENT = Path("/proc/self/statm")
+MUCH, MORE = 1.3e9, 0.4e9  # bytes in use at which compiled functions are forgotten, and again when so much has been added since
 _finished = count(1)
+_kept = 0.0
 
 
 @pytest.fixture(autouse=True)
 def _bounded_memory():
-    """Thousands of compiled functions in one process would exhaust memory maps: forget them before that."""
+    """Thousands of compiled functions in one process would exhaust memory and its maps: forget them before that."""
     yield
-    if next(_finished) % 5 == 0 and MAPS.exists() and MAPS.read_bytes().count(b"\n") > MANY_MAPS:
-        import jax
+    if next(_finished) % 5 == 0 and (_resident() > max(MUCH, _kept + MORE) or _maps() > MANY_MAPS):
+        _forget()
 
-        jax.clear_caches()
-        gc.collect()
+
+def _maps() -> int:
+    return MAPS.read_bytes().count(b"\n") if MAPS.exists() else 0
+
+
+def _resident() -> float:
+    return int(RESIDENT.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE") if RESIDENT.exists() else 0.0
+
+
+def _forget() -> None:
+    global _kept
+    import jax
+
+    jax.clear_caches()
+    gc.collect()
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # what is freed stays with the process unless glibc is asked
+    if trim is not None:
+        trim(0)
+    _kept = _resident()
