@@ -270,7 +270,7 @@ def _air(build: Callable[..., Any], **ports: Callable[..., Stream]) -> Callable[
 def _burner(x: Any, _product: Any, _more: Any) -> Setting:
     gas = _humid(x, 0, 473.0)
     fired = empty(FIRED, gas.temperature).replace(gas=jnp.concatenate([gas.gas, jnp.zeros(1)]))
-    fuel = empty(FIRED, 288.0).replace(gas=jnp.stack([0.0, 0.0, gas.gas[0] * between(x[6], 1e-4, 0.02)]))
+    fuel = empty(FIRED, 288.0).replace(gas=jnp.stack([0.0, 0.0, gas.gas[0] * jnp.where(x[6] < 0.1, 0.0, between(x[6], 1e-4, 0.02))]))
     return Setting(Burner(0.1 * x[7]), {"gas": fired, "fuel": fuel})
 
 

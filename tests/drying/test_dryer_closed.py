@@ -144,3 +144,13 @@ def test_burner_beside_the_real_flue_gas() -> None:
     assert [c.ok for c in burner.operate(gas=gas, fuel=propane.part(gas=8.0)).checks] == [False, False]
     with pytest.raises(InputError, match="fuel"):
         burner(empty(MIXTURE), empty(MIXTURE))
+
+
+def test_a_burner_without_fuel_passes_the_gas():
+    gas = empty(FIRED, 298.15).replace(gas=jnp.array([1.0, 0.01, 0.0, 0.0]))
+    made = Burner(0.05).operate(gas=gas, fuel=empty(FIRED, 288.15))
+    assert made.outlets.product.gas.tolist() == gas.gas.tolist()
+    assert float(made.outlets.product.temperature) == pytest.approx(298.15, abs=1e-9)
+    assert float(made.outlets.heat_duty) == 0.0
+    assert float(made.figures.excess_air_ratio) == 0.0
+    assert all(check.ok for check in made.checks)

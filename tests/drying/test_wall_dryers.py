@@ -56,6 +56,7 @@ def test_a_load_on_trays_over_time():
     Tw = float(figures.surface_temperature)
     feed = feed.replace(temperature=Tw)  # nothing is left to warm
     load = unit.batch(feed, gas, cells=6, steps=150)
+    assert bool(load.converged)
     matter, w = Matter.of(feed, gas), float(figures.humidity_ratio)
     through = float(load.dry_gas)
     X, T = np.asarray(load.moisture), np.asarray(load.temperature)

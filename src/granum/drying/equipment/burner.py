@@ -19,6 +19,7 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 HOTTEST = 1400.0  # K, up to which the flue gas may be taken as air
+MOST = 1e3  # air over air needed
 
 
 class Fired(NamedTuple):
@@ -43,13 +44,14 @@ class Burner(Unit):
     """Burns a gaseous fuel of the mixture in the air: its flue gas, diluted by the air that is too much, dries directly.
 
     Complete combustion; the dry flue gas is counted as air, within 1 % of its enthalpy from four times the air needed. The fuel brings
-    water of its own: about 2.2 kg for a kilogram of methane. ``heat_loss_share`` is of the heating value.
+    water of its own: about 2.2 kg for a kilogram of methane. ``heat_loss_share`` is of the heating value. Without fuel the gas passes
+    as it is, with a ratio of excess air of zero.
     """
 
     heat_loss_share: Fraction = 0.0
 
     limits: ClassVar[Limits] = {
-        "enough": Limit("air supplied over air needed by the fuel", 1.05, 1e3, "kg/kg", "keey1978"),
+        "enough": Limit("air supplied over air needed by the fuel", 1.05, MOST, "kg/kg", "keey1978"),
         "hot": Limit("temperature of the fired gas", 273.15, HOTTEST, "K", "keey1978"),
     }
 
@@ -77,13 +79,14 @@ class Burner(Unit):
         return BurnerFigures(
             temperature=outlets.product.temperature,
             humidity_ratio=HumidMixture(gas.mixture).humidity_ratio(outlets.product),
-            excess_air_ratio=safe_divide(flows[gas.mixture.index("gases", AIR)], needed, jnp.inf),
+            excess_air_ratio=safe_divide(flows[gas.mixture.index("gases", AIR)], needed),
             fuel_flow=sum((flows[i] for i in fuels), jnp.zeros(())),
             heat_duty_heater=self._heat(gas.replace(gas=flows)),
         )
 
     def measured(self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream) -> dict[str, Any]:
-        return {"enough": figures.excess_air_ratio, "hot": figures.temperature}
+        enough = jnp.where(figures.fuel_flow > 0, figures.excess_air_ratio, MOST)  # without fuel no air is needed
+        return {"enough": enough, "hot": figures.temperature}
 
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:

@@ -7,9 +7,10 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
+from jax.core import Tracer
 
 from granum.core import equipment
-from granum.core.errors import ApplicabilityError
+from granum.core.errors import ApplicabilityError, ConvergenceError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
 from granum.core.kinds import (
@@ -91,6 +92,7 @@ class Batch(NamedTuple):
     dry_gas: Any  # that passed, kg per kg of dry solid
     vapor: Any  # with that air as it leaves, kg per kg of dry solid
     gas_enthalpy: Any  # of that air as it leaves, J per kg of dry solid
+    converged: Any  # whether every step was solved
 
 
 class _Rest(eqx.Module):
@@ -182,7 +184,10 @@ class TrayDryer(Unit):
                 _("A load is followed in time without radiated heat: set 'radiated_heat' to zero."), name="radiated_heat"
             )
         length = 1.5 * self.inside(feed, gas)["time"] if duration is None else duration
-        return _followed(self, feed, gas, length, cells, steps)
+        found = _followed(self, feed, gas, length, cells, steps)
+        if not isinstance(found.converged, Tracer) and not bool(found.converged):
+            raise ConvergenceError(_("The load could not be followed to its end: take more 'steps', or a shorter 'duration'."), last=found)
+        return found
 
     def figures(self, inside: dict[str, Any], outlets: TrayDried, feed: Stream, gas: Stream) -> TrayFigures:
         s = inside
@@ -239,5 +244,5 @@ def _followed(tray: TrayDryer, feed: Stream, gas: Stream, duration: Any, cells: 
     return Batch(
         found.time, layers.moisture[..., 0], layers.temperature[..., 0], layers.gas_temperature, layers.humidity, mean, reached,
         per_solid * duration, found.vapor,
-        found.gas_enthalpy,
+        found.gas_enthalpy, jnp.all(layers.converged),
     )  # fmt: skip
