@@ -13,14 +13,14 @@ from granum.numerics import Cells, Rates, solve_chain
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream
 
-WATER_DENSITY = 997.0
+AMBIENT = 298.15  # K, at which the liquid of a drop has its density
 SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, which a check reports
 
 
 class Path(NamedTuple):
     """Where the particles are carried: lengths of the cells, section, how gravity acts along the way, speed at the start, sizes.
 
-    ``dry_size`` and ``dry_density`` are of the dry particle; a wet one is a ball of its solid and water, never smaller than the dry one.
+    ``dry_size`` and ``dry_density`` are of the dry particle; a wet one is a ball of its solid and liquid, never smaller than the dry one.
     """
 
     steps: Any
@@ -30,6 +30,7 @@ class Path(NamedTuple):
     dry_size: Any
     dry_density: Any
     solid_density: Any  # of the solid without pores
+    liquid_density: Any
     shrinks: bool
 
 
@@ -37,12 +38,17 @@ def wet_size(path: Path, X: Any) -> Any:
     """Diameter at a moisture."""
     if not path.shrinks:
         return path.dry_size + 0.0 * X
-    return path.dry_size * jnp.maximum(1.0, drop_ratio(path.dry_density, path.solid_density, X))
+    return path.dry_size * jnp.maximum(1.0, drop_ratio(path.dry_density, path.solid_density, path.liquid_density, X))
 
 
-def drop_ratio(dry_density: Any, solid_density: Any, X: Any) -> Any:
-    """Diameter of a full drop of solid and water over that of the dry particle it becomes."""
-    return (dry_density * (1.0 / solid_density + jnp.maximum(X, 0.0) / WATER_DENSITY)) ** (1.0 / 3.0)
+def liquid_density(feed: Stream) -> Any:
+    """Of the liquid that evaporates."""
+    return feed.mixture.densities("liquids", AMBIENT)[0]
+
+
+def drop_ratio(dry_density: Any, solid_density: Any, liquid_density: Any, X: Any) -> Any:
+    """Diameter of a full drop of solid and liquid over that of the dry particle it becomes."""
+    return (dry_density * (1.0 / solid_density + jnp.maximum(X, 0.0) / liquid_density)) ** (1.0 / 3.0)
 
 
 def relaxed(path: Path, gas: Flight, before: Any, own: Any, X: Any) -> tuple[Any, Any]:

@@ -13,7 +13,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, Within
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Inlet, Network
-from granum.drying.contact.conveyed import Path, convey
+from granum.drying.contact.conveyed import Path, convey, liquid_density
 from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
@@ -58,7 +58,7 @@ class FlashDryer(Dryer):
         sizes = jnp.asarray(feed.mixture.sizes)
         return Path(
             self.length * growth / jnp.sum(growth), self.extent(), STANDARD_GRAVITY * (2.0 * self.downward - 1.0), self.feed_velocity, sizes,
-            feed.solid_density, feed.solid_density, False,
+            feed.solid_density, feed.solid_density, liquid_density(feed), False,
         )  # fmt: skip
 
     def through(self, feed: Stream, gas: Stream) -> Through:

@@ -14,7 +14,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature, Within
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Inlet, Network
-from granum.drying.contact.conveyed import Path, convey, drop_ratio
+from granum.drying.contact.conveyed import Path, convey, drop_ratio, liquid_density
 from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, parted, ready, sized
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.liquor import composition, counted
@@ -69,7 +69,8 @@ class SprayDryer(Dryer):
         """Solid in each class of dry particles, from the volume distribution of the drops."""
         mean = self.atomizer.sauter(self.liquor(feed, gas))
         modulus = mean * jnp.exp(gammaln(1.0 - 1.0 / self.drop_exponent))
-        edges = jnp.asarray(feed.mixture.size_edges) * drop_ratio(self.dry_density, feed.solid_density, feed.moisture_dry_basis)
+        wet = drop_ratio(self.dry_density, feed.solid_density, liquid_density(feed), feed.moisture_dry_basis)
+        edges = jnp.asarray(feed.mixture.size_edges) * wet
         below = -jnp.expm1(-((edges / modulus) ** self.drop_exponent))
         return jnp.diff(below.at[0].set(0.0).at[-1].set(1.0))
 
@@ -83,7 +84,7 @@ class SprayDryer(Dryer):
         growth = GROWTH ** jnp.arange(self.cells)
         return Path(
             self.length * growth / jnp.sum(growth), 0.25 * pi * self.diameter**2, STANDARD_GRAVITY, self.atomizer.launch(self.liquor(feed, gas)),
-            jnp.asarray(feed.mixture.sizes), self.dry_density, feed.solid_density, True,
+            jnp.asarray(feed.mixture.sizes), self.dry_density, feed.solid_density, liquid_density(feed), True,
         )  # fmt: skip
 
     def through(self, feed: Stream, gas: Stream) -> Through:
