@@ -66,10 +66,11 @@ def test_a_load_on_trays_over_time():
     assert brought == pytest.approx(held, rel=1e-9)
     wet = int(np.argmin(abs(np.asarray(load.moisture_mean) - 0.18)))
     cooled = float(unit.temperature_inlet) - float(figures.temperature_outlet)
-    # which knows neither the cold vapor that joins the air nor, half as strong, the heat that it keeps from the surface (Ackermann)
-    joins = 1890.0 * (float(unit.temperature_inlet) - 0.5 * cooled - Tw) / 2.4e6
-    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled * (1.0 + 0.5 * joins), rel=0.005)
-    assert T[wet] == pytest.approx(Tw, abs=0.1)
+    # which knows neither the cold vapor that joins the air nor, half as strong, the heat that it keeps from the surface (Ackermann), nor six mixed cells
+    above = float(unit.temperature_inlet) - Tw
+    more = 0.5 * 1890.0 * (above - 0.5 * cooled) / 2.4e6 - cooled / above / 12.0
+    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled * (1.0 + more), rel=0.005)
+    assert T[wet] == pytest.approx(Tw, abs=0.2)  # the logarithm of Stefan flow against a difference of humidities
     assert np.all(np.diff(X, axis=1) >= -1e-9)
     assert float(load.drying_time) == pytest.approx(float(figures.drying_time), rel=0.01)
     with pytest.raises(ApplicabilityError, match="radiated"):
@@ -145,7 +146,7 @@ def test_paddle_curve_conserves_heat():
     unit, feed = dataclasses.replace(line.sheet.units["dryer"], pasty_moisture=None), line.sheet.feeds["sludge"]
     bed = unit.curve(feed)
     X, T = np.asarray(bed.moisture), np.asarray(bed.temperature)
-    boiling, wall, coefficient, capacity = (float(x) for x in unit._heat(feed))
+    boiling, wall, coefficient, capacity, _liquid = (float(x) for x in unit._heat(feed))
     heat = []
     for x, t in zip(X, T, strict=True):
         p = c.penetration_drying(float(x), 403.15, float(t), wall, coefficient, capacity, 2256.5e3)
@@ -164,9 +165,9 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     inlets = {"feed": feed}
     figures = unit.operate(**inlets).figures
     X, capacity = 7 / 3, float(unit._heat(feed)[3])
-    held = (capacity + X * 4187.0) / (1.0 / float(feed.solid_density) + X / 958.0)
+    held = (capacity + X * 4216.0) / (1.0 / float(feed.solid_density) + X / 958.4)  # water of 100 °C, steam tables
     h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))
-    assert float(figures.heat_transfer_coefficient_paste) == pytest.approx(h, rel=1e-9)
+    assert float(figures.heat_transfer_coefficient_paste) == pytest.approx(h, rel=1e-3)
     flux = h * (403.15 - 373.124) / 2256.5e3
     bed = unit.curve(feed)
     pasty = np.asarray(bed.moisture) > 1.0 + 1e-9
