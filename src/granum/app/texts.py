@@ -58,14 +58,11 @@ def _input_text(value: Any, text: str) -> str:
 
 def ranking(result: Result) -> dict[str, Any] | None:
     """Outputs that run side by side, such as names, marks and reasons of a choice, as one table; None when there are none."""
-    items = {p: list(value) for p in result.card.outputs if np.ndim(value := result.outputs[p.name]) == 1}
-    if len(items) < 2 or len({len(found) for found in items.values()}) > 1 or not any(p.kind is None for p in items):
+    ranked = result.ranking
+    if ranked is None:
         return None
-    columns = [{"name": p.name, "label": p.label, "number": p.kind is not None} for p in items]
-    return {
-        "columns": columns,
-        "rows": [[value_text(x, p) for p, x in zip(items, row, strict=True)] for row in zip(*items.values(), strict=True)],
-    }
+    columns = [{"name": p.name, "label": p.label, "number": p.kind is not None} for p in ranked[0]]
+    return {"columns": columns, "rows": [[value_text(x, p) for p, x in zip(ranked[0], row, strict=True)] for row in ranked[1]]}
 
 
 def series_tables(result: Result) -> list[dict[str, Any]]:

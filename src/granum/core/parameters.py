@@ -140,6 +140,8 @@ def default_as_json(value: Any) -> Any:
         return value.card.name
     if isinstance(value, np.ndarray):
         return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [default_as_json(item) for item in value]
     return str(value)
 
 

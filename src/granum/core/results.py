@@ -73,6 +73,14 @@ class Result:
             return {self.card.outputs[0].name: self.value}
         return dict(zip((p.name for p in self.card.outputs), self.value, strict=True))
 
+    @property
+    def ranking(self) -> tuple[list[Parameter], list[tuple[Any, ...]]] | None:
+        """Outputs that run side by side, such as names, marks and reasons of a choice, as rows; None when there are none."""
+        columns = {p: list(value) for p in self.card.outputs if np.ndim(value := self.outputs[p.name]) == 1}
+        if len(columns) < 2 or len({len(found) for found in columns.values()}) > 1 or not any(p.kind is None for p in columns):
+            return None
+        return list(columns), list(zip(*columns.values(), strict=True))
+
     def __str__(self) -> str:
         rows = [f"{p.label} = {_shown(self.outputs[p.name], p)}" for p in self.card.outputs]
         return "\n".join([self.card.key, *rows, *(f"! {notice['message']}" for notice in self.notices)])
@@ -107,7 +115,11 @@ class Result:
         return self.value
 
     def as_json(self) -> dict[str, Any]:
-        """The stable ``calc`` shape."""
+        """The stable ``calc`` shape; the rows of a ranking also one by one."""
+        ranked = self.ranking
+        rows = {} if ranked is None else {
+            "rows": [{p.name: quantity_json(x, p) for p, x in zip(ranked[0], row, strict=True)} for row in ranked[1]]
+        }  # fmt: skip
         return {
             "card": self.card.key,
             "inputs": {
@@ -117,4 +129,4 @@ class Result:
             "outputs": {p.name: quantity_json(self.outputs[p.name], p) for p in self.card.outputs},
             "flags": self.notices,
             "source": self.card.source,
-        }
+        } | rows

@@ -61,13 +61,21 @@ def print_result(result: Result) -> None:
             continue  # not given
         label = f"{p.label} ({_('default')})" if p.name in result.defaults else p.label
         table.add_row(label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
+    columns, rows = result.ranking or ([], [])
     for p in result.card.outputs:
-        table.add_row(
-            Text(p.label, style="bold"),
-            text_symbol(p.term.symbol) if p.term else "",
-            Text(value_text(result.outputs[p.name], p), style="bold"),
-        )
+        if p not in columns:
+            table.add_row(
+                Text(p.label, style="bold"),
+                text_symbol(p.term.symbol) if p.term else "",
+                Text(value_text(result.outputs[p.name], p), style="bold"),
+            )
     console.print(table)
+    if columns:
+        ranked = _table(*((p.label, "right" if p.kind else "left") for p in columns))
+        for row in rows:
+            name, *rest = (value_text(x, p) for p, x in zip(columns, row, strict=True))
+            ranked.add_row(Text(name, style="bold"), *rest)
+        console.print(ranked)
     console.print(Text(result.card.citation, style="dim"))
     _notices(console, result.notices)
 
