@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -243,6 +244,15 @@ class Binder:
         """A binder for the card named ``owner``."""
         return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
 
+    def with_fluid(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> tuple[Mapping[str, Any], dict[str, str]]:
+        """The arguments with the properties of a ``fluid`` in its place, and what each of these says of its origin; explicit values win."""
+        if "fluid" not in kwargs or "fluid" in self.index:
+            return kwargs, {}
+        stated = import_module("granum.materials.stated")  # the core knows no materials; whoever names one has them
+        rest = {name: value for name, value in kwargs.items() if name != "fluid"}
+        found, label = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
+        return {**rest, **found}, dict.fromkeys(found, label)
+
     def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
         """Names that were not given and have a default other than nothing."""
         rest = self.parameters[len(args) :]
@@ -278,4 +288,5 @@ class Binder:
     def bind(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> dict[str, Any]:
         """Converted values by name."""
         where = _(" for {owner}").format(owner=self.owner)
-        return {p.name: convert(value, p, where) for p, value in zip(self.parameters, self.arrange(args, kwargs), strict=True)}
+        given, _origins = self.with_fluid(args, kwargs)
+        return {p.name: convert(value, p, where) for p, value in zip(self.parameters, self.arrange(args, given), strict=True)}

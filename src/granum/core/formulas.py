@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
-from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints
+from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints, overload
 
 import jax
 import jax.numpy as jnp
@@ -303,7 +303,15 @@ class Formula(Generic[P, R]):
                 return _DYNAMIC
         return _floats(compiled(*[values[i] if i >= 0 else fixed for i, fixed in order]))
 
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+    @overload
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R: ...
+
+    @overload
+    def __call__(self, *args: Any, fluid: Any, **kwargs: Any) -> R: ...
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        if "fluid" in kwargs:
+            kwargs = dict(self._binder.with_fluid(args, kwargs)[0])
         nested = flags.nested()
         heard = flags.listening()
         if not args and not nested and not heard and _steps.get() is None:
@@ -336,12 +344,13 @@ class Formula(Generic[P, R]):
             self.evaluate(*args, **kwargs)
         return out
 
-    def evaluate(self, *args: P.args, **kwargs: P.kwargs) -> Result:
+    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its flags and card."""
+        kwargs, origins = self._binder.with_fluid(args, kwargs)  # type: ignore[assignment]
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
             raise InputError(_("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(key=self.key))
-        result = replace(self._evaluate(values), defaults=self._binder.left_out(args, kwargs))
+        result = replace(self._evaluate(values), defaults=self._binder.left_out(args, kwargs), origins=origins)
         return result if batched else result.possible()
 
     def _evaluate(self, values: list[Any]) -> Result:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints
+from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints, overload
 
 import numpy as np
 
@@ -48,7 +48,13 @@ class Procedure(Generic[P, R]):
     def __repr__(self) -> str:
         return f"<{self._sort} {self.key}>"
 
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+    @overload
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R: ...
+
+    @overload
+    def __call__(self, *args: Any, fluid: Any, **kwargs: Any) -> R: ...
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
         return self._run(self._binder.bind(args, kwargs))
 
     def _run(self, inputs: dict[str, Any]) -> Any:
@@ -57,11 +63,12 @@ class Procedure(Generic[P, R]):
         bounds.refuse_outside(self.card.outputs, out, self.key)
         return out
 
-    def evaluate(self, *args: P.args, **kwargs: P.kwargs) -> Result:
+    def evaluate(self, *args: Any, **kwargs: Any) -> Result:
         """The value with its card (a procedure reports problems by raising, so there are no flags)."""
-        inputs = self._binder.bind(args, kwargs)
-        left = self._binder.left_out(args, kwargs)
-        return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left)
+        given, origins = self._binder.with_fluid(args, kwargs)
+        inputs = self._binder.bind(args, given)
+        left = self._binder.left_out(args, given)
+        return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left, origins=origins)
 
 
 Procedure.__doc__ = CompletedDoc(Procedure.__doc__, of_instances=True)  # type: ignore[assignment]

@@ -57,6 +57,7 @@ class Result:
     flags: int32 bits in the shape of the result (see ``granum.core.flags``).
     notices: one record per raised flag: what, how many, worst value, range, sentence.
     defaults: names of the inputs that were not given and took their default.
+    origins: of inputs that a stated fluid gave, which it was.
     """
 
     card: Card
@@ -65,6 +66,7 @@ class Result:
     flags: np.ndarray
     notices: list[dict[str, Any]] = field(default_factory=list)
     defaults: frozenset[str] = frozenset()
+    origins: dict[str, str] = field(default_factory=dict)
 
     @property
     def outputs(self) -> dict[str, Any]:
@@ -123,7 +125,9 @@ class Result:
         return {
             "card": self.card.key,
             "inputs": {
-                p.name: quantity_json(self.inputs[p.name], p) | ({"default": True} if p.name in self.defaults else {})
+                p.name: quantity_json(self.inputs[p.name], p)
+                | ({"default": True} if p.name in self.defaults else {})
+                | ({"from": self.origins[p.name]} if p.name in self.origins else {})
                 for p in self.card.parameters
             },
             "outputs": {p.name: quantity_json(self.outputs[p.name], p) for p in self.card.outputs},

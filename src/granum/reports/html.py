@@ -33,8 +33,9 @@ from granum.reports.quantities import (
 from granum.streams.stream import main_phase
 
 
-def _row(p: Parameter, value: Any) -> dict[str, str]:
-    return {"label": p.label, "symbol": mathml(p.term.symbol) if p.term else p.name, "text": value_text(value, p)}
+def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
+    label = f"{p.label} ({origin})" if origin else p.label
+    return {"label": label, "symbol": mathml(p.term.symbol) if p.term else p.name, "text": value_text(value, p)}
 
 
 def note_step(step: Result) -> dict[str, Any]:
@@ -43,7 +44,9 @@ def note_step(step: Result) -> dict[str, Any]:
         "title": step.card.title,
         "key": step.card.key,
         "equation": mathml(step.card.equation, display=True),
-        "inputs": [_row(p, step.inputs[p.name]) for p in step.card.parameters if step.inputs[p.name] is not None],
+        "inputs": [
+            _row(p, step.inputs[p.name], step.origins.get(p.name, "")) for p in step.card.parameters if step.inputs[p.name] is not None
+        ],
         "outputs": [_row(p, step.outputs[p.name]) for p in step.card.outputs],
         "source": step.card.citation,
         "notices": [n["message"] for n in step.notices],

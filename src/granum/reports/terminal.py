@@ -59,7 +59,8 @@ def print_result(result: Result) -> None:
     for p in result.card.parameters:
         if result.inputs[p.name] is None:
             continue  # not given
-        label = f"{p.label} ({_('default')})" if p.name in result.defaults else p.label
+        origin = _("default") if p.name in result.defaults else result.origins.get(p.name)
+        label = f"{p.label} ({origin})" if origin else p.label
         table.add_row(label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
     columns, rows = result.ranking or ([], [])
     for p in result.card.outputs:

@@ -1,0 +1,124 @@
+"""A fluid said in words, ``"water at 20 °C"``, in place of the properties that a card asks of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
+
+from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.conversion import convert
+from granum.core.errors import InputError
+from granum.core.i18n import _
+from granum.core.kinds import KINDS
+from granum.core.parameters import Parameter
+from granum.core.units import show
+from granum.materials.fluids import Fluid
+from granum.materials.library import session
+
+_WORDS = re.compile(r"^\s*(?P<name>.+?)\s+(?:at|à|@)\s+(?P<state>.+?)\s*$")
+_PARTS = re.compile(r"\s*(?:;|,\s|\s(?:and|et)\s)\s*")
+
+
+class StatedFluid(NamedTuple):
+    """A fluid at a temperature and a pressure: a liquid where it condenses and lies below its boiling point, else a gas."""
+
+    fluid: Fluid
+    temperature: float
+    pressure: float
+
+    @classmethod
+    def read(cls, given: Any) -> StatedFluid:
+        """From ``"water at 20 °C"``, ``"air at 60 °C, 2 bar"``, or a fluid (or its name), its temperature and, if not 1 atm, its pressure."""
+        if isinstance(given, str):
+            words = _WORDS.match(given)
+            if words is None:
+                raise _not_a_fluid(given)
+            name, parts = words["name"], _PARTS.split(words["state"])
+        elif isinstance(given, (tuple, list)) and given:
+            name, parts = given[0], list(given[1:])
+        else:
+            raise _not_a_fluid(given)
+        if not 1 <= len(parts) <= 2:
+            raise _not_a_fluid(given)
+        known = name if isinstance(name, Fluid) else session().fluid(str(name))
+        where = " " + _("of the 'fluid'")
+        T = float(convert(parts[0], Parameter("temperature", KINDS["Temperature"]), where))
+        P = float(convert(parts[1], Parameter("pressure", KINDS["Pressure"]), where)) if len(parts) > 1 else STANDARD_ATMOSPHERE
+        return cls(known, T, P)
+
+    @property
+    def is_liquid(self) -> bool:
+        """Whether it is a liquid in this state."""
+        return self.fluid.condensable and self.temperature < float(self.fluid.boiling_temperature(self.pressure))
+
+    @property
+    def label(self) -> str:
+        """What a note says of it."""
+        state = [show(self.temperature, KINDS["Temperature"])]
+        if self.pressure != STANDARD_ATMOSPHERE:
+            state.append(show(self.pressure, KINDS["Pressure"]))
+        return _("{name} at {state}, {phase}").format(
+            name=self.fluid.label, state=", ".join(state), phase=_("liquid") if self.is_liquid else _("gas")
+        )
+
+    def density(self) -> Any:
+        """kg/m³."""
+        return self.fluid.liquid_density(self.temperature) if self.is_liquid else self.fluid.vapor_density(self.temperature, self.pressure)
+
+    def viscosity(self) -> Any:
+        """Pa s."""
+        return self._of("viscosity")
+
+    def kinematic_viscosity(self) -> Any:
+        """m²/s."""
+        return self.viscosity() / self.density()
+
+    def conductivity(self) -> Any:
+        """W/(m K)."""
+        return self._of("conductivity")
+
+    def heat_capacity(self) -> Any:
+        """J/(kg K)."""
+        return self._of("heat_capacity")
+
+    def surface_tension(self) -> Any:
+        """N/m."""
+        return self.fluid.surface_tension(self.temperature)
+
+    def _of(self, name: str) -> Any:
+        return getattr(self.fluid, f"{'liquid' if self.is_liquid else 'vapor'}_{name}")(self.temperature)
+
+
+_ALWAYS: dict[str, Callable[[StatedFluid], Any]] = {
+    "fluid_density": StatedFluid.density, "dynamic_viscosity": StatedFluid.viscosity, "kinematic_viscosity": StatedFluid.kinematic_viscosity,
+}  # fmt: skip
+_OF_LIQUID = {"liquid_density": StatedFluid.density, "surface_tension": StatedFluid.surface_tension}
+_OF_GAS = {"gas_density": StatedFluid.density}
+_BESIDE = {"thermal_conductivity": StatedFluid.conductivity, "specific_heat_capacity": StatedFluid.heat_capacity}
+
+
+def asked_of_a_fluid(parameters: Iterable[Parameter]) -> tuple[str, ...]:
+    """Names of the inputs that a fluid can give; conductivity and heat capacity only beside its density or viscosity, else they are a solid's."""
+    names = [p.name for p in parameters]
+    own = [name for name in names if name in {**_ALWAYS, **_OF_LIQUID, **_OF_GAS}]
+    return tuple(name for name in names if name in own or (own and name in _BESIDE))
+
+
+def properties(given: Any, owner: str, parameters: Iterable[Parameter], typed: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
+    """Values of the inputs that a stated fluid gives, those ``typed`` left as they are, and what a note says of the fluid."""
+    names = asked_of_a_fluid(parameters)
+    if not names:
+        raise InputError(_("{owner} asks for no property of a fluid: leave 'fluid' out.").format(owner=owner), name="fluid")
+    state = StatedFluid.read(given)
+    ways = _ALWAYS | _BESIDE | (_OF_LIQUID if state.is_liquid else _OF_GAS)
+    return {name: float(ways[name](state)) for name in names if name in ways and name not in typed}, state.label
+
+
+def _not_a_fluid(given: Any) -> InputError:
+    return InputError(
+        _("'fluid' = {value} is not understood: write it with its temperature, such as fluid=\"water at 20 °C\".").format(
+            value=repr(given)
+        ),
+        name="fluid",
+    )

@@ -1,0 +1,66 @@
+"""A fluid in place of its properties."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import granum as gr
+from granum.core.errors import InputError
+from granum.materials.stated import StatedFluid
+
+GRAIN = {"particle_diameter": "85 um", "particle_density": 2630.0}
+
+
+def test_water_gives_its_density_and_viscosity():
+    """At 20 °C 998.2 kg/m³ and 1.0016 mPa s (IAPWS tables); the note says where they come from, and the velocity is that of these numbers."""
+    result = gr.particles.terminal_velocity.evaluate(**GRAIN, fluid="water at 20 °C")
+    assert result.inputs["fluid_density"] == pytest.approx(998.2, abs=0.1)
+    assert result.inputs["dynamic_viscosity"] == pytest.approx(1.0016e-3, rel=2e-3)
+    row = result.as_json()["inputs"]["dynamic_viscosity"]
+    assert row["from"] == "water at 20 °C, liquid"
+    plain = gr.particles.terminal_velocity(**GRAIN, fluid_density=998.2, dynamic_viscosity=1.0016e-3)
+    assert gr.particles.terminal_velocity(**GRAIN, fluid="water at 20 °C") == pytest.approx(plain, rel=3e-3)
+
+
+def test_what_is_given_wins():
+    result = gr.particles.terminal_velocity.evaluate(**GRAIN, fluid="water at 20 degC", fluid_density=1200.0)
+    assert result.inputs["fluid_density"] == 1200.0
+    assert "from" not in result.as_json()["inputs"]["fluid_density"]
+
+
+@pytest.mark.parametrize(
+    ("words", "liquid", "density"),
+    [
+        ("air at 20 degC", False, 1.204),
+        ("water at 120 °C", False, 0.559),
+        ("water at 120 °C, 5 bar", True, 943.1),
+        ("eau à 20 °C", True, 998.2),
+    ],
+)
+def test_phase_and_density(words, liquid, density):
+    """Air and water of tables (steam at 120 °C and 1 atm as an ideal gas)."""
+    state = StatedFluid.read(words)
+    assert state.is_liquid is liquid
+    assert float(state.density()) == pytest.approx(density, rel=3e-3)
+
+
+@pytest.mark.parametrize("given", ["water", "water at", 20.0, "watr at 20 °C", ("water",), "water at 20 kg"])
+def test_what_is_no_fluid_is_told(given):
+    with pytest.raises(InputError):
+        gr.particles.terminal_velocity(**GRAIN, fluid=given)
+
+
+def test_a_card_without_a_fluid_refuses_one():
+    with pytest.raises(InputError, match="asks for no property"):
+        gr.drying.mass_efficiency(fluid="water at 20 °C")
+
+
+def test_on_the_command_line():
+    words = ["particle_diameter=85um", "particle_density=2630", "fluid=water at 20 degC"]
+    done = subprocess.run(
+        [sys.executable, "-m", "granum", "calc", "particles.terminal_velocity", *words, "--json"], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["inputs"]["fluid_density"]["from"].startswith("water at 20")
