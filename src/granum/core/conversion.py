@@ -250,8 +250,9 @@ class Binder:
             return kwargs, {}
         stated = import_module("granum.materials.stated")  # the core knows no materials; whoever names one has them
         rest = {name: value for name, value in kwargs.items() if name != "fluid"}
-        found, label = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
-        return {**rest, **found}, dict.fromkeys(found, label)
+        found, origin = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
+        origins: dict[str, str] = dict.fromkeys(found, str(origin))
+        return {**rest, **found}, origins
 
     def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
         """Names that were not given and have a default other than nothing."""
