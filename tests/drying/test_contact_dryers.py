@@ -160,7 +160,7 @@ def test_layer_follows_hukill() -> None:
 def test_particles_reach_their_terminal_velocity() -> None:
     """At the end of a long cell the speed is that of free fall."""
     d = np.array([1e-4, 5e-4])
-    path = Path(jnp.full(1, 4.0), 1.0, 9.80665, 0.5, jnp.asarray(d), 1500.0, 1500.0, False)
+    path = Path(jnp.full(1, 4.0), 1.0, 9.80665, 0.5, jnp.asarray(d), 1500.0, 1500.0, 997.0, False)
     gas = Flight(0.0, 1.2, 1.8e-5, 4.0)
     ends = jnp.full(2, 0.5)
     for _pass in range(60):
