@@ -133,3 +133,6 @@ from granum.materials.solutes import (
     NoLaw as NoLaw,
     SoluteSystem as SoluteSystem,
 )
+from granum.materials.stated import (
+    StatedFluid as StatedFluid,
+)
