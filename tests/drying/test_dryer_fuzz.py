@@ -16,14 +16,13 @@ from granum.drying.equipment.freeze import FreezeDryer
 from granum.drying.equipment.paddle import PaddleDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
-from granum.humid_gas.pairs import AirWater
+from granum.humid_gas.pairs import AIR_WATER
 from granum.humid_gas.relations import saturated_fraction
 from granum.streams.audit import closure
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 
 COUNT = 400
-PAIR = AirWater()
 MIXTURE = mixture_of(["water"], ["starch"], ["dry air", "water", "methane"], [1e-3, 2e-3])
 # of the feed: kg/s, kg/kg, K; of the gas: kg/s, kg/kg, K; then three numbers from 0 to 1 that each dryer uses in its own way
 LOW = np.array([0.01, 0.3, 280.0, 1.0, 0.002, 280.0, 0.0, 0.0, 0.0])
@@ -83,8 +82,9 @@ def missed(unit, out, X):
     if unit.temperature_outlet is not None:
         gone = (out.exhaust.temperature - unit.temperature_outlet) / unit.temperature_outlet
     else:
-        y = PAIR.fraction(out.exhaust.gas[1] / out.exhaust.gas[0])
-        gone = y / saturated_fraction(PAIR, out.exhaust.temperature, out.exhaust.pressure) - unit.relative_humidity_outlet
+        moles = out.exhaust.gas / jnp.array([species.molar_mass for species in MIXTURE.gases])
+        saturated = saturated_fraction(AIR_WATER, out.exhaust.temperature, out.exhaust.pressure)
+        gone = moles[1] / jnp.sum(moles) / saturated - unit.relative_humidity_outlet
     return jnp.where((left > 1e-9) & (left < X * (1.0 - 1e-9)), gone, 0.0)
 
 
