@@ -115,7 +115,7 @@ def test_gradients_are_finite_and_the_mixture_is_checked() -> None:
     assert float(slope) == pytest.approx(float(outlet(8 + C + h) - outlet(8 + C - h)) / (2 * h), rel=1e-5)
     nothing = CondenserCooler(10 + C)(empty(MIXTURE, 300.0))
     assert np.isfinite(float(nothing.heat_duty))
-    with pytest.raises(ApplicabilityError, match="carrier gas"):
+    with pytest.raises(ApplicabilityError, match="first liquid among the gases"):
         CondenserCooler(10 + C)(empty(mixture_of(["water"], ["calcite"], [], [1e-6, 1e-3]), 300.0))
 
 

@@ -37,7 +37,7 @@ def test_settling_example() -> None:
     speed = data["spread"]["findings"]["statistics"]["terminal_velocity"]
     assert 2.3 < speed["p90"] / speed["p10"] < 2.55
     assert data["influence"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"]["total"] > 0.9
-    assert data["spread"]["counts"] == {"cases": 1000, "run": 1000, "failed": 0, "extrapolated": 0, "reasons": {}}
+    assert data["spread"]["counts"] == {"cases": 1000, "run": 1000, "failed": 0, "extrapolated": 0, "patient": 0, "reasons": {}}
 
 
 def test_tables_and_report(tmp_path) -> None:

@@ -52,7 +52,7 @@ def test_sobol_indices_of_ishigami() -> None:
     rows = found.indices()["ratio"]
     assert [rows[n]["first"] for n in CIRCLE] == pytest.approx([0.3139, 0.4424, 0.0], abs=0.02)
     assert [rows[n]["total"] for n in CIRCLE] == pytest.approx([0.5576, 0.4424, 0.2437], abs=0.02)
-    assert found.counts() == {"cases": 4096 * 5, "run": 4096 * 5, "failed": 0, "extrapolated": 0, "reasons": {}}
+    assert found.counts() == {"cases": 4096 * 5, "run": 4096 * 5, "failed": 0, "extrapolated": 0, "patient": 0, "reasons": {}}
 
 
 def test_monte_carlo_against_closed_forms() -> None:

@@ -100,6 +100,7 @@ from granum.materials.library import (
     fluid as fluid,
     load as load,
     names as names,
+    salt as salt,
     solid as solid,
     solute as solute,
 )

@@ -43,9 +43,13 @@ from granum.streams.equipment.humid_gas import (
     HumidifierFigures as HumidifierFigures,
     Mixed as Mixed,
 )
+from granum.streams.feeding import (
+    feed as feed,
+)
 from granum.streams.from_materials import (
     CarrierProperty as CarrierProperty,
     SolutionViscosity as SolutionViscosity,
+    mixture_of as mixture_of,
 )
 from granum.streams.holdup import (
     Held as Held,
