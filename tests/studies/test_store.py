@@ -157,7 +157,6 @@ def test_a_study_goes_on_in_chunks_of_another_size(kept: Path, monkeypatch: pyte
     """Less memory, or workers instead of threads, make other chunks: those on disk keep theirs."""
     (kept / "cases-000000064.npz").unlink()
     monkeypatch.setitem(engine.CHUNKS, "batched", 8)
-    engine._evaluators.clear()
     found = spread(kept)
     assert found.column("terminal_velocity") == pytest.approx(by_hand(found), rel=1e-12)
 

@@ -97,7 +97,7 @@ class WellMixedDryer(Unit):
             available = by_energy(T)
             return (available - by_kinetics(T, available)) / jnp.maximum(water, 1e-300)
 
-        root = find_root(surplus, coldest, gas.temperature)
+        root = find_root(surplus, coldest, gas.temperature, tolerance=1e-13)
         unsolved(root.converged | (water <= 0), type(self).card, reason=UNSOLVED)
         T = jnp.where(water > 0, root.value, wet.temperature)
         return after(jnp.clip(by_energy(T), 0.0, water), T)
@@ -112,7 +112,8 @@ class WellMixedDryer(Unit):
         pair = humid.pair
         top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
         h = pair.molar_enthalpy(T, P, y)
-        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, pair.lewis_factor()), COLDEST_FILM, top).value
+        lewis = pair.lewis_factor()
+        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, lewis), COLDEST_FILM, top, tolerance=1e-13).value
 
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
