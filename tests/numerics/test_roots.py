@@ -45,6 +45,13 @@ def test_running_out_of_steps_is_told() -> None:
     assert jnp.isfinite(root.value)
 
 
+def test_a_newton_step_that_rounds_to_nothing_ends_the_search() -> None:
+    """Newton's method may land on the root to the last digit from any start; then its next step says nothing of the other side."""
+    starts = np.random.default_rng(5).uniform(1.0, 1000.0, 400)
+    alone = jax.jit(lambda start: find_root(lambda x: x - 20.0 * jnp.log(x) - 3.0, 21.0, 1000.0, start=start).steps)
+    assert max(int(alone(start)) for start in starts) < 20
+
+
 @pytest.mark.parametrize("bracket", [(-1.0, 1.0), (-1.0, 1e3), (0.0, 1.0), (-1e-3, 1e9)])
 def test_narrow_root_in_a_wide_bracket(bracket: tuple[float, float]) -> None:
     c = jnp.array([1e-200, 1e-30, 1e-9, 0.5])

@@ -14,6 +14,7 @@ from jax import lax
 GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a bad step
 LATE = 1e8  # first steps that make a step as good as infinite
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
+BOLD = 60  # steps after which that path is taken again with every step in time examined
 SHARE = 0.8  # of the largest change allowed, which the next step aims at
 BEND = 0.5  # correction of a step in time, over that step, which the next step aims at; twice as much and the step is taken back
 REST = 0.02  # of the largest change: what is too little to count as bent
@@ -210,6 +211,9 @@ def solve_chain(
 ) -> ChainSolution:
     """Solve for the state at which all rates vanish: by Newton's method, or where that leads astray along the path the system takes in time.
 
+    The path is first taken in steps as long as the largest change allows. Where these do not arrive, for fast lanes bend within them, it is
+    taken once more with each step compared with the rates at its end, and taken back where they disagree.
+
     Args:
         function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the cell before and on the shared
             unknowns of its cell, the shared rest on those of the neighbors. It may close over traced values.
@@ -247,15 +251,17 @@ def solve_chain(
             return factor_chain(chain_blocks(push, u).shifted(1.0, jax.tree.map(lambda c: -c / h, capacity)))
 
         def step(carry: tuple) -> tuple:
-            u, safe, h, before, last, _next, damping, trial, number, taken, most, then = carry
+            u, safe, h, before, last, _next, damping, way, number, taken, most, then = carry
+            trial, careful = way == 0, way == 2
             value, push = jax.linearize(f, u)
             r = _summed(value)
             factors = factored(push, u, h)
             missing = jax.tree.map(lambda v, c, d: v + c * d / taken, r, capacity, before)  # to the step in time that led here
-            change, correction = solve_factored(factors, r), solve_factored(then, missing)
+            change = solve_factored(factors, r)
+            correction = lax.cond(careful, lambda: solve_factored(then, missing), lambda: jax.tree.map(jnp.zeros_like, before))
             far = jnp.maximum(*(jnp.max(abs(d) / s) for d, s in zip(change, size, strict=True)))
             bent = jnp.maximum(*(jnp.max(abs(c) / jnp.maximum(abs(d), s)) for c, d, s in zip(correction, before, rest, strict=True)))
-            bent = jnp.where(jnp.isfinite(taken) & ~trial, bent, 0.0)
+            bent = jnp.where(jnp.isfinite(taken) & careful, bent, 0.0)
             straight = bent <= 2.0 * BEND
             good = (far <= 1.0) & straight & _all(jax.tree.map(jnp.isfinite, change))
             relative = jnp.maximum(*(jnp.max(abs(d) / jnp.maximum(abs(v), 1.0)) for d, v in zip(change, u, strict=True)))
@@ -263,18 +269,19 @@ def solve_chain(
             astray = (h >= LATE * first_step) & (relative > 0.5 * last) & (relative > 1e-7)
             # a lane that goes to and fro over a bend takes less of its steps
             damping = jax.tree.map(
-                lambda t, f: jnp.where(trial, jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0)), 1.0), turned, damping
+                lambda t, f: jnp.where(careful, 1.0, jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0))), turned, damping
             )
-            failed = trial & (~good | (astray & (number >= PATIENCE)))  # Newton's method from the guess, given up when it goes astray
+            lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to its start
+            # Newton's method from the guess is given up when it goes astray, the path without examination when it takes too long
+            failed = (trial & (~good | (astray & (number >= PATIENCE)))) | (~careful & (number >= BOLD))
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
             ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)  # Newton's method is quadratic
             # changes are nearly proportional to a step: the next is to come close to the largest allowed
             growth = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
-            lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to its start
             began = jnp.where(jnp.isfinite(taken), taken, h)
             shorter = began * jnp.where(bent > BEND, jnp.clip(BEND / bent, CAUTION**2, 1.0), CAUTION)
-            most = jnp.where(trial, most, jnp.where(lost, WARY * began, jnp.minimum(TRUST * most, 1e4 * LATE * first_step)))
+            most = jnp.where(careful, jnp.where(lost, WARY * began, jnp.minimum(TRUST * most, 1e4 * LATE * first_step)), most)
             fitting = jnp.minimum(h * jnp.clip(jnp.minimum(SHARE / far, BEND / bent), CAUTION**2, growth), most)
             used, h = h, jnp.where(failed, first_step, jnp.where(lost, shorter, fitting))
             back = jax.tree.map(lambda s, v: jnp.where(lost, s, v), safe, u)
@@ -283,7 +290,7 @@ def solve_chain(
             last = jnp.where(good & ~failed, relative, jnp.inf)
             left = jnp.where(late, relative * ratio**2, jnp.inf)
             taken = jnp.where(good & ~failed, used, jnp.inf)
-            return new, back, h, known, last, left, damping, trial & ~failed, number + 1, taken, most, factors
+            return new, back, h, known, last, left, damping, way + failed, number + 1, taken, most, factors
 
         def unfinished(carry: tuple) -> Any:
             return (carry[5] > tolerance) & (carry[8] < max_steps)
@@ -297,7 +304,7 @@ def solve_chain(
             none,
             none,
             jax.tree.map(lambda v: jnp.ones_like(v[..., :1]), origin),
-            jnp.asarray(True),
+            jnp.zeros((), int),
             jnp.zeros((), int),
             none,
             1e4 * LATE * first_step,

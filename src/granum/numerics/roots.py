@@ -197,7 +197,8 @@ def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
         narrow = abs(high - low) <= 2.0 * slack(middle)
         fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
         step = ahead - x
-        beyond = ahead + jnp.sign(step) * 0.5 * slack(ahead)
+        across = jnp.sign(jnp.where(y < 0, high, low) - x)  # a step may round to nothing, so its own sign is not asked
+        beyond = ahead + across * 0.5 * slack(ahead)
         overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
         following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
         exhausted = ~fast & ((middle == low) | (middle == high))

@@ -11,6 +11,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError
@@ -143,12 +144,16 @@ class HumidMixture:
         )
         known = stream.mass_flow > 0
         found = self.at_temperature(stream, jnp.where(known, jnp.where(root.converged, root.value, jnp.nan), stream.temperature))
-        # a vapor without gas boils at one temperature, at which its enthalpy says how much of it is liquid
+        total = stream.gas[self.vapor] + stream.liquid[0]
+        alone = (self.dry_flow(stream) <= NEARLY_PURE * total) & (total > 0)
+        return lax.cond(alone, lambda: self._boiling(stream, enthalpy, found), lambda: found)
+
+    def _boiling(self, stream: Stream, enthalpy: Any, otherwise: Stream) -> Stream:
+        """A vapor without gas boils at one temperature, at which its enthalpy says how much of it is liquid."""
         T = jnp.asarray(self.boiling_temperature(stream.pressure), dtype=float)
         total = stream.gas[self.vapor] + stream.liquid[0]
         liquid = self.moved(stream, -stream.gas[self.vapor]).replace(temperature=T)
         latent = self.moved(liquid, total).enthalpy_flow - liquid.enthalpy_flow
-        share = (enthalpy - liquid.enthalpy_flow) / jnp.where(total > 0, latent, 1.0)
-        boils = (self.dry_flow(stream) <= NEARLY_PURE * total) & (share > 0.0) & (share < 1.0)
+        share = (enthalpy - liquid.enthalpy_flow) / latent
         both = self.moved(liquid, jnp.clip(share, 0.0, 1.0) * total)
-        return jax.tree.map(lambda a, b: jnp.where(boils, a, b), both, found)
+        return jax.tree.map(lambda a, b: jnp.where((share > 0.0) & (share < 1.0), a, b), both, otherwise)

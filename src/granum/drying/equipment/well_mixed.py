@@ -113,7 +113,7 @@ class WellMixedDryer(Unit):
         top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
         h = pair.molar_enthalpy(T, P, y)
         lewis = pair.lewis_factor()
-        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, lewis), COLDEST_FILM, top, tolerance=1e-13).value
+        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, lewis), COLDEST_FILM, top).value
 
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
