@@ -53,7 +53,7 @@ def test_same_data_in_any_dress(text, tmp_path):
     assert found["card"] == "user.emptying"
     assert found["parameters"]["velocity"]["unit"] == "m/s"
     assert found["parameters"]["velocity"]["value"] == pytest.approx(1e-3, rel=1e-12)
-    assert set(found) == {"card", "parameters", "derived", "statistics", "flags", "diagnostics", "defaults", "ranges"}
+    assert set(found) == {"card", "parameters", "derived", "statistics", "flags", "diagnostics", "defaults", "ranges", "from"}
     assert len(test.chart().data) == 4
 
 

@@ -7,6 +7,8 @@ import sys
 import pytest
 
 import granum as gr
+from granum.cases.studying import studies_of_text
+from granum.cases.worded import study_text
 from granum.core.errors import InputError
 from granum.materials.stated import StatedFluid
 
@@ -64,3 +66,24 @@ def test_on_the_command_line():
     )
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["inputs"]["fluid_density"]["from"].startswith("water at 20")
+
+
+def test_a_lab_test_takes_a_fluid_and_says_so():
+    """Water of 25 °C has 0.890 mPa s (IAPWS)."""
+    leaf = {"time": [100.0, 250.0, 450.0, 700.0], "filtrate_volume": [1e-3, 2e-3, 3e-3, 4e-3]}
+    conditions = {"area": "0.0439 m2", "pressure_drop": "338 kPa", "dry_cake_per_filtrate": 23.47}
+    found = gr.filtration.LeafTest(**leaf, **conditions, fluid="water at 25 °C").fit()
+    told = found.as_json()["from"]["dynamic_viscosity"]
+    assert told["value"] == pytest.approx(0.890e-3, rel=2e-3)
+    assert told["origin"].startswith("water at 25")
+    alone = gr.filtration.LeafTest(**leaf, **conditions, dynamic_viscosity=told["value"]).fit()
+    assert alone.values == found.values
+    assert alone.as_json()["from"] == {}
+
+
+def test_a_study_of_a_card_takes_a_fluid():
+    words = {"particle_density": "2630", "fluid": "water at 20 degC"}
+    (study,) = studies_of_text(study_text("particles.terminal_velocity", {**words, "particle_diameter": "50..200um"}, steps=2)).values()
+    outcome = study.run()
+    whole = gr.particles.terminal_velocity("50 um", 2630.0, fluid="water at 20 °C")
+    assert float(outcome.column("terminal_velocity")[0]) == pytest.approx(float(whole), rel=1e-12)

@@ -37,6 +37,8 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
     if thing.card.sort in ("formula", "law", "procedure"):
         known = inputs_of(thing)
         for name in words:
+            if name == "fluid":
+                continue  # in place of the properties that the card asks of it
             if name.partition(".")[0].partition("[")[0] not in known:
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))
     ranges = {name: _pair(name, value, "..") for name, value in words.items() if ".." in value}

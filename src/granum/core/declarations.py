@@ -67,7 +67,10 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
     def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
         if not binder:
             binder.append(Binder.of(cls.card.key, cls.card.parameters))  # type: ignore[attr-defined]
-        original(self, **binder[0].bind(args, kwargs))
+        given, origins = binder[0].with_fluid(args, kwargs)
+        original(self, **binder[0].bind(args, given))
+        if origins and sort == "lab test":
+            object.__setattr__(self, "origins", tuple(origins.items()))
 
     type.__setattr__(cls, "card", _LazyCard(build))
     type.__setattr__(cls, "__init__", __init__)

@@ -37,6 +37,8 @@ class LabTest(eqx.Module):
     axes: ClassVar[Mapping[str, Any]]
     least_points: ClassVar[int] = 3
     holds_for: ClassVar[tuple[str, ...]] = ()
+    origins: tuple[tuple[str, str], ...] = eqx.field(default=(), init=False, static=True, repr=False, kw_only=True)
+    """Conditions that a stated ``fluid`` gave, each with what it says of itself."""
 
     @classmethod
     def read(cls, path: Source, **conditions: Any) -> Self:
@@ -76,7 +78,7 @@ class LabTest(eqx.Module):
         """
         kinds = {**self.estimates, **(kinds or {})}
         found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
-        return replace(found, defaults=self.defaults(), ranges=self.ranges())
+        return replace(found, defaults=self.defaults(), ranges=self.ranges(), origins=self.stated())
 
     def judged(self, found: Fit, trials: int) -> Fit:
         """The best of several models with its diagnostics (fit them with ``judged=False``)."""
@@ -101,6 +103,10 @@ class LabTest(eqx.Module):
                 if value == default_as_json(p.default):
                     found[p.name] = value
         return found
+
+    def stated(self) -> dict[str, tuple[float, str]]:
+        """Conditions that a fluid gave, SI, and which fluid it was."""
+        return {name: (float(getattr(self, name)), origin) for name, origin in self.origins}
 
     def ranges(self) -> dict[str, tuple[float, float]]:
         """What the estimates hold for: lowest and highest value of the columns and conditions that matter."""

@@ -79,6 +79,7 @@ class Fit:
     diagnostics: leverage and influence of every point, stray points, and whether there is a relation at all.
     defaults: conditions and choices that were not given, with the values taken, as plain data by name.
     ranges: lowest and highest value of each condition and column that the estimates hold for, by name.
+    origins: conditions that a stated fluid gave, each with its value and what the fluid says of itself.
     """
 
     card: str
@@ -94,6 +95,7 @@ class Fit:
     diagnostics: Diagnostics | None = field(default=None, repr=False)
     defaults: Mapping[str, Any] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    origins: Mapping[str, tuple[float, str]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Estimate:
         found = {**self.derived, **self.parameters}
@@ -197,6 +199,7 @@ class Fit:
             "diagnostics": self.diagnostics.as_json() if self.diagnostics else None,
             "defaults": dict(self.defaults),
             "ranges": {name: [_number(low), _number(high)] for name, (low, high) in self.ranges.items()},
+            "from": {name: {"value": _number(value), "origin": origin} for name, (value, origin) in self.origins.items()},
         }
 
 

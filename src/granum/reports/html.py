@@ -25,6 +25,7 @@ from granum.reports.quantities import (
     defaults_text,
     estimate_rows,
     label_of,
+    origins_text,
     ranges_text,
     statistics_text,
     stream_table,
@@ -87,7 +88,7 @@ def _fit_sheets(run: Any) -> list[dict[str, Any]]:
         paths = [f"{path} = {label_of(name)}" for path, name in given.items()]
         data, card = fit.as_json(), find(fit.card).card
         sheets.append({
-            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), defaults_text(data), ranges_text(data)))),
+            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data)))),
             "source": card.citation, "notices": [f["message"] if isinstance(f, dict) else str(f) for f in data["flags"]],
         })  # fmt: skip
     return sheets

@@ -107,6 +107,18 @@ def defaults_text(data: dict[str, Any]) -> str:
     return _("Taken by default: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
 
 
+def origins_text(data: dict[str, Any]) -> str:
+    """Which conditions of a fit a stated fluid gave, in one line; empty where none was stated."""
+    from granum.core import registry
+
+    thing = registry.everything().get(data["card"])
+    declared = {p.name: p for p in thing.card.parameters} if thing else {}
+    given = {n: found for n, found in data.get("from", {}).items() if n in declared}
+    shown = [f"{declared[n].label} = {value_text(found['value'], declared[n])}" for n, found in given.items()]
+    fluids = "; ".join(dict.fromkeys(found["origin"] for found in given.values()))
+    return _("From {fluid}: {conditions}.").format(fluid=fluids, conditions="; ".join(shown)) if shown else ""
+
+
 def ranges_text(data: dict[str, Any]) -> str:
     """What the estimates of a fit hold for, in one line; empty where nothing is known."""
     from granum.core import registry

@@ -25,6 +25,7 @@ from granum.reports.quantities import (
     figure_named,
     label_of,
     limit_rows,
+    origins_text,
     ranges_text,
     statistics_text,
     stream_table,
@@ -91,7 +92,7 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
     for row in estimate_rows(data):
         table.add_row(row.label, row.value, row.error, row.interval, row.unit, style="dim" if row.derived else None)
     console.print(table)
-    for line in filter(None, (statistics_text(data), defaults_text(data), ranges_text(data))):
+    for line in filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))):
         console.print(Text(line, style="dim"))
     for flag in data["flags"]:
         console.print(Text("! " + (flag["message"] if isinstance(flag, dict) else str(flag)), style=CAUTION))

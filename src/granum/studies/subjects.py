@@ -17,7 +17,7 @@ import numpy as np
 
 import granum
 from granum.core import flags, registry
-from granum.core.conversion import convert
+from granum.core.conversion import Binder, convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
@@ -275,6 +275,7 @@ class FormulaSubject(Subject):
             )
         known = inputs_of(thing)
         where = _("for {owner}").format(owner=thing.card.key)
+        fixed = Binder.of(thing.card.key, tuple(known.values())).with_fluid((), fixed)[0]
         for name in fixed:
             if name not in known:
                 raise unknown_name(_("Input"), name, known, where)
