@@ -64,6 +64,17 @@ def test_numbers_that_may_be_read_in_two_ways_are_not_guessed(page: Page, place:
         assert page.leave(field)[0] == typed
 
 
+def test_a_fluid_in_words_stands_in_place_of_its_properties(page: Page) -> None:
+    """Water of 20 °C has 1.0016 mPa s (IAPWS); what was typed for its density before is gone, and what is no fluid is told at its field."""
+    page.open(STOKES)
+    page.write("#field-fluid", "watr at 20 °C")
+    page.until(lambda: page.one("#field-fluid-note .out").text)
+    assert page.one("#field-fluid_density").get_attribute("value") == ""
+    page.write("#field-fluid", "water at 20 °C")
+    page.until(page.fresh)
+    assert "1.002 mPa·s (water at 20 °C, liquid)" in page.one("section[aria-label=Believe]").text
+
+
 def test_a_result_of_other_inputs_is_not_kept_to_compare(page: Page) -> None:
     page.open(STOKES)
     assert page.button("Keep to compare").is_enabled()

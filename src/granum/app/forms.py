@@ -22,6 +22,7 @@ from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
 from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
 from granum.core.written import read_number
+from granum.materials.stated import asked_of_a_fluid
 from granum.reports.mathml import mathml
 from granum.reports.quantities import law_label, limit_rows
 
@@ -31,6 +32,7 @@ def card_form(key: str) -> dict[str, Any]:
     card = registry.find(key).card
     data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
+    data["fluid"] = fluid_field(card)
     examples = docstring_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
@@ -40,6 +42,15 @@ def card_form(key: str) -> dict[str, Any]:
         row["example"] = example(p, examples)
         row["units"] += _unit_of(row["example"], p.kind, row["units"])
     return data
+
+
+def fluid_field(card: Card) -> dict[str, Any] | None:
+    """The field of a fluid said in words, and the inputs it stands for; None where the card asks for no property of one."""
+    gives = asked_of_a_fluid(card.parameters) if card.sort in ("formula", "procedure", "lab test") else ()
+    hint = _("such as {example}, in place of: {names}").format(
+        example=_("water at 20 °C"), names=", ".join(p.label for p in card.parameters if p.name in gives)
+    )
+    return {"name": "fluid", "label": _("fluid"), "required": False, "gives": list(gives), "allowed": hint} if gives else None
 
 
 def _field(p: Parameter) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from granum.app.forms import options
@@ -13,7 +14,7 @@ from granum.reports.quantities import law_label, value_text
 MOST = 40
 
 
-def spread(thing: Any, given: dict[str, Any]) -> list[dict[str, Any]]:
+def spread(thing: Any, given: Mapping[str, Any]) -> list[dict[str, Any]]:
     """One row per law: of the card's own family when its inputs suffice, and for each law among its inputs."""
     rows = []
     for key, other in registry.family(thing.card.family).items():
@@ -21,11 +22,11 @@ def spread(thing: Any, given: dict[str, Any]) -> list[dict[str, Any]]:
             rows += _row(other, {p.name: given[p.name] for p in other.card.parameters if p.name in given}, law_label(other.card), {})
     for p in thing.card.parameters:
         for option in (o for o in options(p) if p.law and "table" not in o):
-            rows += _row(thing, given | {p.name: option["value"]}, option["label"], {p.name: option["value"]})
+            rows += _row(thing, {**given, p.name: option["value"]}, option["label"], {p.name: option["value"]})
     return rows[:MOST]
 
 
-def _suffices(other: Any, given: dict[str, Any]) -> bool:
+def _suffices(other: Any, given: Mapping[str, Any]) -> bool:
     names = {p.name for p in other.card.parameters}
     return all(p.name in given for p in other.card.parameters if p.required) and not (set(given) - names)
 

@@ -18,6 +18,7 @@ from granum.app.texts import described, plain_data
 from granum.app.wording import noticed
 from granum.core import registry
 from granum.core.cards import Card
+from granum.core.conversion import Binder
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
 from granum.core.units import format_number
@@ -26,6 +27,7 @@ from granum.reports.quantities import (
     check_row,
     defaults_text,
     estimate_rows,
+    origins_text,
     ranges_text,
     statistics_text,
     stream_figures,
@@ -99,7 +101,8 @@ def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
 def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
     thing = evaluable(payload["key"], ("formula",))
-    return packed({"rows": spread(thing, inputs_for(thing.card, payload["inputs"]))})
+    given = inputs_for(thing.card, payload["inputs"])
+    return packed({"rows": spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0])})
 
 
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -130,7 +133,9 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         data
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
-            "statistics_shown": " · ".join(filter(None, (statistics_text(data), defaults_text(data), ranges_text(data)))),
+            "statistics_shown": " · ".join(
+                filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data)))
+            ),
             "chart": json.loads(test.chart().to_json()),
         }
     )

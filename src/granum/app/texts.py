@@ -50,7 +50,9 @@ def _typed(value: Any) -> str:
     return " ".join(map(_typed, value)) if isinstance(value, (list, tuple)) else str(default_as_json(value))
 
 
-def _input_text(value: Any, text: str) -> str:
+def _input_text(value: Any, text: str, origin: str) -> str:
+    if origin:
+        return f"{text} ({origin})"
     if isinstance(value, bool):
         return _("yes") if value else _("no")
     return law_label(value.card) if hasattr(value, "card") else text
@@ -104,7 +106,8 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     tabled = {c["name"] for found in (*([table] if table else []), *series) for c in found["columns"]}
     used = [p for p in result.card.parameters if result.inputs[p.name] is not None]
     inputs = [
-        row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"])} for p, row in zip(used, step["inputs"], strict=True)
+        row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"], result.origins.get(p.name, ""))}
+        for p, row in zip(used, step["inputs"], strict=True)
     ]
     return result.as_json() | {
         "flags": noticed(result.notices),

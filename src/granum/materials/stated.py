@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.conversion import convert
-from granum.core.errors import InputError
+from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
@@ -110,7 +110,10 @@ def properties(given: Any, owner: str, parameters: Iterable[Parameter], typed: M
     names = asked_of_a_fluid(parameters)
     if not names:
         raise InputError(_("{owner} asks for no property of a fluid: leave 'fluid' out.").format(owner=owner), name="fluid")
-    state = StatedFluid.read(given)
+    try:
+        state = StatedFluid.read(given)
+    except GranumError as problem:  # whatever it lacks, it is the text of this input
+        raise InputError(problem.message, **{**problem.details, "name": "fluid"}) from None
     ways = _ALWAYS | _BESIDE | (_OF_LIQUID if state.is_liquid else _OF_GAS)
     return {name: float(ways[name](state)) for name in names if name in ways and name not in typed}, state.label
 

@@ -1,6 +1,6 @@
 // Calculate: find a card, enter values, believe the result. Up to three cases side by side.
 import { html, t, ask, link, useAnswer, useState, useEffect, useRef, useKept, replaceLink, download, settings, Plot, Working } from './core.js';
-import { Field, ordinary } from './form.js';
+import { Field, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
@@ -21,7 +21,7 @@ export function Calculate({ state, page = 'calculate', keep = CALCULATED, first 
 }
 
 function Work({ page, card, given }) {
-  const names = new Set(card.parameters.map((p) => p.name));
+  const names = new Set(fields(card, card.parameters).map((p) => p.name));
   const start = Object.fromEntries(Object.entries(given).filter(([name]) => names.has(name)));
   const [values, setValues] = useState(Object.keys(start).length ? start : ordinary(card));
   const [past, setPast] = useState([]);
@@ -30,7 +30,7 @@ function Work({ page, card, given }) {
   const [copied, setCopied] = useState('');
   useEffect(() => replaceLink(page, card.card, values), [values]);
   const kind = card.sort === 'chart' ? 'chart' : 'calc';
-  const missing = card.parameters.filter((p) => p.required && !values[p.name]);
+  const missing = missingOf(card, card.parameters, values);
   const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
   const others = useAnswer((signal) => Promise.all(kept.map((given) => ask(`/api/calc/${card.card}`, given, { signal }))), [JSON.stringify(kept)], 0);
   const [laws, setLaws] = useState(false); // whether those of others are open: kept while a field is empty and no result stands
@@ -39,7 +39,7 @@ function Work({ page, card, given }) {
     edited.current = name;
     setValues(next);
   };
-  const wrong = card.parameters.find((p) => p.name === answer.error?.details?.name);
+  const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
@@ -50,10 +50,10 @@ function Work({ page, card, given }) {
     setTimeout(() => setCopied(''), 4000);
   };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
-      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => { edited.current = ''; }}>${card.parameters.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set({ ...values, [p.name]: text }, p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
+      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => { edited.current = ''; }}>${fields(card, card.parameters).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => { edited.current = ''; setValues(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
-      <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, values)}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
+      <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, resolved(values, answer.data))}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
       <div aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
@@ -63,6 +63,14 @@ function Work({ page, card, given }) {
         : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)}</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
+}
+
+/** Values with the properties that a fluid gave in its place, for pages that ask for them. */
+function resolved(values, data) {
+  if (!values.fluid?.trim() || !data?.inputs) return values;
+  const { fluid, ...rest } = values;
+  const given = Object.entries(data.inputs).filter(([, input]) => input?.from).map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
+  return { ...rest, ...Object.fromEntries(given) };
 }
 
 /** Temperature and humidity ratio at a place of a chart of humid gas: a plane through the nearest places of the grid that the chart carries. */

@@ -56,6 +56,18 @@ function Text({ p, id, note, text, onChange, problem }) {
   return html`<input id=${id} type="text" value=${text || ''} placeholder=${p.default_shown?.number ?? ''} aria-describedby=${note} aria-invalid=${problem ? 'true' : 'false'} onInput=${(e) => onChange(e.target.value)} />`;
 }
 
+/** Fields of a card: where it asks for properties of a fluid, that fluid in words before the first of them. */
+export const fields = (card, parameters) => parameters.flatMap((p) => (p.name === card.fluid?.gives[0] ? [card.fluid, p] : [p]));
+
+/** Values after a field was changed; a fluid stands in place of its properties. */
+export function changed(values, p, text) {
+  const gone = p.gives && text.trim() ? p.gives : [];
+  return Object.fromEntries([...Object.entries(values).filter(([name]) => !gone.includes(name)), [p.name, text]]);
+}
+
+/** What must still be given. */
+export const missingOf = (card, parameters, values) => parameters.filter((p) => p.required && !values[p.name] && !(values.fluid?.trim() && card.fluid?.gives.includes(p.name)));
+
 /** The card's own example, so that it shows a result when it is opened. */
 export function ordinary(card) {
   return Object.fromEntries(card.parameters.filter((p) => p.example).map((p) => [p.name, joined(p.example)]));

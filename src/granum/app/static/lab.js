@@ -1,6 +1,6 @@
 // Lab data: drop a table, give the conditions, read parameters with intervals.
 import { html, t, ask, useAnswer, useState, useKept, settings, replaceLink, useEffect, download, Plot, Working } from './core.js';
-import { Field } from './form.js';
+import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';
 
@@ -22,7 +22,7 @@ function Test({ card, given }) {
   const [trial, setTrial] = useKept('trial ' + card.card, null);
   const [over, setOver] = useState(false);
   useEffect(() => replaceLink('lab', card.card, values), [values]);
-  const missing = conditions.filter((p) => p.required && !values[p.name]);
+  const missing = missingOf(card, conditions, values);
   const answer = useAnswer(async (signal) => {
     if (!table.trim() || missing.length) return null;
     const form = new FormData();
@@ -45,7 +45,7 @@ function Test({ card, given }) {
     setTable(text);
   };
   const tryIt = () => { setTable(card.trial.table); setValues(card.trial.values); setTrial(card.trial); setTold(''); };
-  const wrong = conditions.find((p) => p.name === answer.error?.details?.name);
+  const wrong = fields(card, conditions).find((p) => p.name === answer.error?.details?.name);
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => { e.preventDefault(); setOver(true); }} onDragLeave=${() => setOver(false)} onDrop=${(e) => { e.preventDefault(); setOver(false); take(e.dataTransfer.files); }}>
         <label>${t('Drop a CSV or Excel file here, or choose one:')} <input type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
@@ -55,7 +55,7 @@ function Test({ card, given }) {
       <textarea id="table" rows="9" placeholder=${example + '\n…'} value=${table} onInput=${(e) => own(e.target.value)}></textarea>
       <${Columns} columns=${columns} table=${table} change=${setTable} />
       <p class="small dim">${t('The first line names the columns with their units:')} <code>${example}</code></p>
-      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${conditions.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues({ ...values, [p.name]: text })} problem=${wrong === p ? answer.error.message : ''} />`)}</form></section>
+      <h2>${t('Conditions')}</h2><form onSubmit=${(e) => e.preventDefault()}>${fields(card, conditions).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => setValues(changed(values, p, text))} problem=${wrong?.name === p.name ? answer.error.message : ''} />`)}</form></section>
     <section aria-label=${t('Believe')} aria-live="polite">${answer.error && (wrong ? html`<p class="message out told">${t('Nothing is calculated before this is mended: {name}', { name: wrong.label })}</p>` : html`<p class="message out">${answer.error.message}</p>`)}
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
