@@ -1,5 +1,6 @@
 """Every dryer dries with every pair of gas and vapor, whatever the order in which the gases stand."""
 
+import os
 from pathlib import Path
 
 import equinox as eqx
@@ -11,12 +12,18 @@ import granum as gr
 from granum.core.errors import ApplicabilityError
 from granum.drying.contact.dryer import PLAIN
 from granum.drying.contact.kinetics import SurfaceKinetics
+from granum.drying.equipment.atomizers import GivenDrops
+from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.closed import ClosedDryer, CondenserCircuit, HeatPumpCircuit, SteamCircuit
 from granum.drying.equipment.convective import ConvectiveDryer
 from granum.drying.equipment.drum import DrumDryer
+from granum.drying.equipment.flash import FlashDryer
 from granum.drying.equipment.fluid_bed import FluidBedDryer
 from granum.drying.equipment.freeze import FreezeDryer
 from granum.drying.equipment.paddle import PaddleDryer
+from granum.drying.equipment.rotary import RotaryDryer
+from granum.drying.equipment.silo import SiloDryer
+from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
@@ -40,6 +47,14 @@ DRYERS = {
     "condenser": ClosedDryer(CondenserCircuit(0.6, 265.0), 333.0, 0.01),
     "vapor": ClosedDryer(SteamCircuit(393.0), 423.0, 0.01),
 }
+LONG = {  # each compiles for a quarter of a minute
+    "rotary": RotaryDryer(6.0, 0.8, WET, 0.04, cells=8),
+    "belt": BeltDryer(1.0, 0.05, 500.0, WET, zone_count=1, layers=6, steps=30),
+    "silo": SiloDryer(1.0, 0.3, 650.0, WET, cooling_share=0.2, layers=6, steps=20),
+    "flash": FlashDryer(10.0, 0.2, WET, feed_velocity=1.0, cells=20),
+    "spray": SprayDryer(4.0, 2.0, GivenDrops(8e-5, 20.0), WET, dry_density=1200.0, cells=20),
+}
+DRYERS |= LONG if os.environ.get("GRANUM_RANDOM_SAMPLES") else {}
 BOTH = ("bed", "balance", "tray", "drum", "condenser")  # tried in both orders, which compiles them twice
 
 
@@ -51,6 +66,7 @@ def duty(gases: list[str], solvent: str, **dry: float) -> dict[str, Stream]:
     return {
         "feed": nothing.replace(solid=jnp.array([[0.05, 0.05]]), liquid=jnp.array([0.025])),
         "gas": nothing.replace(gas=carried, temperature=jnp.asarray(353.15)),
+        "cooling": nothing.replace(gas=0.3 * carried),
     }
 
 
