@@ -19,6 +19,7 @@ SHARE = 0.8  # of the largest change allowed, which the next step aims at
 BEND = 0.5  # correction of a step in time, over that step, which the next step aims at; twice as much and the step is taken back
 REST = 0.02  # of the largest change: what is too little to count as bent
 WARY, TRUST = 0.3, 1.5  # of a step taken back, which the next may not exceed; by how much more the one after
+LEASH = 200  # steps for one stage in time; none any more after a stage that was not solved
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
@@ -207,7 +208,7 @@ def solve_chain(
     first_step: Any = 1.0,
     largest_change: Cells | None = None,
     tolerance: float = 1e-12,
-    max_steps: int = 2000,
+    max_steps: Any = 2000,
 ) -> ChainSolution:
     """Solve for the state at which all rates vanish: by Newton's method, or where that leads astray along the path the system takes in time.
 
@@ -382,14 +383,14 @@ def advance_chain(
     count = outflow or (lambda u, _input: jnp.zeros((0,)))
     bound = reach or (lambda _u, _change: jnp.inf)
 
-    def stage(base: Cells, guess: Cells, length: Any, given: Any) -> tuple[Cells, Any]:
+    def stage(base: Cells, guess: Cells, length: Any, given: Any, steps: Any) -> tuple[Cells, Any]:
         def rates(v: Cells) -> Rates:
             r = function(v, given)
             d = jax.tree.map(lambda c, new, old: c * (new - old) / length, capacity, v, base)
             return Rates(r.lanes - d.lanes, r.parts, r.shared - d.shared)
 
         brake = jax.tree.map(lambda c: jnp.where(c > 0, c, 1e-2 * length), capacity)
-        found = solve_chain(rates, guess, brake, first_step=1e-2 * length, largest_change=largest_change)
+        found = solve_chain(rates, guess, brake, first_step=1e-2 * length, largest_change=largest_change, max_steps=steps)
         return found.state, found.converged
 
     def half(carry: tuple, row: tuple) -> tuple[tuple, tuple]:
@@ -400,7 +401,7 @@ def advance_chain(
         base = jax.tree.map(lambda v, d: v + on * d, u, change)
         share = jnp.where(second, 1.0 - GAMMA * on, GAMMA)  # of the step, taken implicitly
         guess = Cells(u.lanes + jnp.minimum(on + 1.0, most) * change.lanes, before.shared)
-        new, solved = stage(base, guess, share * step, given)
+        new, solved = stage(base, guess, share * step, given, jnp.where(well, LEASH, 0))
         taken = on * taken + share * step * count(new, given)  # so far in this step
         total = jnp.where(second, total + taken, total)
         old = jax.tree.map(lambda a, b: jnp.where(second, b, a), u, new)
