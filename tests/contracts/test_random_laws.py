@@ -13,17 +13,11 @@ from tests.contracts.drawing import EVERYTHING, SETS, amiss, drawn, ordinary, ra
 from granum.core import bounds
 from granum.core.errors import ApplicabilityError, GranumError
 from granum.core.flags import OUTSIDE_DOMAIN
-from granum.core.parameters import Parameter, parameters_of
-
-
-def arguments(law: Any) -> list[Parameter]:
-    """What a law is called with."""
-    return [p for p in parameters_of(law.__call__, law.card.fitted, {}) if p.name != "self"]
 
 
 def alone(law: Any) -> bool:
     """Whether numbers are all that a law needs: its options and what it is called with."""
-    options, called = law.card.parameters, arguments(law)
+    options, called = law.card.parameters, law.card.arguments
     return bool(called) and all(p.kind for p in called) and {p.name for p in options if p.required} <= {p.name for p in drawn(options)}
 
 
@@ -38,7 +32,7 @@ def test_a_law_gives_values_within_the_bounds_of_its_kind_or_none(key: str) -> N
     count = max(SETS // LAWS_OF_ONE, 1)
     for seed in range(LAWS_OF_ONE):
         options = {name: float(values[0]) for name, values in random_inputs(law.card.parameters, 1, seed).items()}
-        given = random_inputs(arguments(law), count, seed)
+        given = random_inputs(law.card.arguments, count, seed)
         try:
             with jax.disable_jit():  # each law is another program
                 answer = law(**options)(**given)
@@ -50,7 +44,7 @@ def test_a_law_gives_values_within_the_bounds_of_its_kind_or_none(key: str) -> N
 @pytest.mark.parametrize("key", LAWS)
 def test_ordinary_options_give_a_law_that_has_values(key: str) -> None:
     law, rng, count = LAWS[key], np.random.default_rng(0), min(SETS, 200)
-    options, given = ({p.name: ordinary(p, rng, count) for p in drawn(group)} for group in (law.card.parameters, arguments(law)))
+    options, given = ({p.name: ordinary(p, rng, count) for p in drawn(group)} for group in (law.card.parameters, law.card.arguments))
     raw = jax.vmap(lambda o, g: law(**o)(**g))(options, given)
     for p, value in bounds.figures(law.card.outputs, raw):
         assert np.mean(bounds.kept_inside(p, value) & np.isfinite(value)) > VALUES, p.name

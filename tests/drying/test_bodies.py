@@ -47,8 +47,8 @@ def test_wet_start_and_dry_end() -> None:
 
 def test_products() -> None:
     for name, product in PRODUCTS.items():
-        isotherm, T = product(), np.mean(product.ranges.get("temperature", 303.15))
-        a = np.linspace(*product.ranges["water_activity"], 7)
+        isotherm, T = product(), np.mean(product.card.fitted.get("temperature", 303.15))
+        a = np.linspace(*product.card.fitted["water_activity"], 7)
         X = np.asarray(isotherm.moisture(a, T))
         assert np.all(np.diff(X) > 0), name
         np.testing.assert_allclose(isotherm.activity(X, T), a, rtol=1e-9)

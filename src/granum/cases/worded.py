@@ -15,7 +15,6 @@ from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.written import read_number
-from granum.estimation.cards import inputs_of
 
 _LIMIT = re.compile(r"^(.*?)(<=|>=|<|>)(.*)$")
 STEPS = {"sweep": 25, "map": 15}
@@ -35,7 +34,7 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
     """
     thing: Any = registry.find(key)
     if thing.card.sort in ("formula", "law", "procedure"):
-        known = inputs_of(thing)
+        known = thing.card.inputs
         for name in words:
             if name == "fluid":
                 continue  # in place of the properties that the card asks of it

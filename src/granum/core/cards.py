@@ -28,6 +28,7 @@ class Card:
     equation: LaTeX.
     family: what it can be passed as, for laws (``drag_coefficient``).
     limits: practical limits, for equipment.
+    arguments: what a law is called with, besides the parameters that it is made of.
     """
 
     key: str
@@ -42,6 +43,7 @@ class Card:
     doc: str
     module: str
     limits: tuple[Limit, ...] = ()
+    arguments: tuple[Parameter, ...] = ()
 
     @property
     def domain(self) -> str:
@@ -83,9 +85,14 @@ class Card:
 
         return cite(self.source)
 
+    @property
+    def inputs(self) -> dict[str, Parameter]:
+        """By name all that must be known for a value: of a law what it is called with and what it is made of."""
+        return {p.name: p for p in (*self.arguments, *self.parameters)}
+
     def parameter(self, name: str) -> Parameter:
         """One input or output by name."""
-        return next(p for p in (*self.parameters, *self.outputs) if p.name == name)
+        return next(p for p in (*self.inputs.values(), *self.outputs) if p.name == name)
 
     def as_json(self) -> dict[str, Any]:
         """The card as plain data in the current language."""
@@ -96,6 +103,7 @@ class Card:
             "title": self.title,
             "summary": self.summary,
             "parameters": [p.as_json() for p in self.parameters],
+            "arguments": [p.as_json() for p in self.arguments],
             "outputs": [p.as_json() for p in self.outputs],
             "equation": self.equation,
             "source": self.source,
@@ -121,6 +129,7 @@ def key_of(thing: Any, name: str) -> str:
 def make_card(
     thing: Callable[..., Any], name: str, sort: str, *, parameters: tuple[Parameter, ...], outputs: tuple[Parameter, ...],
     source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "", limits: tuple[Limit, ...] = (),
+    arguments: tuple[Parameter, ...] = (),
 ) -> Card:  # fmt: skip
     """The card of a declared function or class."""
     return Card(
@@ -136,4 +145,5 @@ def make_card(
         doc=written_doc(thing),
         module=thing.__module__,
         limits=limits,
+        arguments=arguments,
     )

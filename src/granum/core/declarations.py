@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import inspect
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, TypeVar, get_type_hints
 
 import jax
+import numpy as np
 
 from granum.core import bounds, flags
 from granum.core.cards import Card, Ranges, key_of, make_card
-from granum.core.conversion import Binder, is_tracer
+from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.docstrings import CompletedDoc
-from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of
+from granum.core.i18n import _
+from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of, parameters_of
 from granum.core.registry import register
+from granum.core.results import Result
 
 T = TypeVar("T")
 
@@ -56,8 +61,11 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
                 outputs = outputs_of(returned, name, fitted)
             elif sort == "law":
                 outputs = outputs_of(returned, family, fitted)
+        arguments: tuple[Parameter, ...] = ()
+        if sort == "law":
+            arguments = tuple(p for p in parameters_of(cls.__call__, fitted, typical) if p.name != "self")  # type: ignore[operator]
         return make_card(cls, name, sort, parameters=field_parameters(cls, fitted, typical), outputs=outputs,
-                         source=source, equation=equation, fitted=fitted, family=family, title=title,
+                         arguments=arguments, source=source, equation=equation, fitted=fitted, family=family, title=title,
                          limits=tuple(getattr(cls, "limits", {}).values()))  # fmt: skip
 
     original = cls.__init__
@@ -79,17 +87,49 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
     return cls
 
 
-def _judged(call: Callable[..., Any]) -> Callable[..., Any]:
-    """A law's call, whose value is judged where nobody else does: on concrete numbers, outside of a formula."""
+def _checked(call: Callable[..., Any]) -> Callable[..., Any]:
+    """A law's call, which tells where it leaves the ranges of its card and whose value is judged where nobody else does:
+    on concrete numbers, outside of a formula."""
+    names = tuple(inspect.signature(call).parameters)[1:]
 
     @functools.wraps(call)
-    def judged(self: Any, *args: Any, **kwargs: Any) -> Any:
-        out = call(self, *args, **kwargs)
+    def checked(self: Any, *args: Any, **kwargs: Any) -> Any:
+        out, card = call(self, *args, **kwargs), self.card
+        if card.fitted and flags.listening():
+            own = {p.name: getattr(self, p.name) for p in card.parameters}
+            values = own | dict(zip(names, args, strict=False)) | kwargs | {p.name: value for p, value in bounds.figures(card.outputs, out)}
+            flags.ranged(card, {n: values[n] for n in card.fitted if values.get(n) is not None})
         if flags.nested() or any(map(is_tracer, jax.tree.leaves(out))):
             return out
-        return bounds.judged(self.card.outputs, out, self.card.key, self.card.source)
+        return bounds.judged(card.outputs, out, card.key, card.source)
 
-    return judged
+    return checked
+
+
+def _called(cls: Any, /, **inputs: Any) -> Any:
+    """The value of this law for its parameters and the arguments of its call, all by name. Pure."""
+    arguments = {p.name for p in cls.card.arguments}
+    made = cls(**{name: value for name, value in inputs.items() if name not in arguments})
+    return made(**{name: value for name, value in inputs.items() if name in arguments})
+
+
+def _evaluate(cls: Any, /, **inputs: Any) -> Result:
+    """The value of this law, as of a formula, for its parameters and the arguments of its call in any unit, with its flags and card.
+
+    What it is called with may be arrays.
+    """
+    card = replace(cls.card, parameters=tuple(cls.card.inputs.values()), arguments=())
+    binder = Binder.of(card.key, card.parameters)
+    given, origins = binder.with_fluid((), inputs)
+    where = _(" for {owner}").format(owner=card.key)
+    rows = zip(card.parameters, binder.arrange((), given), strict=True)
+    values = {p.name: convert(value, p, where, several=p in cls.card.arguments) for p, value in rows}
+    with flags.collect() as records:
+        out = _called(cls, **values)
+    arrays = [np.shape(x) for x in jax.tree.leaves(out)]
+    shape = arrays[0] if isinstance(out, tuple) else np.broadcast_shapes(*arrays)
+    told = {"flags": flags.bits(records, shape), "notices": flags.describe(records)}
+    return Result(card, values, out, **told, defaults=binder.left_out((), given), origins=origins)
 
 
 def law(family: str, *, source: str, name: str, equation: str = "", fitted: Ranges | None = None,
@@ -97,11 +137,16 @@ def law(family: str, *, source: str, name: str, equation: str = "", fitted: Rang
     """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share the family.
+    ``fitted`` are ranges over which the source holds, by parameter, argument of the call or result (the family's name), SI units.
     """
 
     def declare(cls: type[T]) -> type[T]:
         if any("__call__" in vars(base) for base in cls.__mro__):
-            type.__setattr__(cls, "__call__", _judged(cls.__call__))
+            several = inspect.unwrap(cls.__call__).__code__.co_argcount > 1
+            type.__setattr__(cls, "__call__", _checked(cls.__call__))
+            if several:
+                type.__setattr__(cls, "called", classmethod(_called))
+                type.__setattr__(cls, "evaluate", classmethod(_evaluate))
         return _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
 
     return declare

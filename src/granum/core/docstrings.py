@@ -40,13 +40,15 @@ def completed(card: Card) -> str:
     parts = [card.doc]
     if card.parameters:
         parts.append(_section(_("Parameters"), [_input(p) for p in card.parameters]))
+    if card.arguments:
+        parts.append(_section(_("Called with"), [_input(p) for p in card.arguments]))
     if card.outputs:
         parts.append(_section(_("Returns"), [_output(p) for p in card.outputs]))
     rest = []
     if card.equation:
         rest.append(f"{_('Equation')}: {card.equation}")
     if card.fitted:
-        ranges = "; ".join(f"{name} {format_number(low)} … {format_number(high)}" for name, (low, high) in card.fitted.items())
+        ranges = "; ".join(f"{name} {_end(low)} … {_end(high)}" for name, (low, high) in card.fitted.items())
         rest.append(f"{_('Range')}: {ranges} {_('(SI; beyond it the value is flagged)')}")
     for limit in card.limits:
         allowed = f"{_end(limit.low)} … {_end(limit.high)} {pretty_unit(limit.unit)}".strip()

@@ -6,7 +6,7 @@ inside an inner transformation (a loop body, an inner ``vmap``) is dropped: the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -125,11 +125,17 @@ def watch(**values: Any) -> None:
     ``@formula(fitted={"reynolds": (1e-4, 2e5)})`` with ``watch(reynolds=Re)`` in the body flags the extrapolation.
     """
     formula = _current.get()
-    if formula is None or not listening():
+    if formula is not None:
+        ranged(formula, values)
+
+
+def ranged(card: Any, values: Mapping[str, Any]) -> None:
+    """Check numbers against the ranges that a card, or whoever has its key, source and ranges, declares for them."""
+    if not listening():
         return
     for name, value in values.items():
-        low, high = formula.fitted[name]
-        record(EXTRAPOLATED, (value < low) | (value > high), value, name, formula.key, low, high, formula.source)
+        low, high = card.fitted[name]
+        record(EXTRAPOLATED, (value < low) | (value > high), value, name, card.key, low, high, card.source)
 
 
 def unconverged(converged: Any, name: str = "iteration") -> None:

@@ -18,7 +18,7 @@ from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.parameters import REQUIRED, Parameter, default_as_json, parameters_of
+from granum.core.parameters import REQUIRED, Parameter, default_as_json
 from granum.estimation.design import next_experiment
 from granum.estimation.least_squares import fit
 from granum.estimation.losses import Loss
@@ -64,7 +64,7 @@ class CardData:
             )
         wanted = dict(estimate) if isinstance(estimate, Mapping) else dict.fromkeys(estimate)
         where = _("for {owner}").format(owner=thing.card.key)
-        inputs, result = inputs_of(thing), _result(thing, output, where)
+        inputs, result = thing.card.inputs, _result(thing, output, where)
         for name in (*wanted, *(fixed or {})):
             if name not in inputs:
                 raise unknown_name(_("Input"), name, inputs, where)
@@ -98,13 +98,8 @@ class CardData:
 
     def model(self, parameters: Mapping[str, Any], columns: Mapping[str, Any]) -> Any:
         """The result for given parameters and columns. Pure."""
-        if self.thing.card.sort == "law":
-            own = {p.name for p in self.thing.card.parameters}
-            every = {**self.fixed, **columns, **parameters}
-            law = self.thing(**{n: v for n, v in every.items() if n in own})
-            made = law(**{n: v for n, v in every.items() if n not in own})
-        else:
-            made = self.thing(**{**self.fixed, **columns, **parameters})
+        every = {**self.fixed, **columns, **parameters}
+        made = self.thing.called(**every) if self.thing.card.sort == "law" else self.thing(**every)
         return getattr(made, self.output.name) if hasattr(made, "_fields") else made
 
     def fit(self, loss: Loss | None = None) -> Fit:
@@ -135,7 +130,7 @@ class CardData:
     def defaults(self) -> dict[str, Any]:
         """Inputs that were neither measured nor given nor estimated and stand at their defaults, as plain data."""
         known = {*self.fixed, *self.columns, *self.starts}
-        left = {n: p.default for n, p in inputs_of(self.thing).items() if n not in known and not p.required and p.default is not None}
+        left = {n: p.default for n, p in self.thing.card.inputs.items() if n not in known and not p.required and p.default is not None}
         return {n: default_as_json(value) for n, value in left.items()}
 
     def next_measurement(self, found: Fit, steps: int = 41) -> dict[str, Any]:
@@ -144,7 +139,7 @@ class CardData:
         spans = [np.linspace(v.min(), v.max(), per) for v in self.columns.values()]
         grid = dict(zip(self.columns, (g.ravel() for g in np.meshgrid(*spans, indexing="ij")), strict=True))
         told = next_experiment(found, grid)
-        inputs = inputs_of(self.thing)
+        inputs = self.thing.card.inputs
         at = {n: {"value": float(g[told.best]), "unit": inputs[n].kind.unit if inputs[n].kind else ""} for n, g in grid.items()}  # type: ignore[union-attr]
         return {"at": at, "shrinkage": float(told.shrinkage[told.best]), "standard_errors": told.standard_errors}
 
@@ -169,7 +164,7 @@ class CardData:
         y, upward = scaled(self.output, self.measured)
         if len(self.columns) == 1:
             ((name, values),) = self.columns.items()
-            parameter = inputs_of(self.thing)[name]
+            parameter = self.thing.card.inputs[name]
             grid = np.linspace(values.min(), values.max(), 200)
             band = found.predict({name: grid})
             x, across = scaled(parameter, values)
@@ -209,14 +204,6 @@ def fit_together(sets: Sequence[CardData], loss: Loss | None = None) -> Fit:
     ends = [f.ranges for f in alone]
     ranges = {n: (min(e[n][0] for e in ends if n in e), max(e[n][1] for e in ends if n in e)) for n in {n for e in ends for n in e}}
     return replace(found, defaults={n: v for f in alone for n, v in f.defaults.items()}, ranges=ranges)
-
-
-def inputs_of(thing: Any) -> dict[str, Parameter]:
-    """Inputs of a formula; of a law its parameters and the arguments of its call."""
-    found = {p.name: p for p in thing.card.parameters}
-    if thing.card.sort == "law":
-        found = {p.name: p for p in parameters_of(thing.__call__, {}, {}) if p.name != "self"} | found
-    return found
 
 
 def _result(thing: Any, output: str, where: str) -> Parameter:

@@ -13,7 +13,9 @@ from rich.table import Table
 from rich.text import Text
 
 from granum.core.cards import Card
+from granum.core.glossary import glossary, term
 from granum.core.i18n import _
+from granum.core.kinds import Kind
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 from granum.core.symbols import text_symbol
@@ -136,7 +138,7 @@ def print_card(card: Card) -> None:
     console.print(card.summary)
     table = _table((_("input"), "left"), (_("quantity, units, allowed values, default"), "left"))
     table.columns[0].no_wrap = True
-    for p in card.parameters:
+    for p in card.inputs.values():
         allowed = ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
         default = _("required") if p.required else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
         table.add_row(p.name, " · ".join(filter(None, (p.label, ", ".join(filter(None, map(pretty_unit, p.units[:3]))), allowed, default))))
@@ -146,6 +148,10 @@ def print_card(card: Card) -> None:
         for p in card.outputs:
             table.add_row(p.name, " · ".join(filter(None, (p.label, pretty_unit(p.kind.unit) if p.kind else ""))))
         console.print(table)
+    for name, ends in card.fitted.items():
+        if name not in card.inputs:  # of a result, or of a number worked out on the way
+            kind = next((p.kind for p in card.outputs if p.name == name), None)
+            console.print(f"{term(name).label if name in glossary() else name} · {_fitted(ends, kind)}")
     if card.limits:
         table = _table((_("practical limit"), "left"), (_("allowed"), "left"), (_("source"), "left"))
         for row in limit_rows(card):
@@ -165,8 +171,13 @@ def _bounds(p: Parameter) -> str:
     high = "∞" if p.kind.upper == np.inf else show(p.kind.upper, p.kind)
     text = f"{low} … {high}"
     if p.fitted:
-        text += " · " + _("fitted {low} … {high}").format(low=format_number(p.fitted[0]), high=format_number(p.fitted[1]))
+        text += " · " + _fitted(p.fitted, p.kind)
     return text
+
+
+def _fitted(ends: tuple[float, float], kind: Kind | None) -> str:
+    low, high = ("−∞" if x == -np.inf else "∞" if x == np.inf else show(x, kind) if kind else format_number(x) for x in ends)
+    return _("fitted {low} … {high}").format(low=low, high=high)
 
 
 def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -> None:

@@ -21,7 +21,6 @@ from granum.core.conversion import Binder, convert
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
-from granum.estimation.cards import inputs_of
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
 EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE, OVERSATURATED, TOO_HOT = range(-1, 9)
@@ -261,7 +260,7 @@ class FormulaSubject(Subject):
     @functools.cached_property
     def parameters(self) -> dict[str, Parameter]:
         """Inputs by name."""
-        return inputs_of(self.thing)
+        return self.thing.card.inputs
 
     @staticmethod
     def of(thing: Any, fixed: Mapping[str, Any], recipe: Any = None) -> FormulaSubject:
@@ -273,7 +272,7 @@ class FormulaSubject(Subject):
                     key=thing.card.key, sort=_(thing.card.sort)
                 )
             )
-        known = inputs_of(thing)
+        known = thing.card.inputs
         where = _("for {owner}").format(owner=thing.card.key)
         fixed = Binder.of(thing.card.key, tuple(known.values())).with_fluid((), fixed)[0]
         for name in fixed:
@@ -343,12 +342,7 @@ class FormulaSubject(Subject):
         for path, value in values.items():
             name, index = split_index(path)
             given[name] = value if index is None else jnp.asarray(given[name]).at[index].set(value)
-        if self.thing.card.sort == "law":
-            own = {p.name for p in self.thing.card.parameters}
-            law = self.thing(**{n: v for n, v in given.items() if n in own})
-            made = law(**{n: v for n, v in given.items() if n not in own})
-        else:
-            made = self.thing(**given)
+        made = self.thing.called(**given) if self.thing.card.sort == "law" else self.thing(**given)
         found = made._asdict() if hasattr(made, "_asdict") else {self.thing.card.outputs[0].name: made}
         defaults = {n: p.default for n, p in self.parameters.items() if not p.required}
 

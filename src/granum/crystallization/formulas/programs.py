@@ -77,11 +77,11 @@ class NaturalCooling(Program):
 class TemperaturePoints(Program):
     """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch."""
 
-    time: Annotated[Time, Series("points")]
+    time_points: Annotated[Time, Series("points")]
     temperature: Annotated[Temperature, Series("points")]
 
     def __call__(self, time: Time) -> Temperature:
-        return jnp.interp(jnp.asarray(time, dtype=float), jnp.asarray(self.time), jnp.asarray(self.temperature))
+        return jnp.interp(jnp.asarray(time, dtype=float), jnp.asarray(self.time_points), jnp.asarray(self.temperature))
 
 
 @law("program", name="cooling_shares", source="jones1974", title="Cooling by shares of the temperature fall",

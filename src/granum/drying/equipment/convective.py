@@ -263,7 +263,7 @@ class ConvectiveDryer(Unit):
             found["humidity"] = phi - self.relative_humidity_outlet
         if self.isotherm is not None:
             driest = HumidMixture(feed.mixture).relative_humidity(inside.inlet)
-            found["equilibrium"] = X - self.isotherm.moisture(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
+            found["equilibrium"] = X - self.isotherm(jnp.clip(driest, 1e-3, 0.99), figures.temperature_inlet)
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit
         return found

@@ -169,7 +169,7 @@ class TrayDryer(Unit):
         N = (mean + self.radiated_heat) / humid.heat_of_vaporization(Tw)
         X1 = safe_divide(feed.liquid[0], feed.solid_flow)
         phi = jnp.clip(humid.relative_humidity(moist), 1e-3, 0.99)
-        Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm.moisture(phi, T)
+        Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm(phi, T)
         time = drying_time(self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe).drying_time
         return {"w": w, "h": h, "Tw": Tw, "end": end, "N": N, "Xe": Xe, "time": time, "T2": end, "flux": flux, "water": water}
 

@@ -138,7 +138,7 @@ def water_activity(
     >>> round(water_activity(moisture_dry_basis=0.092, isotherm="hailwood_horrobin", temperature="21.1 degC"), 2)
     0.5
     """
-    return isotherm.activity(jnp.asarray(moisture_dry_basis, dtype=float), temperature) + 0.0 * moisture_dry_basis
+    return isotherm.told_activity(jnp.asarray(moisture_dry_basis, dtype=float), temperature) + 0.0 * moisture_dry_basis
 
 
 class SorptionHeat(NamedTuple):

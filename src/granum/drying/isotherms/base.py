@@ -9,6 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
+from granum.core import flags
 from granum.core.constants import GAS_CONSTANT
 from granum.numerics import find_root
 
@@ -32,6 +33,14 @@ class AbstractIsotherm(eqx.Module):
     @abstractmethod
     def activity(self, X: Any, T: Any) -> Any:
         """Water activity in equilibrium with a moisture."""
+
+    def told_activity(self, X: Any, T: Any) -> Any:
+        """The same, told where it lies outside the ranges of the law."""
+        found = {"water_activity": self.activity(X, T), "temperature": T}
+        card = getattr(self, "card", None)  # a module written for a purpose has none
+        if card is not None:
+            flags.ranged(card, {name: found[name] for name in card.fitted if name in found})
+        return found["water_activity"]
 
     def net_isosteric_heat(self, X: Any, T: Any) -> Any:
         """Heat of sorption beyond vaporization, J/kg of water: −(R/M_w) [∂ ln a/∂(1/T)]_X (Clausius–Clapeyron)."""

@@ -6,9 +6,7 @@ import tomllib
 from importlib.resources import files
 from typing import Any, ClassVar
 
-import jax.numpy as jnp
-
-from granum.core import flags, law
+from granum.core import law
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import MoistureDryBasis, Temperature, WaterActivity
 from granum.drying.isotherms import adsorption, grains
@@ -19,23 +17,17 @@ _MODELS: dict[str, Any] = {"chung_pfost": grains.ChungPfost, "halsey_modified": 
 
 def _declare(name: str, row: dict[str, Any]) -> type:
     model = _MODELS[row["model"]](**row["constants"])
-    ranges_of_data = {"water_activity": tuple(row["aw"])}
+    ranges = {"water_activity": tuple(row["aw"])}
     if "celsius" in row:
-        ranges_of_data["temperature"] = tuple(t + ZERO_CELSIUS for t in row["celsius"])
+        ranges["temperature"] = tuple(t + ZERO_CELSIUS for t in row["celsius"])
 
-    key = f"drying.isotherm_{name}"
-
-    @law("isotherm", name=f"isotherm_{name}", source=row["source"], title=f"Isotherm of {row['en']}")
+    @law("isotherm", name=f"isotherm_{name}", source=row["source"], title=f"Isotherm of {row['en']}", fitted=ranges)
     class Product(AbstractIsotherm):
         """Sorption isotherm of a product with the constants of its source, over temperature."""
 
         curve: ClassVar[str] = model.curve
-        ranges: ClassVar[dict[str, tuple[float, float]]] = ranges_of_data
 
         def __call__(self, water_activity: WaterActivity, temperature: Temperature = ROOM) -> MoistureDryBasis:
-            for name, value in (("water_activity", water_activity), ("temperature", temperature)):
-                low, high = self.ranges.get(name, (-jnp.inf, jnp.inf))
-                flags.record(flags.EXTRAPOLATED, (low > value) | (high < value), value, name, key, low, high, row["source"])
             return self.moisture(water_activity, temperature)
 
         def moisture(self, a: Any, T: Any) -> Any:
