@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from granum.core.datasets import dataset
 from granum.core.i18n import catalog, language
 from granum.filtration.charts import cake_profile_chart, filtration_cycle_chart, washing_chart
-from granum.filtration.selection import machines, separator_choice
+from granum.filtration.selection import separator_choice
 
 
 def ranked(*case, **more):
@@ -27,12 +28,14 @@ def test_plain_advice():
     assert dilute["pusher centrifuge"] < 0.05
     # nothing that settles when there is no density difference
     same, found = ranked("20 um", 0.0, 0.05, "5 m^3/hour")
-    assert max(same[m["name"]] for m in machines() if m["settles"]) < min(same["membrane press"], same["rotary vacuum drum"])
+    assert max(same[m["name"]] for m in dataset("filtration", "separators_svarovsky2001") if m["settles"]) < min(
+        same["membrane press"], same["rotary vacuum drum"]
+    )
     assert "settles too slowly" in found.reasons[found.separator.index("scroll decanter")]
 
 
 def test_every_machine_has_a_french_name_and_a_sound_range():
-    for m in machines():
+    for m in dataset("filtration", "separators_svarovsky2001"):
         assert m["name"] in catalog("fr")
         assert m["size_low"] < m["size_high"]
         assert m["solids_low"] < m["solids_high"] <= 0.65

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-from functools import cache
-from importlib.resources import files
-
-from granum.comminution.formulas.energy import KWH_PER_SHORT_TON
 from granum.comminution.kinds import WorkIndex
 from granum.core import procedure
+from granum.core.datasets import dataset
 from granum.core.errors import unknown_name
 from granum.core.i18n import _
 
 
-@cache
 def work_indices() -> dict[str, float]:
     """Average work indices by material, J/kg."""
-    text = (files("granum.comminution") / "data" / "work_index_bond1961.csv").read_text(encoding="utf-8")
-    return {row["material"]: float(row["work index (kWh/short_ton)"]) * KWH_PER_SHORT_TON for row in csv.DictReader(text.splitlines())}
+    return {row["material"]: row["work index"] for row in dataset("comminution", "work_index_bond1961")}
 
 
 @procedure(source="bond1961; perry2008", title="Average work index of a material")

@@ -1,4 +1,6 @@
-"""Physical constants (CODATA 2018 exact values; standard gravity and atmosphere by definition)."""
+"""Physical constants (CODATA 2018 exact values; standard gravity and atmosphere by definition) and units by which sources count."""
+
+import math
 
 STANDARD_GRAVITY = 9.80665  # m/s², CGPM 1901
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
@@ -8,3 +10,5 @@ STEFAN_BOLTZMANN = 5.670374419e-8  # W/(m² K⁴)
 STANDARD_ATMOSPHERE = 101325.0  # Pa
 ZERO_CELSIUS = 273.15  # K
 DARCY = 9.869232667160130e-13  # m²: 1 cP · 1 cm/s per atm/cm = 1e-7/101325 m²
+MINUTE, HOUR, DAY = 60.0, 3600.0, 86400.0  # s
+RPM = 2.0 * math.pi / 60.0  # radian/s

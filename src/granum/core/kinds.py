@@ -119,6 +119,8 @@ RotationSpeed = Annotated[Any, _nonnegative("rotation speed", "radian/s", "rpm")
 SpecificSurface = Annotated[Any, _positive("surface per volume", "1/m", "m^2/cm^3", "1/mm")]
 SpecificSurfaceMass = Annotated[Any, _positive("surface per mass", "m^2/kg", "m^2/g", "cm^2/g")]
 ReciprocalLength = Annotated[Any, _nonnegative("reciprocal length", "1/m", "1/m", "1/mm")]
+MassPerArea = Annotated[Any, _positive("mass per area", "kg/m^2", "kg/m^2", "g/m^2")]
+MassPerAreaOrZero = Annotated[Any, _nonnegative("mass per area", "kg/m^2", "g/cm^2")]
 NumberPerArea = Annotated[Any, _nonnegative("number per area", "1/m^2", "1/m^2", "1/cm^2")]
 # mass, amount, flow
 Mass = Annotated[Any, _nonnegative("mass", "kg", "kg", "g", "mg", "tonne", "lb")]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from granum.core.kinds import GrowthRate, Kind, MolarEnergy, PositiveNumber, TemperatureRate, Within
+from granum.core.kinds import GrowthRate, Kind, MolarEnergy, PositiveNumber, Within
 
-CoolingRate = TemperatureRate
 PositiveTemperatureDifference = Annotated[
     Any, Kind("positive temperature difference", "delta_degC", lower=0.0, open_lower=True, display=("kelvin", "delta_degF"))
 ]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 import inspect
 from collections.abc import Callable
 from functools import cache, wraps
-from importlib.resources import files
 from typing import Any, Literal, NamedTuple, get_type_hints
 
 import equinox as eqx
@@ -14,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import impossible, law
+from granum.core.datasets import dataset
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Length, PositiveNumber
@@ -86,8 +85,7 @@ def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
 @cache
 def standard_ratios() -> dict[str, tuple[float, ...]]:
     """Ratios of the standard designs by name."""
-    text = (files("granum") / "cyclones" / "data" / "geometries_leith1973.csv").read_text(encoding="utf-8")
-    return {row[0]: tuple(map(float, row[1:])) for row in list(csv.reader(text.splitlines()))[1:]}
+    return {name: tuple(ratios) for name, *ratios in (row.values() for row in dataset("cyclones", "geometries_leith1973"))}
 
 
 @law("cyclone_geometry", name="standard_cyclone", source="leith1973; cooper2011", title="Standard cyclone")

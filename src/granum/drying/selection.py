@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-from functools import cache
-from importlib.resources import files
 from math import exp, log, sqrt
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -12,30 +9,16 @@ import numpy as np
 
 from granum.core import procedure
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.datasets import dataset
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, Mass, MassFlow, MoistureDryBasis, Series, SpecificEnergy, Temperature, Time
 from granum.core.units import format_number
 
 DECADE = log(10.0)
-_FACTORS = {"degC]": 1.0, "s]": 1.0, "t/h]": 1000.0 / 3600.0, "kg/h]": 1.0 / 3600.0, "kJ/kg]": 1e3, "kg/kg]": 1.0, "-]": 1.0}
 # Flash and spray dryers keep the product hot for seconds only: it may see some 20 K more than in a dryer of minutes or hours.
 BRIEF, ALLOWANCE = 60.0, 20.0
-TOLERANT = 50.0  # °C, from which on a product can be dried in warm air
-
-
-@cache
-def _table(name: str) -> tuple[dict[str, Any], ...]:
-    """Rows of a data file; numbers in SI but for temperatures, which stay in °C."""
-    text = (files("granum") / "drying" / "data" / f"{name}.csv").read_text(encoding="utf-8")
-    rows = []
-    for row in csv.DictReader(text.splitlines()):
-        found: dict[str, Any] = {}
-        for key, cell in row.items():
-            word, _dot, unit = key.partition(" [")
-            found[word] = cell if word in ("name", "capacity_per") else float(cell) * _FACTORS.get(unit, 1.0)
-        rows.append(found)
-    return tuple(rows)
+TOLERANT = ZERO_CELSIUS + 50.0  # from which on a product can be dried in warm air
 
 
 class Dryers(NamedTuple):
@@ -88,9 +71,9 @@ def choose(
             name="moisture_dry_basis_outlet",
         )
     water = mass_flow * (X1 - X2) / (1.0 + X1)
-    limit = None if temperature_limit is None else temperature_limit - ZERO_CELSIUS
+    limit = temperature_limit
     rows = []
-    for d in _table("dryers_houdon2017"):
+    for d in dataset("drying", "dryers_houdon2017"):
         missing, why = 0.0, []
         if not d[product_form]:
             rows.append((0.0, d, [_("does not take this form of product")]))
@@ -106,8 +89,8 @@ def choose(
             seen = d["product_low"] - (ALLOWANCE if d["residence_high"] <= BRIEF else 0.0)
             if seen > limit:
                 missing += DECADE * (seen - limit) / 10.0
-                why.append(_("heats the product to {value} °C at least").format(value=format_number(d["product_low"], 3)))
-        if d["gas_low"] < 0.0 and (limit is None or limit > TOLERANT):
+                why.append(_("heats the product to {value} °C at least").format(value=format_number(d["product_low"] - ZERO_CELSIUS, 3)))
+        if d["gas_low"] < ZERO_CELSIUS and (limit is None or limit > TOLERANT):
             missing += DECADE / 2.0
             why.append(_("several times as dear as drying in air: for what bears no heat"))
         if residence_time is not None:
@@ -205,7 +188,7 @@ def water_removal_choice(
     pressed, heated = dry_solid_mass * (X1 - squeezed), dry_solid_mass * (squeezed - X2)
     whole = pressed + heated
     mechanical = 3.6e6 * sqrt(2.0 * 35.0) / 1000.0  # J/kg, geometric mean of 2 and 35 kWh/t
-    agent = next(d for d in _table("desiccants") if d["name"] == desiccant)
+    agent = next(d for d in dataset("drying", "desiccants") if d["name"] == desiccant)
     mass = whole / agent["water_per_desiccant"]
     together = (pressed * mechanical + heated * energy_per_water) / whole
     names: Any = (_("pressing or spinning"), _("heat after pressing"), _("heat alone"), _("desiccant: {name}").format(name=_(desiccant)))
@@ -215,7 +198,7 @@ def water_removal_choice(
         _("all water evaporated"),
         _("needs {mass} kg, regenerated at {temperature} °C; only down to a water activity of {activity}").format(
             mass=format_number(mass, 3),
-            temperature=format_number(agent["regeneration"], 3),
+            temperature=format_number(agent["regeneration"] - ZERO_CELSIUS, 3),
             activity=format_number(agent["least_activity"], 2),
         ),
     )

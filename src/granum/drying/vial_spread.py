@@ -17,16 +17,16 @@ from granum.core.kinds import (
     PositiveNumber,
     Pressure,
     Temperature,
+    TemperatureRate,
     Time,
     Volume,
     Within,
 )  # fmt: skip
 from granum.drying.formulas.freeze_drying import primary_drying
-from granum.drying.vial_kinds import (
+from granum.drying.kinds import (
     HeatTransferPerPressure,
     PerLength,
     PerPressure,
-    RampRate,
     VaporResistance,
     VaporResistanceGradient,
 )
@@ -59,7 +59,7 @@ def vial_spread(
     vapor_resistance_saturation: PerLength = 0.0,
     vial_coefficient_saturation: PerPressure = 0.0,
     temperature_shelf_start: Temperature = 238.15,
-    ramp_rate: RampRate = 1.0 / 60.0,
+    ramp_rate: TemperatureRate = 1.0 / 60.0,
     temperature_limit: Temperature = 240.0,
     vial_count: Annotated[int, Within(10, 1_000_000)] = 10_000,
     edge_share: Fraction = 0.2,

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-from functools import cache
-from importlib.resources import files
 from math import exp, log
 from typing import Annotated, Any, NamedTuple
 
@@ -12,6 +9,7 @@ import numpy as np
 
 from granum.core import procedure
 from granum.core.constants import STANDARD_GRAVITY
+from granum.core.datasets import dataset
 from granum.core.i18n import _
 from granum.core.kinds import DensityDifference, DynamicViscosity, Fraction, Length, Series, VolumeFlow, VolumeFraction
 from granum.core.units import format_number
@@ -19,21 +17,6 @@ from granum.core.units import format_number
 # Settling velocity, m/s, below which a machine of that effect cannot be made large enough: the flow over area of common machines.
 LEAST_GRAVITY, LEAST_SPUN = 3e-5, 1e-4
 DECADE_OUT = log(10.0)
-
-
-@cache
-def machines() -> tuple[dict[str, float | str], ...]:
-    """The table of separators, SI."""
-    text = (files("granum") / "filtration" / "data" / "separators_svarovsky2001.csv").read_text(encoding="utf-8")
-    rows = []
-    for row in csv.DictReader(text.splitlines()):
-        found: dict[str, float | str] = {"name": row["name"]}
-        for key, cell in row.items():
-            if key != "name":
-                word, _dot, unit = key.partition(" [")
-                found[word] = float(cell) * {"um]": 1e-6, "m3/h]": 1.0 / 3600.0}.get(unit, 1.0)
-        rows.append(found)
-    return tuple(rows)
 
 
 class Separators(NamedTuple):
@@ -71,8 +54,7 @@ def separator_choice(
     """
     falling = particle_diameter**2 * abs(density_difference) * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
     rows = []
-    for machine in machines():
-        number = {key: float(value) for key, value in machine.items() if key != "name"}
+    for number in dataset("filtration", "separators_svarovsky2001"):
         missing, why = 0.0, []
         for value, low, high, text in (
             (particle_diameter, number["size_low"], number["size_high"], _("particle size outside {low} to {high} µm")),
@@ -102,7 +84,7 @@ def separator_choice(
         if washing and not number["washes"]:
             why.append(_("cannot wash"))
             missing += DECADE_OUT
-        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], str(machine["name"]), why))
+        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], number["name"], why))
     rows.sort(key=lambda row: (-row[0], row[1]))
     names: Any = tuple(_(name) for _score, _left, name, _why in rows)
     whys: Any = tuple("; ".join(why) or _("within its common range") for *_rest, why in rows)

@@ -16,6 +16,7 @@ from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.watching import reporter
 from granum.numerics import Anderson, Newton, Settled, fixed_point, settle, within_rounding
+from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
@@ -168,8 +169,8 @@ def stacked(line: Flowsheet, solution: Solution) -> Stream:
     return jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *named)
 
 
-def balances(line: Flowsheet, solution: Solution, streams: Stream) -> tuple[Any, Any, Any]:
-    """Imbalance of mass (worst component), energy and every component: of each unit, then of the whole line."""
+def balances(line: Flowsheet, solution: Solution, streams: Stream) -> Closure:
+    """Closure of each unit, then of the whole line."""
     entering = np.array([[k.target_unit == unit for k in line.links] for unit in line.order] + [[not k.origin for k in line.links]])
     leaving = np.array([[k.source_unit == unit for k in line.links] for unit in line.order] + [[not k.target for k in line.links]])
     powers = [sum(solution.powers[unit].values(), 0.0) for unit in line.order]
@@ -178,13 +179,6 @@ def balances(line: Flowsheet, solution: Solution, streams: Stream) -> tuple[Any,
 
 
 @jax.jit
-def _closures(streams: Stream, entering: Any, leaving: Any, powers: Any) -> tuple[Any, Any, Any]:
+def _closures(streams: Stream, entering: Any, leaving: Any, powers: Any) -> Closure:
     components, enthalpies = jax.vmap(lambda s: (s.components, s.enthalpy_flow))(streams)
-    known = jnp.isfinite(jnp.sum(components, axis=1) + enthalpies)  # a lost stream spoils the balances of its own two units only
-    components, enthalpies = jnp.where(known[:, None], components, 0.0), jnp.where(known, enthalpies, 0.0)
-    lost = jnp.where((entering + leaving) @ ~known > 0, jnp.nan, 0.0)
-    mass_in, mass_out = entering @ components, leaving @ components
-    by_component = (mass_out - mass_in) / jnp.maximum(jnp.sum(mass_in, axis=1, keepdims=True), 1e-300)
-    turnover = (entering + leaving) @ jnp.abs(enthalpies) + jnp.abs(powers)
-    energy = jnp.abs((leaving - entering) @ enthalpies - powers) / jnp.maximum(turnover, 1e-300)
-    return jnp.max(jnp.abs(by_component), axis=1) + lost, energy + lost, by_component
+    return audit.closures(components, enthalpies, entering, leaving, powers)

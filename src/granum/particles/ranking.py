@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import csv
-from functools import cache
-from importlib.resources import files
 from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 
 from granum.core import procedure
+from granum.core.datasets import columns
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
 from granum.core.kinds import Fraction, Number, PositiveNumber, Ratio, Series
 from granum.core.units import format_number
 
 
-@cache
 def measured_drag(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Reynolds numbers and drag coefficients of a data file."""
-    text = (files("granum") / "particles" / "data" / f"drag_{name}.csv").read_text(encoding="utf-8")
-    rows = np.array([[float(cell) for cell in row] for row in list(csv.reader(text.splitlines()))[1:]])
-    return rows[:, 0], rows[:, 1]
+    found = columns("particles", f"drag_{name}")
+    return found["reynolds"], found["drag_coefficient"]
 
 
 def sphere_laws() -> dict[str, Any]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from functools import cache
-from importlib.resources import files
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
 from granum.core import procedure
+from granum.core.datasets import dataset
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.core.kinds import Length, Series
@@ -21,9 +20,8 @@ SeriesName = Literal["iso565_r20", "iso565_r20_3", "iso565_r40_3", "iso565_r10",
 def sieve_table() -> dict[str, dict[str, float]]:
     """Apertures in m by series and designation, coarse to fine."""
     table: dict[str, dict[str, float]] = {}
-    text = (files("granum.particles") / "data" / "sieves_iso565.csv").read_text(encoding="utf-8")
-    for row in csv.DictReader(text.splitlines()):
-        table.setdefault(row["series"], {})[row["designation"]] = float(row["aperture (mm)"]) * 1e-3
+    for row in dataset("particles", "sieves_iso565"):
+        table.setdefault(row["series"], {})[row["designation"]] = row["aperture"]
     return table
 
 

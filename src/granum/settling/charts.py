@@ -9,6 +9,7 @@ import plotly.graph_objects as go
 
 from granum.core import chart
 from granum.core.charts import ACCENT, CAUTION, GAS, INK, LIQUID, OUT, SOLID, add_label, add_line, add_points, axis_title, figure
+from granum.core.constants import HOUR, MINUTE
 from granum.core.i18n import _
 from granum.core.kinds import Area, Concentration, Distance, Law, Length, Series, Time, VolumeFlow, Within
 from granum.core.units import format_number
@@ -18,7 +19,7 @@ from granum.settling.lab_tests.batch_test import BatchTest, VelocityFunction
 from granum.settling.simulations import batch_course
 
 Settling = Annotated[Any, Law("settling_velocity")]
-MINUTE, HOUR, CM = 60.0, 3600.0, 100.0
+CM = 100.0  # in a meter
 
 
 @chart(source="kynch1952; talmage1955", title="Settling curve with tangents and zones")

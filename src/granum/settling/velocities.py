@@ -11,10 +11,9 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.kinds import Concentration, Density, Law, PositiveNumber, Ratio, Speed
+from granum.core.kinds import Concentration, Density, Law, PositiveNumber, Ratio, Speed, VolumePerMass
 from granum.numerics import safe_power
 from granum.particles.formulas.hindered import hindrance_richardson_zaki
-from granum.settling.quantities import SpecificVolume
 
 
 @law(
@@ -31,7 +30,7 @@ class Vesilind(eqx.Module):
     """
 
     vesilind_velocity: Speed
-    vesilind_coefficient: SpecificVolume
+    vesilind_coefficient: VolumePerMass
 
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
@@ -55,8 +54,8 @@ class Takacs(eqx.Module):
 
     takacs_velocity: Speed = 474.0 / 86400
     takacs_velocity_maximum: Speed = 250.0 / 86400
-    takacs_hindered_coefficient: SpecificVolume = 0.576
-    takacs_flocculant_coefficient: SpecificVolume = 2.86
+    takacs_hindered_coefficient: VolumePerMass = 0.576
+    takacs_flocculant_coefficient: VolumePerMass = 2.86
     nonsettleable_concentration: Concentration = 0.0
 
     def __call__(self, solids_concentration: Concentration) -> Speed:

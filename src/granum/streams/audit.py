@@ -27,12 +27,27 @@ def closure(inlets: Iterable[Stream], outlets: Iterable[Stream], power: Any = 0.
     power: heat and work taken up from outside, W.
     """
     inlets, outlets = list(inlets), list(outlets)
-    mass_in = sum((s.components for s in inlets), jnp.zeros(()))
-    mass_out = sum((s.components for s in outlets), jnp.zeros(()))
-    total = jnp.maximum(jnp.sum(mass_in), 1e-300)
-    by_component = (mass_out - mass_in) / total
-    energy_in = sum((s.enthalpy_flow for s in inlets), jnp.zeros(()))
-    energy_out = sum((s.enthalpy_flow for s in outlets), jnp.zeros(()))
-    turnover = sum((jnp.abs(s.enthalpy_flow) for s in (*inlets, *outlets)), jnp.abs(power))
-    energy = (energy_out - energy_in - power) / jnp.maximum(turnover, 1e-300)
-    return Closure(jnp.max(jnp.abs(by_component)), jnp.abs(energy), by_component)
+    streams = [*inlets, *outlets]
+    entering = jnp.array([[1.0] * len(inlets) + [0.0] * len(outlets)])
+    components, enthalpies = (jnp.stack([getattr(s, name) for s in streams]) for name in ("components", "enthalpy_flow"))
+    found = closures(components, enthalpies, entering, 1.0 - entering, jnp.reshape(jnp.asarray(power, dtype=float), 1))
+    return Closure(*(part[0] for part in found))
+
+
+def closures(components: Any, enthalpies: Any, entering: Any, leaving: Any, powers: Any) -> Closure:
+    """Closure of several boundaries at once; a stream without number spoils those that it crosses.
+
+    Parameters
+    ----------
+    components, enthalpies: mass flow by component (streams × components) and enthalpy flow of every stream.
+    entering, leaving: 1 where a stream enters or leaves a boundary (boundaries × streams).
+    powers: heat and work that each boundary takes up, W.
+    """
+    known = jnp.isfinite(jnp.sum(components, axis=1) + enthalpies)
+    components, enthalpies = jnp.where(known[:, None], components, 0.0), jnp.where(known, enthalpies, 0.0)
+    lost = jnp.where((entering + leaving) @ ~known > 0, jnp.nan, 0.0)
+    mass_in, mass_out = entering @ components, leaving @ components
+    by_component = (mass_out - mass_in) / jnp.maximum(jnp.sum(mass_in, axis=1, keepdims=True), 1e-300)
+    turnover = (entering + leaving) @ jnp.abs(enthalpies) + jnp.abs(powers)
+    energy = jnp.abs((leaving - entering) @ enthalpies - powers) / jnp.maximum(turnover, 1e-300)
+    return Closure(jnp.max(jnp.abs(by_component), axis=1) + lost, energy + lost, by_component)

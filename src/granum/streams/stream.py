@@ -7,7 +7,6 @@ from typing import Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 
 from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.errors import InputError
@@ -265,13 +264,21 @@ def _mean_density(flows: Any, densities: Any) -> Any:
     return jnp.where(some, flow / jnp.where(some, jnp.sum(flows / densities), 1.0), densities[0])
 
 
+def median_of(masses: Any, edges: Any) -> Any:
+    """Size that halves the mass of the classes, m: straight over the logarithm of size, over size itself in a class that starts at 0; 0 without mass."""
+    below = jnp.append(0.0, jnp.cumsum(masses))
+    half, edges = 0.5 * below[-1], jnp.asarray(edges)
+    size = jnp.exp(jnp.interp(half, below, jnp.log(jnp.where(edges > 0.0, edges, edges[1]))))
+    from_zero = (edges[0] <= 0.0) & (half < below[1])
+    size = jnp.where(from_zero, edges[1] * half / jnp.where(from_zero, below[1], 1.0), size)
+    return jnp.where(below[-1] > 0.0, size, 0.0)
+
+
 def median_size(stream: Stream) -> float | None:
-    """Mass median size of a stream's solid, m, by log-linear interpolation; None without solid."""
-    shares = np.asarray(stream.size_fractions)
-    if shares.sum() <= 0 or float(stream.solid_flow) < 1e-12 * float(stream.mass_flow):
+    """Mass median size of a stream's solid, m; None without solid."""
+    if float(stream.solid_flow) < max(1e-12 * float(stream.mass_flow), 1e-300):
         return None
-    edges = np.maximum(stream.mixture.edges, 1e-12)
-    return float(np.exp(np.interp(0.5, np.concatenate([[0.0], np.cumsum(shares)]), np.log(edges))))
+    return float(median_of(stream.size_fractions, stream.mixture.edges))
 
 
 def main_phase(stream: Any) -> str:

@@ -25,7 +25,7 @@ from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
 from granum.flowsheet.ladder import RUNGS, at_rung
 from granum.flowsheet.specifications import Designed, Target
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, median_of
 from granum.studies.expressions import Lookup
 from granum.studies.subjects import (
     FINE,
@@ -284,9 +284,7 @@ def stream_figure(stream: Stream, word: str) -> Any:
         total = jnp.sum(flows)
         return flows[stream.mixture.index(PHASES[phase], species)] / jnp.where(total > 0, total, 1.0)
     if word == "median_size":
-        shares = stream.size_fractions
-        edges = jnp.log(jnp.maximum(jnp.asarray(stream.mixture.edges), 1e-12))
-        return jnp.exp(jnp.interp(0.5, jnp.concatenate([jnp.zeros(1), jnp.cumsum(shares)]), edges))
+        return median_of(stream.size_fractions, stream.mixture.edges)
     return getattr(stream, word)
 
 

@@ -42,7 +42,6 @@ from granum.streams.dissolution import dissolved_share
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-RPM = 0.10471975511965977  # radian/s
 TRICKLE, THIN = 1e-15, 1e-12  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
 Ends = tuple[float, float]
 

@@ -18,7 +18,7 @@ from granum.centrifuges.formulas.clarifying import (
 )
 from granum.centrifuges.formulas.field import centrifugal_effect
 from granum.core import equipment
-from granum.core.constants import STANDARD_GRAVITY
+from granum.core.constants import RPM, STANDARD_GRAVITY
 from granum.core.kinds import (
     Angle,
     Area,
@@ -39,7 +39,6 @@ from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-RPM = 0.10471975511965977  # radian/s
 HINDRANCE = 4.65  # Richardson and Zaki's exponent for slow settling
 Ends = tuple[float, float]
 

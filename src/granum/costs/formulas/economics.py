@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, limit_active
+from granum.core.constants import DAY
 from granum.core.kinds import Cost, CostRate, EnergyPrice, Fraction, MassFlow, MassPrice, PositiveNumber, Power, Ratio, Time, Within
 from granum.costs.tables import plant_cost_index
 from granum.numerics.smooth import safe_divide
 
-DAY = 86400.0
 SHORT_LIFE = "A life of less than a day: a number without a unit is in seconds; write '10 year'."
 NO_GAIN = "Without a gain nothing is paid back."
 SHORT_PAYBACK = "Paid back within a day: a gain without a unit is per second; write '25000 USD/year'."

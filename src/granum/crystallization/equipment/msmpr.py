@@ -33,7 +33,7 @@ from granum.crystallization.equipment.in_time import Crystallized, InTime
 from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, given_off, refuse_boiling, roles, with_crystals
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit
 
 _UNSOLVED = "No supersaturation was found at which the crystals made are those that the solute balance leaves: check feed, kinetics and evaporation."
@@ -53,12 +53,6 @@ class CrystallizerFigures(NamedTuple):
     mass_median_size: Distance
     evaporation: MassFlow
     heat_duty: Power
-
-
-def _median(masses: Any, edges: Any) -> Any:
-    """Size that halves the mass of the classes, straight inside a class; zero without crystals."""
-    below = jnp.append(0.0, jnp.cumsum(masses))
-    return jnp.where(below[-1] > 0, jnp.interp(0.5 * below[-1], below, jnp.asarray(edges)), 0.0)
 
 
 class _Continuous(Unit):
@@ -119,7 +113,7 @@ class _Continuous(Unit):
         return CrystallizerFigures(
             crystals, safe_divide(found.solute_fraction * crystals, fed), state.magma_density, state.relative_supersaturation,
             state.growth_rate, state.nucleation_rate, state.residence_time,
-            state.length, _median(state.crystals, feed.mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
+            state.length, median_of(state.crystals, feed.mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
         )  # fmt: skip
 
     def measured(

@@ -20,8 +20,8 @@ from granum.core.kinds import (
     SurfaceTension,
     Temperature,
     TemperatureDifference,
+    TemperatureRate,
 )
-from granum.crystallization.kinds import CoolingRate
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
 
@@ -32,7 +32,9 @@ from granum.estimation.lines import straight_line
     output="undercooling",
     typical={"cooling_rate": (1e-4, 1e-2), "nyvlt_constant": (1e-6, 1e-4), "nyvlt_order": (2.0, 5.0)},
 )
-def undercooling_metastable(cooling_rate: CoolingRate, nyvlt_constant: CoolingRate, nyvlt_order: PositiveNumber) -> TemperatureDifference:
+def undercooling_metastable(
+    cooling_rate: TemperatureRate, nyvlt_constant: TemperatureRate, nyvlt_order: PositiveNumber
+) -> TemperatureDifference:
     """Metastable zone width at a cooling rate, by Nývlt's line; the constant is the rate that gives one kelvin.
 
     >>> round(undercooling_metastable(cooling_rate=8e-3, nyvlt_constant=1e-3, nyvlt_order=3.0), 6)
@@ -50,13 +52,13 @@ class MetastableZone(LabTest):
     nucleation order is one less, n = m - 1, and with the number density N that the detector sees his rate constant is k = N m K, in 1/(m³ s K^n).
     """
 
-    cooling_rate: Annotated[CoolingRate, Series("points")]
+    cooling_rate: Annotated[TemperatureRate, Series("points")]
     undercooling: Annotated[TemperatureDifference, Series("points")]
     detected_number_density: NumberDensity | None = None
 
-    estimates: ClassVar = {"nyvlt_order": Number, "nyvlt_constant": CoolingRate}
+    estimates: ClassVar = {"nyvlt_order": Number, "nyvlt_constant": TemperatureRate}
     holds_for: ClassVar = ("cooling_rate",)
-    axes: ClassVar = {"cooling_rate": CoolingRate, "undercooling": TemperatureDifference}
+    axes: ClassVar = {"cooling_rate": TemperatureRate, "undercooling": TemperatureDifference}
 
     def fit(self) -> Fit:
         """Order and constant with 95 % intervals."""
@@ -90,7 +92,7 @@ class MetastableZoneSangwal(LabTest):
     The slope is ``(ΔH/(R T))² / B`` with ``B = (16π/3)(γ v^(2/3)/(kT))³``, from which the interfacial energy follows.
     """
 
-    cooling_rate: Annotated[CoolingRate, Series("points")]
+    cooling_rate: Annotated[TemperatureRate, Series("points")]
     undercooling: Annotated[TemperatureDifference, Series("points")]
     temperature_saturation: Temperature
     enthalpy_of_dissolution: MolarEnergy
@@ -99,7 +101,7 @@ class MetastableZoneSangwal(LabTest):
 
     estimates: ClassVar = {"sangwal_slope": PositiveNumber, "sangwal_constant": Number}
     holds_for: ClassVar = ("cooling_rate",)
-    axes: ClassVar = {"cooling_rate": CoolingRate, "undercooling": TemperatureDifference}
+    axes: ClassVar = {"cooling_rate": TemperatureRate, "undercooling": TemperatureDifference}
 
     def fit(self) -> Fit:
         """Slope and constant with 95 % intervals; the interfacial energy from the slope."""

@@ -18,7 +18,7 @@ from granum.cyclones.formulas.erosion import wear_velocity_cyclone_inlet
 from granum.cyclones.formulas.pressure import inlet_heads_stairmand, saltation_velocity_kalen_zenz
 from granum.cyclones.geometry import Dimensions, StandardCyclone
 from granum.numerics.smooth import safe_divide
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit
 
 LEAST = 1e-9
@@ -100,9 +100,7 @@ class GasCyclone(Unit):
         each = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * each
         cut = cut_size_muschelknautz(flow, dust, density, viscosity, *shape, loading)
-        below = jnp.cumsum(feed.size_fractions)
-        edges = jnp.asarray(feed.mixture.edges)
-        median = jnp.exp(jnp.interp(0.5, below, jnp.log(jnp.maximum(edges[1:], LEAST))))
+        median = jnp.maximum(median_of(feed.size_fractions, m.edges), LEAST)
         saltation = saltation_velocity_kalen_zenz(velocity, self.diameter, shape.inlet_width, dust, density, viscosity)
         flux = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) / (self.parallel_number * shape.inlet_height * shape.inlet_width)
         wear = wear_velocity_cyclone_inlet(velocity, flux, self.diameter, shape.inlet_width, size, each, viscosity, self.wall_hardness)

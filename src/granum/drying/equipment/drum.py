@@ -18,6 +18,7 @@ from granum.core.kinds import (
     Length,
     MassFlow,
     MassFlux,
+    MassPerArea,
     MoistureDryBasis,
     Pressure,
     Ratio,
@@ -29,7 +30,6 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
-from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.materials.formulas.steam import water_heat_of_vaporization
 from granum.materials.formulas.water import water_boiling_temperature

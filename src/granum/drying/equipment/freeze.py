@@ -25,13 +25,14 @@ from granum.core.kinds import (
     Pressure,
     SpecificEnergy,
     Temperature,
+    TemperatureRate,
     Time,
     Volume,
 )  # fmt: skip
 from granum.core.limits import Limit
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
-from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, RampRate, VaporResistance, VaporResistanceGradient
+from granum.drying.kinds import HeatTransferPerPressure, PerLength, PerPressure, VaporResistance, VaporResistanceGradient
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
@@ -85,9 +86,9 @@ class FreezeDryer(Unit):
     vapor_resistance_saturation: PerLength = 0.0
     vial_coefficient_saturation: PerPressure = 0.0
     temperature_shelf_start: Temperature = 238.15
-    ramp_rate: RampRate = 1.0 / 60.0
+    ramp_rate: TemperatureRate = 1.0 / 60.0
     temperature_shelf_secondary: Temperature = 298.15
-    ramp_rate_secondary: RampRate = 0.2 / 60.0
+    ramp_rate_secondary: TemperatureRate = 0.2 / 60.0
     unfrozen_moisture: MoistureDryBasis = 0.2
     moisture_outlet: MoistureDryBasis = 0.02
     desorption_rate: Frequency = 1e-4

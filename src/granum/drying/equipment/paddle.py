@@ -21,6 +21,7 @@ from granum.core.kinds import (
     Mass,
     MassFlow,
     MassFlux,
+    MassPerArea,
     MoistureDryBasis,
     PositiveNumber,
     Pressure,
@@ -38,7 +39,6 @@ from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import contact_time_mixing, heat_transfer_coefficient_wall_particles, penetration_drying
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
 from granum.drying.profile_charts import contact_chart
-from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.numerics import Root, find_root, safe_divide
 from granum.streams.equilibrium import HumidMixture

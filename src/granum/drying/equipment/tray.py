@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Mass,
     MassFlow,
     MassFlux,
+    MassPerArea,
     MoistureDryBasis,
     PositiveNumber,
     Ratio,
@@ -42,7 +43,6 @@ from granum.drying.formulas.assisted import wet_surface
 from granum.drying.formulas.contact_drying import temperature_outlet_tray
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
 from granum.drying.formulas.times import drying_time
-from granum.drying.quantities import MassPerArea
 from granum.drying.wet_surface import boiled
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable

@@ -8,6 +8,7 @@ from typing import Annotated
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
+from granum.core.constants import HOUR, RPM
 from granum.core.kinds import (
     Density,
     DynamicViscosity,
@@ -26,8 +27,7 @@ from granum.core.kinds import (
     Within,
 )
 
-RPM = 2.0 * pi / 60.0
-HOUR, MICRON = 3600.0, 1e-6
+MICRON = 1e-6
 FEED = {"density": (1000.0, 1300.0), "surface_tension": (0.04, 0.073), "dynamic_viscosity": (1e-3, 0.05)}
 
 

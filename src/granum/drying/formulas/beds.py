@@ -5,6 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula
+from granum.core.constants import HOUR
 from granum.core.kinds import (
     HeatTransferCoefficient,
     Length,
@@ -16,7 +17,6 @@ from granum.core.kinds import (
     VoidFraction,
 )
 
-HOUR = 3600.0
 VISCOSITY = 2.1e-5  # Pa s, of air, for the Reynolds number at which the two printed forms meet
 BORDER = 350.0
 

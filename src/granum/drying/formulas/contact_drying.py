@@ -16,6 +16,7 @@ from granum.core.kinds import (
     HeatTransferCoefficient,
     Length,
     MassFlux,
+    MassPerArea,
     MoistureDryBasis,
     MolarMass,
     PositiveNumber,
@@ -27,7 +28,6 @@ from granum.core.kinds import (
     ThermalConductivity,
     Time,
 )  # fmt: skip
-from granum.drying.quantities import MassPerArea
 from granum.numerics import find_root
 
 _PENETRATION = "mollekopf1984; vdi2010, ch. Mc"

@@ -22,16 +22,16 @@ from granum.core.kinds import (
     PositiveNumber,
     Pressure,
     Temperature,
+    TemperatureRate,
     ThermalConductivity,
     Time,
     Volume,
 )  # fmt: skip
 from granum.drying.formulas.vials import COLDEST, ICE_CONDUCTIVITY, MODEL, NODES, SUBLIMATION_HEAT, WARMEST, dry, vial_of
-from granum.drying.vial_kinds import (
+from granum.drying.kinds import (
     HeatTransferPerPressure,
     PerLength,
     PerPressure,
-    RampRate,
     VaporPermeability,
     VaporResistance,
     VaporResistanceGradient,
@@ -84,7 +84,7 @@ def primary_drying(
     vapor_resistance_saturation: PerLength = 0.0,
     vial_coefficient_saturation: PerPressure = 0.0,
     temperature_shelf_start: Temperature = 238.15,
-    ramp_rate: RampRate = 1.0 / 60.0,
+    ramp_rate: TemperatureRate = 1.0 / 60.0,
     solid_density: Density = 1500.0,
 ) -> PrimaryDrying:
     """Time, highest product temperature and fluxes of the sublimation of a frozen fill, quasi-steady from moment to moment.
@@ -263,7 +263,7 @@ def secondary_drying_time(
     activation_energy: MolarEnergy = 4e4,
     moisture_dry_basis_equilibrium: MoistureDryBasis = 0.0,
     temperature_shelf_start: Temperature = 253.15,
-    ramp_rate: RampRate = 0.1 / 60.0,
+    ramp_rate: TemperatureRate = 0.1 / 60.0,
     reference_temperature: Temperature = 293.15,
 ) -> Time:
     """Time to desorb the water that did not freeze, first order in the moisture above equilibrium, the product being as warm as the shelf.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.constants import STEFAN_BOLTZMANN
+from granum.core.constants import HOUR, STEFAN_BOLTZMANN
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -23,9 +23,7 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )  # fmt: skip
-from granum.drying.quantities import ElectricField, PowerDensity, ThermalEffusivity
-
-HOUR = 3600.0
+from granum.drying.kinds import ElectricField, PowerDensity, ThermalEffusivity
 
 
 @formula(source="treybal1980, ch. 12; geankoplis2003, ch. 9", equation=r"h = 0.0204\,G^{0.8},\quad G\ \mathrm{in\ kg/(m^2 h)}",

@@ -7,10 +7,10 @@ from math import pi
 import jax.numpy as jnp
 
 from granum.core import formula
+from granum.core.constants import RPM
 from granum.core.kinds import Fraction, Length, MassFlux, Number, PositiveNumber, RotationSpeed, Speed, Time
-from granum.drying.quantities import GasDrift, VolumetricHeatTransfer
+from granum.drying.kinds import GasDrift, VolumetricHeatTransfer
 
-RPM = 2.0 * pi / 60.0
 MINUTE, MICRON = 60.0, 1e-6
 SHORTEST = 0.1  # of the time without gas, where the gas would sweep the solid out in no time
 

@@ -35,7 +35,7 @@ from granum.core.kinds import (
     Within,
 )  # fmt: skip
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
-from granum.drying.quantities import AddedHeatTransferCoefficient
+from granum.drying.kinds import AddedHeatTransferCoefficient
 from granum.numerics import gauss_legendre
 
 Curve = Annotated[Any, Law("characteristic_rate")]

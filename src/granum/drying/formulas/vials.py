@@ -18,7 +18,7 @@ from granum.core.kinds import (
     Pressure,
     Volume,
 )  # fmt: skip
-from granum.drying.vial_kinds import (
+from granum.drying.kinds import (
     HeatTransferPerPressure,
     PerLength,
     PerPressure,

@@ -24,7 +24,7 @@ from granum.core.kinds import (
     Volume,
 )  # fmt: skip
 from granum.drying.formulas.vials import ICE_CONDUCTIVITY, SUBLIMATION_HEAT, cake_vapor_resistance, vial_heat_transfer, vial_of
-from granum.drying.vial_kinds import HeatTransferPerPressure, PerLength, PerPressure, VaporResistance, VaporResistanceGradient
+from granum.drying.kinds import HeatTransferPerPressure, PerLength, PerPressure, VaporResistance, VaporResistanceGradient
 from granum.estimation import Fit, LabTest
 from granum.humid_gas.pairs import ice_vapor_pressure
 

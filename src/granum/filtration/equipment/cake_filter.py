@@ -16,6 +16,7 @@ from granum.core.kinds import (
     Fraction,
     Law,
     Length,
+    MassPerAreaOrZero,
     MediumResistance,
     MoistureDryBasis,
     PressureDrop,
@@ -28,7 +29,6 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
-from granum.filtration.quantities import MassPerArea
 from granum.porous.displacement import practical_number, remaining_fraction
 from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
 from granum.streams.dissolution import dissolved_share
@@ -58,7 +58,7 @@ class CakeFigures(NamedTuple):
     area_required: Area
     capacity_use: Ratio
     cake_thickness: Distance
-    dry_cake_mass_per_area: MassPerArea
+    dry_cake_mass_per_area: MassPerAreaOrZero
     cycle_time: Time
     formation_time: Time
     wash_time: Time

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import RPM
 from granum.core.kinds import Fraction, Length, Permeability, RotationSpeed, Speed
 from granum.core.limits import Limit
 from granum.filtration.equipment.cake_filter import Caked, CakeFigures, CakeFilter, Plan, Slurry
@@ -17,7 +18,6 @@ from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-RPM = 0.10471975511965977  # radian/s
 NO_WASH = 1e-12  # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
 
 

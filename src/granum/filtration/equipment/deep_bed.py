@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import HOUR
 from granum.core.kinds import (
     Area,
     Density,
@@ -25,12 +26,10 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.filtration.formulas.backwash import backwash_velocity
 from granum.filtration.formulas.depth import collector_efficiency_tufenkji, filter_coefficient, head_loss_clean_bed
-from granum.filtration.quantities import HeadLossPerDeposit
+from granum.filtration.kinds import HeadLossPerDeposit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
-
-HOUR = 3600.0
 
 
 class DeepBedOutlets(NamedTuple):

@@ -20,7 +20,7 @@ from granum.core.kinds import (
     Volume,
     VolumeFlow,
 )
-from granum.filtration.quantities import FittedVolume, RuthConstant
+from granum.filtration.kinds import FittedVolume, RuthConstant
 
 _SMALL = {"area": (0.1, 2.0), "filtrate_volume": (0.01, 0.2), "cake_resistance": (1e9, 1e11)}
 

@@ -23,7 +23,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.filtration.formulas.constant_pressure import filtrate_volume_constant_pressure, ruth_constants
-from granum.filtration.quantities import RuthConstant
+from granum.filtration.kinds import RuthConstant
 
 
 @formula(

@@ -21,7 +21,7 @@ from granum.core.kinds import (
     Time,
     VoidFraction,
 )
-from granum.filtration.quantities import HeadLossPerDeposit
+from granum.filtration.kinds import HeadLossPerDeposit
 
 _BED = {"bed_depth": (0.3, 1.5), "filter_coefficient": (1.0, 10.0), "concentration_inlet": (0.005, 0.1), "superficial_velocity": (1e-3, 5e-3),
         "time": (3600.0, 1e5)}  # fmt: skip

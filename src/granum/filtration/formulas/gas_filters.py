@@ -6,7 +6,7 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.kinds import Concentration, DynamicViscosity, Fraction, Length, OpenFraction, PressureDrop, Ratio, Speed, Time
-from granum.filtration.quantities import DustResistance, ResidualDrag
+from granum.filtration.kinds import DustResistance, ResidualDrag
 
 _MAT = {"fiber_diameter": (1e-6, 3e-5), "fiber_fraction": (0.01, 0.15), "mat_thickness": (5e-4, 2e-2), "superficial_velocity": (0.01, 0.5),
         "dynamic_viscosity": (1.7e-5, 2e-5), "fiber_efficiency": (1e-3, 0.3)}  # fmt: skip

@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from granum.core import formula, impossible
 from granum.core.kinds import Distance, DynamicViscosity, Length, PressureDrop, Speed
-from granum.filtration.quantities import ResidualDrag
+from granum.filtration.kinds import ResidualDrag
 from granum.numerics import find_root
 
 WIDEST = 100.0  # pitches in multiples of the thinnest channel's width and of the height

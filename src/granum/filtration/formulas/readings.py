@@ -19,7 +19,7 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.filtration.formulas.constant_pressure import Ruth
-from granum.filtration.quantities import FittedMediumResistance, RuthConstant
+from granum.filtration.kinds import FittedMediumResistance, RuthConstant
 
 _SMALL = {"time": (60.0, 600.0), "filtrate_volume": (1e-3, 1e-2), "area": (0.01, 0.1), "pressure_drop": (1e4, 1e5)}
 

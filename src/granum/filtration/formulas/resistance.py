@@ -6,7 +6,7 @@ import jax.numpy as jnp
 
 from granum.core import formula, limit_active
 from granum.core.kinds import CakeResistance, Density, Length, Permeability, PositiveNumber, PressureDrop, Ratio, VoidFraction
-from granum.filtration.quantities import OVER_COMPRESSIBLE
+from granum.filtration.kinds import OVER_COMPRESSIBLE
 
 
 @formula(

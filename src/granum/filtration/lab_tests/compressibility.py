@@ -26,8 +26,8 @@ from granum.core.kinds import (
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.filtration.kinds import OVER_COMPRESSIBLE
 from granum.filtration.lab_tests.starts import bad_start
-from granum.filtration.quantities import OVER_COMPRESSIBLE
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go

@@ -24,8 +24,8 @@ from granum.core.kinds import (
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.filtration.kinds import RuthConstant, TimePerVolume, TimePerVolumeSquared
 from granum.filtration.lab_tests.starts import bad_start, bend
-from granum.filtration.quantities import RuthConstant, TimePerVolume, TimePerVolumeSquared
 
 NOTICEABLE_BEND = 0.3
 

@@ -25,8 +25,8 @@ from granum.core.parameters import Parameter
 from granum.core.units import format_number
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.filtration.kinds import PressureTimePerVolume
 from granum.filtration.lab_tests.starts import bad_start, bend
-from granum.filtration.quantities import PressureTimePerVolume
 
 NOTICEABLE_BEND = 0.3
 UNCERTAIN, LEAST_MEDIUM = (

@@ -24,8 +24,8 @@ from granum.core.kinds import (
 )
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
+from granum.filtration.kinds import TimePerVolume
 from granum.filtration.lab_tests.starts import bad_start
-from granum.filtration.quantities import TimePerVolume
 
 SAME_STEP, LEAST_RATIO, LEAST_INTERVALS = 1.05, 1.5, 6
 

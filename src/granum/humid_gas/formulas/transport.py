@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.constants import STANDARD_ATMOSPHERE
+from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.kinds import (
     Diffusivity,
     DynamicViscosity,
@@ -68,7 +68,7 @@ def transport(temperature: Temperature, humidity_ratio: HumidityRatio, pressure:
     conductivity = _mixed(air_conductivity.function(T), steam_conductivity.function(T), y, weights)
     t = T - 273.15
     heat = (polynomial(AIR_HEAT_CAPACITY, t) + w * polynomial(STEAM_HEAT_CAPACITY, t)) / (1.0 + w)
-    density = pressure * ((1.0 - y) * Ma + y * Mw) / (8.31446261815324 * T)
+    density = pressure * ((1.0 - y) * Ma + y * Mw) / (GAS_CONSTANT * T)
     D = diffusivity_marrero_mason.function(T, pressure)
     return Transport(
         viscosity,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import HOUR
 from granum.core.kinds import Angle, Area, Concentration, Length, PositiveNumber, Ratio, VolumeFlow
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import (
@@ -32,8 +33,6 @@ from granum.streams.holdup import Held, at_rest, filled, mass, mixed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 from granum.streams.units import Dynamic, Limits
-
-HOUR = 3600.0
 
 
 def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:

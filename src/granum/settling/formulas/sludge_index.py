@@ -7,22 +7,21 @@ from typing import NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Concentration, Fraction, PositiveNumber, Speed, Volume
-from granum.settling.quantities import SpecificVolume
+from granum.core.kinds import Concentration, Fraction, PositiveNumber, Speed, Volume, VolumePerMass
 
 
 class Velocities(NamedTuple):
     """Constants of the Vesilind velocity."""
 
     vesilind_velocity: Speed
-    vesilind_coefficient: SpecificVolume
+    vesilind_coefficient: VolumePerMass
 
 
 _SVI = {"sludge_volume_index": (0.06, 0.25)}
 
 
 @formula(source="mohlman1934; apha2005, method 2710 D", equation=r"\mathrm{SVI} = \frac{V_{30}}{V\,X}")
-def sludge_volume_index(settled_volume: Volume, sample_volume: Volume, solids_concentration: Concentration) -> SpecificVolume:
+def sludge_volume_index(settled_volume: Volume, sample_volume: Volume, solids_concentration: Concentration) -> VolumePerMass:
     """Sludge volume index (Mohlman): volume taken by a gram of sludge after 30 minutes of settling.
 
     Below 50 mL/g dense, 80 to 150 mL/g good, above 150 mL/g bulking. It grows with the concentration when the settled volume is
@@ -37,7 +36,7 @@ def sludge_volume_index(settled_volume: Volume, sample_volume: Volume, solids_co
 @formula(source="white1975; apha2005", equation=r"\mathrm{DSVI} = \frac{V_{30}}{V\,d\,X}")
 def sludge_volume_index_diluted(
     settled_volume: Volume, sample_volume: Volume, solids_concentration: Concentration, dilution: Fraction = 0.5
-) -> SpecificVolume:
+) -> VolumePerMass:
     """Diluted sludge volume index: the index measured on a dilution with clear effluent, free of the effect of concentration.
 
     ``solids_concentration`` is that of the sludge before dilution and ``dilution`` the share of sludge in the mixture (1/2, 1/4 …),
@@ -50,7 +49,7 @@ def sludge_volume_index_diluted(
 
 
 @formula(source="white1975", equation=r"\mathrm{SSVI} = \frac{h_{30}}{h_0\,X}", family="stirred_sludge_volume_index")
-def stirred_sludge_volume_index(settled_fraction: Fraction, solids_concentration: Concentration) -> SpecificVolume:
+def stirred_sludge_volume_index(settled_fraction: Fraction, solids_concentration: Concentration) -> VolumePerMass:
     """Stirred specific volume index: settled height over initial height after 30 minutes of slow stirring, per concentration.
 
     The standard value is at 3.5 kg/m³ (interpolated between tests at other concentrations). Below 100 mL/g good, above 120 mL/g poor.
@@ -63,7 +62,7 @@ def stirred_sludge_volume_index(settled_fraction: Fraction, solids_concentration
 
 @formula(source="daigger1985", equation=r"v_0 = 7.80,\quad k = 0.148 + 0.00210\,\mathrm{SVI}", typical=_SVI,
          fitted={"sludge_volume_index": (0.036, 0.402)}, title="Vesilind constants from the index (Daigger and Roper)")  # fmt: skip
-def vesilind_velocity_daigger_roper(sludge_volume_index: SpecificVolume) -> Velocities:
+def vesilind_velocity_daigger_roper(sludge_volume_index: VolumePerMass) -> Velocities:
     """Vesilind constants from the unstirred sludge volume index after Daigger and Roper.
 
     A correlation of full-scale data with wide scatter: a factor of two in the velocity is common.
@@ -79,7 +78,7 @@ def vesilind_velocity_daigger_roper(sludge_volume_index: SpecificVolume) -> Velo
 @formula(source="hartel1992",
          equation=r"v_0 = 17.4\,e^{-0.0113\,\mathrm{SVI}} + 3.931,\quad k = 1.043 - 0.9834\,e^{-0.00581\,\mathrm{SVI}}",
          typical=_SVI, title="Vesilind constants from the index (Härtel and Pöpel)")  # fmt: skip
-def vesilind_velocity_hartel_popel(sludge_volume_index: SpecificVolume) -> Velocities:
+def vesilind_velocity_hartel_popel(sludge_volume_index: VolumePerMass) -> Velocities:
     """Vesilind constants from the sludge volume index after Härtel and Pöpel.
 
     >>> constants = vesilind_velocity_hartel_popel("100 mL/g")
@@ -91,7 +90,7 @@ def vesilind_velocity_hartel_popel(sludge_volume_index: SpecificVolume) -> Veloc
 
 
 @formula(source="apha2005", equation=r"X_r = \frac{1}{\mathrm{SVI}}")
-def underflow_concentration_index(sludge_volume_index: SpecificVolume, thickening_factor: PositiveNumber = 1.0) -> Concentration:
+def underflow_concentration_index(sludge_volume_index: VolumePerMass, thickening_factor: PositiveNumber = 1.0) -> Concentration:
     """Rough return sludge concentration that the sludge volume index allows.
 
     >>> round(underflow_concentration_index("100 mL/g"), 6)

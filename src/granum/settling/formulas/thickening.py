@@ -22,7 +22,7 @@ from granum.core.kinds import (
     Velocity,
     VolumeFlow,
 )
-from granum.settling.quantities import UnitArea
+from granum.settling.kinds import UnitArea
 
 DENSER = "A layer denser than the underflow limits nothing: any flux passes it."
 SAME = "Both layers have one concentration: there is no boundary between them."

@@ -13,14 +13,14 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Distance, Length, MassFlux, PositiveNumber, Series, Speed, Time
+from granum.core.kinds import Concentration, Distance, Length, MassFlux, PositiveNumber, Series, Speed, Time, VolumePerMass
 from granum.core.units import format_number
 from granum.estimation import Estimate, Fit, LabTest
 from granum.estimation.results import t_reach
 from granum.settling.flux import limiting_flux_underflow
+from granum.settling.kinds import UnitArea
 from granum.settling.kynch import kynch_height
 from granum.settling.lab_tests.curve import Curve, Tangents, convex_curve, read_curve
-from granum.settling.quantities import SpecificVolume, UnitArea
 from granum.settling.velocities import Cole, RichardsonZakiConcentration, Takacs, Vesilind
 
 RESAMPLES = 200
@@ -147,8 +147,8 @@ class BatchTest(LabTest):
     velocity_function: VelocityFunction = "vesilind"
 
     estimates: ClassVar = {
-        "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume, "takacs_velocity": Speed,
-        "takacs_hindered_coefficient": SpecificVolume, "reference_velocity": Speed, "settling_exponent": PositiveNumber,
+        "vesilind_velocity": Speed, "vesilind_coefficient": VolumePerMass, "takacs_velocity": Speed,
+        "takacs_hindered_coefficient": VolumePerMass, "reference_velocity": Speed, "settling_exponent": PositiveNumber,
         "unhindered_velocity": Speed, "packed_concentration": Concentration, "unit_area_coe_clevenger": UnitArea,
     }  # fmt: skip
     axes: ClassVar = {"time": Time, "interface_height": Distance}

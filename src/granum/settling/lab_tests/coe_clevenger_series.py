@@ -11,12 +11,11 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, MassFlux, Series, Speed
+from granum.core.kinds import Concentration, MassFlux, Series, Speed, VolumePerMass
 from granum.estimation import Estimate, Fit, LabTest
 from granum.estimation.lines import straight_line
 from granum.settling.flux import limiting_flux_underflow
 from granum.settling.formulas.thickening import unit_area_coe_clevenger
-from granum.settling.quantities import SpecificVolume
 from granum.settling.velocities import Vesilind
 
 
@@ -32,7 +31,7 @@ class CoeClevengerSeries(LabTest):
     settling_velocity: Annotated[Speed, Series("tests")]
     underflow_concentration: Concentration
 
-    estimates: ClassVar = {"vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume}
+    estimates: ClassVar = {"vesilind_velocity": Speed, "vesilind_coefficient": VolumePerMass}
     holds_for: ClassVar = ("solids_concentration",)
     axes: ClassVar = {"solids_concentration": Concentration, "settling_velocity": Speed}
     least_points: ClassVar = 3

@@ -10,12 +10,11 @@ import numpy as np
 
 from granum.core import lab_test
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time, Within
+from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time, VolumePerMass, Within
 from granum.estimation import Fit, LabTest
 from granum.settling.column import Suspension, settle
 from granum.settling.compression import LogarithmicStress
 from granum.settling.lab_tests.batch_test import BatchTest
-from granum.settling.quantities import SpecificVolume
 from granum.settling.velocities import Vesilind
 
 
@@ -56,7 +55,7 @@ class CompressionTest(LabTest):
     cells: Annotated[int, Within(5, 5000)] = 100
 
     estimates: ClassVar = {
-        "vesilind_velocity": Speed, "vesilind_coefficient": SpecificVolume,
+        "vesilind_velocity": Speed, "vesilind_coefficient": VolumePerMass,
         "critical_concentration": Concentration, "stress_scale": PressureDifference,
     }  # fmt: skip
     axes: ClassVar = {"time": Time, "interface_height": Distance}

@@ -9,9 +9,8 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Fraction, Series
+from granum.core.kinds import Concentration, Fraction, Series, VolumePerMass
 from granum.estimation import Fit, LabTest
-from granum.settling.quantities import SpecificVolume
 
 SETTLED_LIMIT = 0.25  # of the sample: above, the index depends on the concentration
 STANDARD_CONCENTRATION = 3.5  # kg/m³, at which the stirred index is stated
@@ -29,7 +28,7 @@ class SludgeIndexTest(LabTest):
     settled_fraction: Annotated[Fraction, Series("dilutions")]
     stirred: bool = False
 
-    estimates: ClassVar = {"sludge_volume_index": SpecificVolume, "settled_fraction_offset": Fraction}
+    estimates: ClassVar = {"sludge_volume_index": VolumePerMass, "settled_fraction_offset": Fraction}
     holds_for: ClassVar = ("solids_concentration",)
     axes: ClassVar = {"solids_concentration": Concentration, "settled_fraction": Fraction}
     least_points: ClassVar = 2

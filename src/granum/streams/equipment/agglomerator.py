@@ -16,7 +16,7 @@ from granum.numerics import settle
 from granum.numerics.smooth import safe_divide
 from granum.streams.equipment.basics import Single
 from granum.streams.mixture import Mixture
-from granum.streams.stream import Stream
+from granum.streams.stream import Stream, median_of
 from granum.streams.turnover import Turnover
 from granum.streams.units import Dynamic, Unit
 
@@ -173,7 +173,7 @@ class Agglomerator(Unit, Dynamic):
 
     def figures(self, inside: Any, outlets: Single, feed: Stream) -> AgglomeratorFigures:
         time = self.holdup_mass / jnp.maximum(feed.solid_flow, 1e-12)
-        return AgglomeratorFigures(time, _median_size(feed), _median_size(outlets.product))
+        return AgglomeratorFigures(time, *(median_of(s.size_fractions, s.mixture.edges) for s in (feed, outlets.product)))
 
     def initial_holdup(self, mixture: Mixture) -> Any:
         return jnp.zeros(mixture.solid_shape).at[(0,) * len(mixture.solid_shape)].set(1.0) * self.holdup_mass
@@ -202,9 +202,3 @@ class Agglomerator(Unit, Dynamic):
         state = self._unflat(flat, state.shape)
         state = state * (self.holdup_mass / jnp.sum(state))
         return state, Single(now.replace(solid=state * (now.solid_flow / self.holdup_mass)))
-
-
-def _median_size(stream: Stream) -> Any:
-    """Median size by mass, m."""
-    below = jnp.append(0.0, jnp.cumsum(stream.size_fractions))
-    return jnp.interp(0.5, below, jnp.asarray(stream.mixture.edges))

@@ -13,7 +13,6 @@ TimePerVolumeSquared = Annotated[Any, Kind("time per volume squared", "s/m^6", d
 FittedMediumResistance = Annotated[Any, Kind("medium resistance", "1/m")]  # an intercept of readings, negative by their scatter
 FittedVolume = Annotated[Any, Kind("volume", "m^3", display=("L", "mL", "cm^3"))]
 RuthConstant = Annotated[Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))]
-MassPerArea = Annotated[Any, Kind("mass per area", "kg/m^2", lower=0.0, display=("g/cm^2",))]
 PressureTimePerVolume = Annotated[Any, Kind("pressure impulse per volume", "Pa*s/m^3", display=("bar*s/L",))]
 HeadLossPerDeposit = Annotated[Any, Kind("head loss per mass deposited per area", "m^3/kg", lower=0.0)]
 ResidualDrag = Annotated[Any, Kind("pressure drop per velocity", "Pa*s/m", lower=0.0, display=("Pa*min/m",))]
