@@ -10,13 +10,13 @@ GIVEN = {"product_form": "powder", "mass_flow": "20 t/h", "moisture_dry_basis_in
 
 
 def test_rows_of_a_choice(capsys, monkeypatch):
-    """Maize wants a silo (the notes' table of dryers); every row names its dryer, mark, size, energy and reasons."""
+    """Maize wants a silo (the notes' table of dryers); every row names its dryer, mark, size, energy, what speaks for it and what against."""
     monkeypatch.setenv("COLUMNS", "160")
     result = gr.drying.choose.evaluate(**GIVEN)
     data = json.loads(json.dumps(result.as_json()))
     assert data["rows"][0]["dryer"] == {"value": "silo dryer", "unit": ""}
     assert [row["dryer"]["value"] for row in data["rows"]] == data["outputs"]["dryer"]["value"]
-    assert {"suitability", "dryer_size", "energy_per_water", "reasons"} < set(data["rows"][0])
+    assert {"suitability", "dryer_size", "energy_per_water", "speaks_for", "speaks_against"} < set(data["rows"][0])
     marks = [row["suitability"]["value"] for row in data["rows"]]
     assert marks == sorted(marks, reverse=True)
     print_result(result)
@@ -24,6 +24,10 @@ def test_rows_of_a_choice(capsys, monkeypatch):
     row = next(line for line in lines if line.strip().startswith("silo dryer"))
     assert "kJ/kg" in row
     assert "%" in row
+    best, last = data["rows"][0], data["rows"][-1]
+    assert "time enough to dry" in best["speaks_for"]["value"]
+    assert not best["speaks_against"]["value"]
+    assert "does not take this form" in last["speaks_against"]["value"]
 
 
 def test_a_plain_result_has_no_rows():

@@ -36,12 +36,12 @@ def test_dryers_of_the_notes_are_among_the_best(dryer, case):
 
 def test_reasons_and_hazards():
     dusty = choose("powder", 1.0, 0.3, 0.02, hazard="dust")
-    assert "explode" in dusty.reasons[dusty.dryer.index("flash dryer")]
+    assert "explode" in dusty.speaks_against[dusty.dryer.index("flash dryer")]
     solvent = choose("paste", 0.1, 0.8, 0.02, 333.0, hazard="solvent")
     assert solvent.dryer[0] == "vacuum paddle or screw dryer"
     cold = choose("liquid", 0.01, 9.0, 0.02, temperature_limit="5 degC")
     assert cold.dryer[0] == "freeze dryer"
-    assert "does not take" in choose("web", 1.0, 1.0, 0.05).reasons[-1]
+    assert "does not take" in choose("web", 1.0, 1.0, 0.05).speaks_against[-1]
     with pytest.raises(InputError, match="not drier"):
         choose("web", 1.0, 0.1, 0.5)
 
@@ -52,5 +52,5 @@ def test_pressing_comes_first_and_desiccants_cost_their_regeneration():
     # 2 to 35 kWh/t of the notes
     assert 2 * 3.6e3 < ways.energy_per_water[0] < 35 * 3.6e3
     assert ways.energy_per_water[3] >= ways.energy_per_water[2]
-    assert "4004 kg" in ways.reasons[3]  # CaCl2·6H2O holds 108.09 g of water on 110.98 g: 3900/0.974
+    assert "4004 kg" in ways.speaks_against[3]  # CaCl2·6H2O holds 108.09 g of water on 110.98 g: 3900/0.974
     assert water_removal_choice(1.0, 1.0, 0.1).mass_water[0] == 0.0

@@ -31,7 +31,7 @@ def test_plain_advice():
     assert max(same[m["name"]] for m in dataset("filtration", "separators_svarovsky2001") if m["settles"]) < min(
         same["membrane press"], same["rotary vacuum drum"]
     )
-    assert "settles too slowly" in found.reasons[found.separator.index("scroll decanter")]
+    assert "settles too slowly" in found.speaks_against[found.separator.index("scroll decanter")]
 
 
 def test_every_machine_has_a_french_name_and_a_sound_range():

@@ -144,7 +144,8 @@ class Processes(NamedTuple):
 
     crystallization_process: Annotated[str, Series("processes")]
     suitability: Annotated[Fraction, Series("processes")]
-    reasons: Annotated[str, Series("processes")]
+    speaks_for: Annotated[str, Series("processes")]
+    speaks_against: Annotated[str, Series("processes")]
 
 
 TONNAGE_CONTINUOUS = 10_000.0 / 86_400.0  # kg/s: 10 t/d
@@ -162,7 +163,7 @@ def choose(
     heat_sensitive: bool = False,
     narrow_sizes: bool = False,
 ) -> Processes:
-    """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, each with its reasons.
+    """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, with what speaks for and against each.
 
     Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling; below about 10 t/d a batch, above it
     continuous operation.
@@ -182,33 +183,37 @@ def choose(
     )
     steep = float(np.clip((slope - FLAT) / (STEEP - FLAT), 0.0, 1.0))
     between = 1.0 - abs(2.0 * steep - 1.0)
-    foul = _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else ""
-    modes = [
-        (_("cooling through a wall"), 0.2 + 0.8 * steep - 0.35 * fouling,
-         [shown, _("Lowest energy: sensible heat only.") if steep > 0.5 else _("The yield is low for its energy."),
-          _("The wall would foul: keep it within a few kelvin of the suspension.") if fouling else ""]),
-        (_("vacuum (adiabatic) cooling"), 0.2 + 0.35 * steep + 0.4 * between + 0.3 * fouling + 0.1 * heat_sensitive, [shown, foul]),
-        (_("evaporation"), 0.9 - 0.8 * steep - 0.15 * heat_sensitive,
-         [shown, _("Needs the latent heat of all the solvent; under vacuum for what does not stand heat.")]),
-        (_("antisolvent"), (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive) * antisolvent_available,
-         [_("Works cold and gives high yields; the solvents must be separated afterwards.") if antisolvent_available
-          else _("No miscible antisolvent is available.")]),
-    ]  # fmt: skip
-    large = crystal_flow >= TONNAGE_CONTINUOUS
     tonnage = _("{rate} t/d against about 10 t/d, below which lines of continuous crystallizers clog.").format(
         rate=format_number(crystal_flow * 86.4, 3)
     )
+    large = crystal_flow >= TONNAGE_CONTINUOUS
+    # each with its mark, what speaks for it and what against
+    modes = [
+        (_("cooling through a wall"), 0.2 + 0.8 * steep - 0.35 * fouling,
+         [shown, _("Lowest energy: sensible heat only.")] if steep > 0.5 else [],
+         [_("The wall would foul: keep it within a few kelvin of the suspension.") if fouling else "",
+          "" if steep > 0.5 else f"{shown} {_('The yield is low for its energy.')}"]),
+        (_("vacuum (adiabatic) cooling"), 0.2 + 0.35 * steep + 0.4 * between + 0.3 * fouling + 0.1 * heat_sensitive,
+         [shown, _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else ""], []),
+        (_("evaporation"), 0.9 - 0.8 * steep - 0.15 * heat_sensitive, ["" if steep > 0.5 else shown],
+         [_("Needs the latent heat of all the solvent; under vacuum for what does not stand heat.")]),
+        (_("antisolvent"), (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive) * antisolvent_available,
+         [_("Works cold and gives high yields.")] if antisolvent_available else [],
+         [_("The solvents must be separated afterwards.") if antisolvent_available else _("No miscible antisolvent is available.")]),
+    ]  # fmt: skip
     operations = [
-        (_("continuous"), 0.9 if large else 0.25, [tonnage]),
-        (_("seeded batch"), 0.35 if large else 0.95, [tonnage, _("Seeding and programmed cooling control the size.") if narrow_sizes else ""]),
+        (_("continuous"), 0.9 if large else 0.25, [tonnage] if large else [], [] if large else [tonnage]),
+        (_("seeded batch"), 0.35 if large else 0.95,
+         ["" if large else tonnage, _("Seeding and programmed cooling control the size.") if narrow_sizes else ""], [tonnage] if large else []),
         (_("fluidized bed (Oslo), classified product"), (0.95 if narrow_sizes else 0.5) * (1.0 if large else 0.3),
-         [tonnage, _("Large and even crystals, growing without impellers.") if narrow_sizes else _("Dearer than a stirred vessel.")]),
+         [_("Large and even crystals, growing without impellers.")] if narrow_sizes else [],
+         ["" if large else tonnage, "" if narrow_sizes else _("Dearer than a stirred vessel.")]),
     ]  # fmt: skip
     rows = [
-        (f"{mode}, {how}", float(np.clip(a, 0.0, 1.0) * b), " ".join(r for r in (*why, *because) if r))
-        for mode, a, why in modes
-        for how, b, because in operations
+        (f"{mode}, {how}", float(np.clip(a, 0.0, 1.0) * b), *(" ".join(filter(None, x + y)) for x, y in ((good, more), (bad, worse))))
+        for mode, a, good, bad in modes
+        for how, b, more, worse in operations
     ]
     rows.sort(key=lambda row: -row[1])
-    columns: list[Any] = list(zip(*rows, strict=True))
-    return Processes(columns[0], np.asarray(columns[1], dtype=float), columns[2])
+    names, marks, good, bad = zip(*rows, strict=True)
+    return Processes(names, np.asarray(marks, dtype=float), good, bad)

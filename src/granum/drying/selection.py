@@ -28,7 +28,8 @@ class Dryers(NamedTuple):
     suitability: Annotated[Fraction, Series("dryers")]
     dryer_size: Annotated[str, Series("dryers")]
     energy_per_water: Annotated[SpecificEnergy, Series("dryers")]
-    reasons: Annotated[str, Series("dryers")]
+    speaks_for: Annotated[str, Series("dryers")]
+    speaks_against: Annotated[str, Series("dryers")]
 
 
 def _beyond(value: float, low: float, high: float) -> float:
@@ -49,7 +50,7 @@ def choose(
     hazard: Literal["none", "dust", "solvent", "toxic"] = "none",
     fragile: bool = False,
 ) -> Dryers:
-    """Dryers ranked for a product by its form, moisture, heat sensitivity, feed, hazard and drying time, with reasons and first size.
+    """Dryers ranked for a product by its form, moisture, heat sensitivity, feed, hazard and drying time, with what speaks for and against each.
 
     The suitability is 1 where every figure lies in the range in which a dryer is commonly used; it falls by a factor e for each decade
     outside, and is zero for a form of product that the dryer cannot take. Forms it takes only after preparation, and costs out of proportion,
@@ -74,9 +75,9 @@ def choose(
     limit = temperature_limit
     rows = []
     for d in dataset("drying", "dryers_houdon2017"):
-        missing, why = 0.0, []
+        missing, good, why = 0.0, [], []
         if not d[product_form]:
-            rows.append((0.0, d, [_("does not take this form of product")]))
+            rows.append((0.0, d, good, [_("does not take this form of product")]))
             continue
         if d[product_form] < 1.0:
             missing += DECADE / 4.0
@@ -85,11 +86,15 @@ def choose(
         if off > 0:
             missing += off / (3.0 if mass_flow > d["flow_high"] else 1.0)  # several machines side by side are possible
             why.append(_("feed outside {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
+        else:
+            good.append(_("made for {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
         if limit is not None:
             seen = d["product_low"] - (ALLOWANCE if d["residence_high"] <= BRIEF else 0.0)
             if seen > limit:
                 missing += DECADE * (seen - limit) / 10.0
                 why.append(_("heats the product to {value} °C at least").format(value=format_number(d["product_low"] - ZERO_CELSIUS, 3)))
+            else:
+                good.append(_("cool enough for the product"))
         if d["gas_low"] < ZERO_CELSIUS and (limit is None or limit > TOLERANT):
             missing += DECADE / 2.0
             why.append(_("several times as dear as drying in air: for what bears no heat"))
@@ -98,27 +103,33 @@ def choose(
             if off > 0:
                 missing += off * (1.5 if residence_time > d["residence_high"] else 0.3)  # too long a stay is merely wasteful
                 why.append(_("keeps the product {low} to {high} min").format(**_span(d, "residence", 1.0 / 60.0)))
+            else:
+                good.append(_("time enough to dry"))
         worry = _hazard(hazard, d)
         if worry:
             missing += DECADE
             why.append(worry)
         elif hazard != "none" and d["closed"]:
-            why.append(_("closed, with little gas"))
+            good.append(_("closed, with little gas"))
         if d["batch"]:
             why.append(_("works in batches"))
         if fragile and not d["gentle"]:
             missing += DECADE / 2.0
             why.append(_("rough on fragile product"))
+        elif fragile:
+            good.append(_("gentle on the product"))
         missing += log(sqrt(d["energy_low"] * d["energy_high"]) / 3e6) / 2.0  # cheap heat wins between equals
-        rows.append((exp(-missing / DECADE), d, why))
+        rows.append((exp(-missing / DECADE), d, good, why))
     rows.sort(key=lambda row: -row[0])
     best = max(rows[0][0], 1.0)
-    labels = (d["name"] for _score, d, _why in rows)
-    names: Any = tuple(_(label) for label in labels)
-    sizes: Any = tuple(_size(water, d) for _score, d, _why in rows)
-    whys: Any = tuple("; ".join(why) or _("within its common range") for _score, _d, why in rows)
-    energies = np.array([sqrt(d["energy_low"] * d["energy_high"]) for _score, d, _why in rows])
-    return Dryers(names, np.array([score / best for score, *_rest in rows]), sizes, energies, whys)
+    scores, dryers, good, bad = zip(*rows, strict=True)
+    words: Any = (
+        tuple(map(_, (d["name"] for d in dryers))),
+        tuple(_size(water, d) for d in dryers),
+        *(tuple(map("; ".join, w)) for w in (good, bad)),
+    )
+    energies = np.array([sqrt(d["energy_low"] * d["energy_high"]) for d in dryers])
+    return Dryers(words[0], np.array(scores) / best, words[1], energies, *words[2:])
 
 
 def _span(d: dict[str, Any], name: str, factor: float) -> dict[str, str]:
@@ -151,7 +162,8 @@ class WaterRemoval(NamedTuple):
     way: Annotated[str, Series("ways")]
     mass_water: Annotated[Mass, Series("ways")]
     energy_per_water: Annotated[SpecificEnergy, Series("ways")]
-    reasons: Annotated[str, Series("ways")]
+    speaks_for: Annotated[str, Series("ways")]
+    speaks_against: Annotated[str, Series("ways")]
 
 
 @procedure(source="houdon2017; mujumdar2014, ch. 1; perry2008, § 12", title="Press, absorb or evaporate")
@@ -192,9 +204,15 @@ def water_removal_choice(
     mass = whole / agent["water_per_desiccant"]
     together = (pressed * mechanical + heated * energy_per_water) / whole
     names: Any = (_("pressing or spinning"), _("heat after pressing"), _("heat alone"), _("desiccant: {name}").format(name=_(desiccant)))
-    reasons: Any = (
-        _("free water only, 2 to 35 kWh/t; takes {share} % of the water").format(share=format_number(100 * pressed / whole, 3)),
-        _("what pressing leaves; both together {value} kJ per kg of water").format(value=format_number(together / 1e3, 3)),
+    good: Any = (
+        _("2 to 35 kWh per tonne of water"),
+        _("both together {value} kJ per kg of water").format(value=format_number(together / 1e3, 3)),
+        _("one machine for all of the water"),
+        _("no heat at the product"),
+    )
+    bad: Any = (
+        _("free water only: {share} % of the water").format(share=format_number(100 * pressed / whole, 3)),
+        _("two machines"),
         _("all water evaporated"),
         _("needs {mass} kg, regenerated at {temperature} °C; only down to a water activity of {activity}").format(
             mass=format_number(mass, 3),
@@ -203,4 +221,4 @@ def water_removal_choice(
         ),
     )
     energies = np.array([mechanical, energy_per_water, energy_per_water, energy_per_water])
-    return WaterRemoval(names, np.array([pressed, heated, whole, whole]), energies, reasons)
+    return WaterRemoval(names, np.array([pressed, heated, whole, whole]), energies, good, bad)

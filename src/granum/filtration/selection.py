@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import exp, log
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,8 @@ class Separators(NamedTuple):
 
     separator: Annotated[str, Series("machines")]
     suitability: Annotated[Fraction, Series("machines")]
-    reasons: Annotated[str, Series("machines")]
+    speaks_for: Annotated[str, Series("machines")]
+    speaks_against: Annotated[str, Series("machines")]
 
 
 def _outside(value: float, low: float, high: float) -> float:
@@ -55,40 +56,41 @@ def separator_choice(
     falling = particle_diameter**2 * abs(density_difference) * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
     rows = []
     for number in dataset("filtration", "separators_svarovsky2001"):
-        missing, why = 0.0, []
-        for value, low, high, text in (
-            (particle_diameter, number["size_low"], number["size_high"], _("particle size outside {low} to {high} µm")),
-            (volume_flow, number["flow_low"], number["flow_high"], _("flow outside {low} to {high} m³/h")),
-            (
-                solids_volume_fraction,
-                max(number["solids_low"], 1e-7),
-                number["solids_high"],
-                _("solids outside {low} to {high} % by volume"),
-            ),
-        ):
+        missing, good, why = 0.0, [], []
+        # several machines side by side, or one at part load, are possible: flow counts a third
+        for value, span, scale, weight, within, outside in (
+            (particle_diameter, "size", 1e6, 1.0, _("made for {low} to {high} µm"), _("particle size outside {low} to {high} µm")),
+            (volume_flow, "flow", 3600.0, 1.0 / 3.0, _("made for {low} to {high} m³/h"), _("flow outside {low} to {high} m³/h")),
+            (solids_volume_fraction, "solids", 100.0, 1.0, _("made for {low} to {high} % by volume"),
+             _("solids outside {low} to {high} % by volume")),
+        ):  # fmt: skip
+            low, high = max(number[f"{span}_low"], 1e-7), number[f"{span}_high"]
             off = _outside(value, low, high)
-            if off > 0:
-                scale = 1e6 if value is particle_diameter else 3600.0 if value is volume_flow else 100.0
-                why.append(text.format(low=format_number(low * scale, 3), high=format_number(high * scale, 3)))
-                # several machines side by side, or one at part load, are possible: flow counts a third
-                missing += off / 3.0 if value is volume_flow else off
+            told = (outside if off > 0 else within).format(low=format_number(low * scale, 3), high=format_number(high * scale, 3))
+            (why if off > 0 else good).append(told)
+            missing += max(off, 0.0) * weight
         if number["settles"]:
             least = LEAST_GRAVITY if number["effect"] == 1 else LEAST_SPUN
             off = _outside(falling * number["effect"], least, np.inf)
             if off > 0:
                 why.append(_("settles too slowly"))
                 missing += off
+            else:
+                good.append(_("settles fast enough"))
         if number["liquid_left"] > liquid_left_wanted:
             why.append(_("leaves more liquid ({value} % by volume)").format(value=format_number(100 * number["liquid_left"], 2)))
             missing += 2.0 * log(number["liquid_left"] / max(liquid_left_wanted, 0.01))
+        elif liquid_left_wanted < 1.0:
+            good.append(_("leaves {value} % of liquid by volume").format(value=format_number(100 * number["liquid_left"], 2)))
         if washing and not number["washes"]:
             why.append(_("cannot wash"))
             missing += DECADE_OUT
-        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], number["name"], why))
+        elif washing:
+            good.append(_("washes the cake"))
+        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], number["name"], "; ".join(good), "; ".join(why)))
     rows.sort(key=lambda row: (-row[0], row[1]))
-    names: Any = tuple(_(name) for _score, _left, name, _why in rows)
-    whys: Any = tuple("; ".join(why) or _("within its common range") for *_rest, why in rows)
-    return Separators(names, np.array([score for score, *_rest in rows]), whys)
+    scores, _left, names, good, bad = zip(*rows, strict=True)
+    return Separators(tuple(map(_, names)), np.array(scores), good, bad)
 
 
 # EN 1822: least efficiency at the most penetrating particle size
