@@ -215,5 +215,5 @@ def choose(
         for how, b, more, worse in operations
     ]
     rows.sort(key=lambda row: -row[1])
-    names, marks, good, bad = zip(*rows, strict=True)
-    return Processes(names, np.asarray(marks, dtype=float), good, bad)
+    columns: Any = list(zip(*rows, strict=True))
+    return Processes(columns[0], np.asarray(columns[1], dtype=float), *columns[2:])

@@ -89,8 +89,9 @@ def separator_choice(
             good.append(_("washes the cake"))
         rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], number["name"], "; ".join(good), "; ".join(why)))
     rows.sort(key=lambda row: (-row[0], row[1]))
-    scores, _left, names, good, bad = zip(*rows, strict=True)
-    return Separators(tuple(map(_, names)), np.array(scores), good, bad)
+    columns: Any = list(zip(*rows, strict=True))
+    names: Any = tuple(map(_, columns[2]))
+    return Separators(names, np.array(columns[0]), *columns[3:])
 
 
 # EN 1822: least efficiency at the most penetrating particle size
