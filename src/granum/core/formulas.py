@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import bounds, flags
+from granum.core import bounds, flags, notebooks
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.docstrings import CompletedDoc
@@ -107,6 +107,9 @@ class Formula(Generic[P, R]):
     @functools.cached_property
     def _signature(self) -> inspect.Signature:
         return inspect.signature(self.function)
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.reports.terminal:print_card", self.card)
 
     def __repr__(self) -> str:
         return f"<formula {self.key}{self._signature}>"

@@ -8,7 +8,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, get_type_hints, overload
 
 import numpy as np
 
-from granum.core import bounds
+from granum.core import bounds, notebooks
 from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder
 from granum.core.docstrings import CompletedDoc
@@ -44,6 +44,9 @@ class Procedure(Generic[P, R]):
     @functools.cached_property
     def _binder(self) -> Binder:
         return Binder.of(self.card.key, self.card.parameters)
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.reports.terminal:print_card", self.card)
 
     def __repr__(self) -> str:
         return f"<{self._sort} {self.key}>"

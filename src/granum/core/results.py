@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from granum.core import notebooks
 from granum.core.cards import Card
 from granum.core.errors import ApplicabilityError
 from granum.core.flags import OUTSIDE_DOMAIN, WORDS
@@ -15,6 +16,9 @@ from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.units import format_number, from_si, pretty_unit, show
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def plain(value: Any) -> Any:
@@ -89,6 +93,21 @@ class Result:
 
     def __repr__(self) -> str:
         return f"<{'; '.join(str(self).splitlines())}>"
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.reports.terminal:print_result", self)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Inputs and results, one a row: role, value in SI, unit, label."""
+        import pandas as pd
+
+        groups = (("input", self.card.parameters, self.inputs), ("result", self.card.outputs, self.outputs))
+        rows = [
+            {"name": p.name, "role": role, **quantity_json(values[p.name], p), "label": p.label}
+            for role, group, values in groups
+            for p in group
+        ]
+        return pd.DataFrame(rows).set_index("name")
 
     def possible(self) -> Result:
         """The result itself; raises, with the first cause alone, when no element of it has a value."""

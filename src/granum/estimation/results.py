@@ -14,10 +14,13 @@ import numpy as np
 from jax.flatten_util import ravel_pytree
 from scipy import stats
 
+from granum.core import notebooks
 from granum.core.errors import unknown_name
 from granum.core.i18n import _
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from granum.estimation.diagnostics import Diagnostics
     from granum.estimation.intervals import Profile
     from granum.estimation.least_squares import Problem
@@ -187,6 +190,17 @@ class Fit:
         from granum.estimation.intervals import bootstrap
 
         return bootstrap(self, count, seed)
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.reports.terminal:print_fit", self)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Parameters and what follows from them, one a row: value in SI, unit, standard error, ends of the 95 % interval."""
+        import pandas as pd
+
+        groups = ((self.parameters, False), (self.derived, True))
+        rows = [(n, e.value, e.unit, e.standard_error, *e.interval_95, derived) for found, derived in groups for n, e in found.items()]
+        return pd.DataFrame(rows, columns=["name", "value", "unit", "standard_error", "low", "high", "derived"]).set_index("name")
 
     def as_json(self) -> dict[str, Any]:
         """The stable ``fit`` shape."""

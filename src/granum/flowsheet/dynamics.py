@@ -7,7 +7,7 @@ inlets that change linearly over it. Second order in the step.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -16,6 +16,7 @@ import numpy as np
 from granum.core import flags
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
+from granum.flowsheet.labelled import stream_dataset
 from granum.flowsheet.passing import Made, pass_through, told
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
@@ -23,6 +24,9 @@ from granum.flowsheet.solving import TOLERANCE, _pack, _unpack, solve
 from granum.numerics import settle
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Dynamic, Operated
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class Profile(NamedTuple):
@@ -59,6 +63,10 @@ class Course(NamedTuple):
     def flags(self) -> list[dict[str, Any]]:
         """What was flagged at any time, with the unit's name."""
         return told(self.records)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Every stream by species and size class over time, SI."""
+        return stream_dataset(self.streams, self.times)
 
 
 class _Instant(NamedTuple):

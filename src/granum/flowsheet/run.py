@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import record_steps
+from granum.core import notebooks, record_steps
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.formulas import Result
 from granum.core.i18n import _
@@ -23,6 +23,7 @@ from granum.flowsheet.drawing import draw
 from granum.flowsheet.dynamics import Course, Profile, march
 from granum.flowsheet.findings import Findings, fault_in_time
 from granum.flowsheet.fitted import fit_notices
+from granum.flowsheet.labelled import attributes, stream_dataset, stream_frame
 from granum.flowsheet.ladder import climb
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.passing import told
@@ -33,6 +34,10 @@ from granum.flowsheet.specifications import Target
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check, Operated
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 @compiled
@@ -247,6 +252,20 @@ class Run:
             "flags": self.flags,
             **({"dynamic": course_json(self.course)} if self.course is not None else {}),
         }
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.reports.terminal:print_run", self)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Every stream a row, SI: temperature, pressure, flow of every species (``solid.quartz``), median size."""
+        return stream_frame(self.streams)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Streams by species and size class, and the figures of the units (``unit.figure``), SI with their units as attributes."""
+        figures = {f"{name}.{p.name}": (p, value) for name, unit in self.units.items() for p, value in unit.figures()}
+        return stream_dataset(self.streams).assign(
+            {name: ((), value, attributes(p)) for name, (p, value) in figures.items() if np.ndim(value) == 0 and value is not None}
+        )
 
     def report(self, path: str | Path) -> None:
         """Write the self-contained HTML report."""

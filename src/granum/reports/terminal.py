@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextvars import ContextVar
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +37,29 @@ from granum.reports.quantities import (
 )
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
+NOTEBOOK = 110  # characters across
+
+
+_recording: ContextVar[Console | None] = ContextVar("granum_recording", default=None)
+_PAGE = (
+    '<pre style="white-space:pre;overflow-x:auto;line-height:normal;'
+    "font-family:Menlo,'DejaVu Sans Mono',Consolas,'Courier New',monospace\">{code}</pre>"
+)
 
 
 def _console() -> Console:
-    return Console(highlight=False)
+    return _recording.get() or Console(highlight=False)
+
+
+def as_html(printer: Callable[[Any], None], thing: Any) -> str:
+    """What a printer of this module or of the studies prints, as HTML."""
+    console = Console(highlight=False, record=True, width=NOTEBOOK, file=StringIO())
+    token = _recording.set(console)
+    try:
+        printer(thing)
+    finally:
+        _recording.reset(token)
+    return console.export_html(inline_styles=True, code_format=_PAGE)
 
 
 def _table(*columns: tuple[str, str]) -> Table:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from granum.core import notebooks
 from granum.core.errors import InputError
 from granum.core.files import check_writable
 from granum.core.i18n import _
@@ -20,6 +21,7 @@ from granum.studies.engine import Cases
 from granum.studies.subjects import NOT_RUN, Variable
 
 if TYPE_CHECKING:
+    import pandas as pd
     import plotly.graph_objects as go
     import xarray as xr
 
@@ -126,6 +128,13 @@ class Outcome(abc.ABC):
         return xr.Dataset(
             columns, {"case": np.arange(len(codes))}, {"title": self.title, "study": self.kind, "model": self.cases.subject.title}
         )
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Every case a row: inputs and figures in SI, code and reason."""
+        return self.dataset.to_dataframe()
+
+    def _repr_html_(self) -> str:
+        return notebooks.shown("granum.studies.report:print_study", self)
 
     def save(self, path: str | Path) -> None:
         """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow) or ``.csv``, whole or not at all."""
