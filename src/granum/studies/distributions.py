@@ -6,7 +6,7 @@ Every source takes its own columns of the unit cube, so that random, Latin-hyper
 from __future__ import annotations
 
 import abc
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,15 +50,14 @@ class Source(abc.ABC):
 
 @dataclass(frozen=True)
 class Marginal(Source):
-    """One input with a distribution of its own, given by its quantile function."""
+    """One input with a distribution of its own, a frozen one of SciPy, that may be cut at both ends."""
 
     name: str
     law: str
     numbers: dict[str, float]
-    quantile: Callable[[np.ndarray], np.ndarray]
+    frozen: Any
     lower: float = -np.inf
     upper: float = np.inf
-    cumulative: Callable[[float], float] | None = None
 
     @property
     def names(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -67,10 +66,8 @@ class Marginal(Source):
 
     def values(self, u: np.ndarray) -> np.ndarray:
         u = np.clip(u, EDGE, 1.0 - EDGE)
-        if self.cumulative is not None and (self.lower > -np.inf or self.upper < np.inf):
-            low, high = self.cumulative(self.lower), self.cumulative(self.upper)
-            u = low + u * (high - low)
-        return self.quantile(u)
+        low, high = self.frozen.cdf([self.lower, self.upper])
+        return self.frozen.ppf(low + u * (high - low))
 
     def centers(self) -> np.ndarray:
         return self.values(np.array([[0.5]]))[0]
@@ -183,8 +180,7 @@ def _limits(read: dict[str, float]) -> dict[str, float]:
 
 def _normal(name: str, read: dict[str, float], where: str) -> Marginal:
     mean, spread = read["mean"], _spread(read, where)
-    return Marginal(name, "normal", {"mean": mean, "standard_deviation": spread}, lambda u: mean + spread * special.ndtri(u),
-                    cumulative=lambda x: float(special.ndtr((x - mean) / spread)), **_limits(read))  # fmt: skip
+    return Marginal(name, "normal", {"mean": mean, "standard_deviation": spread}, stats.norm(mean, spread), **_limits(read))
 
 
 def _lognormal(name: str, read: dict[str, float], where: str) -> Marginal:
@@ -198,20 +194,19 @@ def _lognormal(name: str, read: dict[str, float], where: str) -> Marginal:
             _("{where}: a lognormal distribution needs a positive value and a geometric standard deviation above 1.").format(where=where)
         )
     numbers = {"median": float(median), "geometric_standard_deviation": float(np.exp(sigma))}
-    return Marginal(name, "lognormal", numbers, lambda u: median * np.exp(sigma * special.ndtri(u)),
-                    cumulative=lambda x: float(special.ndtr(np.log(x / median) / sigma)) if x > 0 else 0.0, **_limits(read))  # fmt: skip
+    return Marginal(name, "lognormal", numbers, stats.lognorm(sigma, scale=median), **_limits(read))
 
 
 def _uniform(name: str, read: dict[str, float], where: str) -> Marginal:
     low, high = read["lower"], read["upper"]
-    return Marginal(name, "uniform", {"lower": low, "upper": high}, lambda u: low + (high - low) * u)
+    return Marginal(name, "uniform", {"lower": low, "upper": high}, stats.uniform(low, high - low))
 
 
 def _loguniform(name: str, read: dict[str, float], where: str) -> Marginal:
     low, high = read["lower"], read["upper"]
     if low <= 0:
         raise InputError(_("{where}: 'lower' of a loguniform distribution must be greater than zero.").format(where=where))
-    return Marginal(name, "loguniform", {"lower": low, "upper": high}, lambda u: low * (high / low) ** u)
+    return Marginal(name, "loguniform", {"lower": low, "upper": high}, stats.loguniform(low, high))
 
 
 def _triangular(name: str, read: dict[str, float], where: str) -> Marginal:
@@ -219,7 +214,7 @@ def _triangular(name: str, read: dict[str, float], where: str) -> Marginal:
     if not low <= mode <= high:
         raise InputError(_("{where}: 'mode' must lie between 'lower' and 'upper'.").format(where=where))
     numbers = {"lower": low, "mode": mode, "upper": high}
-    return Marginal(name, "triangular", numbers, lambda u: stats.triang.ppf(u, (mode - low) / (high - low), low, high - low))
+    return Marginal(name, "triangular", numbers, stats.triang((mode - low) / (high - low), low, high - low))
 
 
 _MAKERS = {"normal": _normal, "lognormal": _lognormal, "uniform": _uniform, "loguniform": _loguniform, "triangular": _triangular}

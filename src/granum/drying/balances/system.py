@@ -186,36 +186,25 @@ class System:
 
     def _structure(self, given: frozenset[str]) -> tuple[list[str], list[str]]:
         """Knowns of which one is too many, and quantities of which one more must be given (Dulmage and Mendelsohn's decomposition)."""
-        rows = [set(r.variables) - given for r in self.relations if not r.extra for _k in range(r.fixes)]
-        owners = [set(r.variables) for r in self.relations if not r.extra for _k in range(r.fixes)]
-        row_of: dict[str, int] = {}
+        import networkx as nx
 
-        def place(i: int, seen: set[str]) -> bool:
-            for name in rows[i] - seen:
-                seen.add(name)
-                if name not in row_of or place(row_of[name], seen):
-                    row_of[name] = i
-                    return True
-            return False
-
-        over = [i for i in range(len(rows)) if not place(i, set())]
-        tied, reached = list(over), set(over)
-        for i in tied:
-            for name in rows[i]:
-                j = row_of.get(name)
-                if j is not None and j not in reached:
-                    reached.add(j)
-                    tied.append(j)
-        redundant = sorted({n for i in reached for n in owners[i] & given})
-        loose = [n for n in self.variables if n not in given and n not in row_of]
-        open_ = list(loose)
-        for name in open_:
-            for i, row in enumerate(rows):
-                if name in row:
-                    for other, j in row_of.items():
-                        if j == i and other not in open_:
-                            open_.append(other)
-        return redundant if over else [], open_
+        equations = [(i, k) for i, r in enumerate(self.relations) if not r.extra for k in range(r.fixes)]
+        unknown = [name for name in self.variables if name not in given]
+        graph = nx.Graph()
+        graph.add_nodes_from([*equations, *unknown])
+        graph.add_edges_from((e, name) for e in equations for name in self.relations[e[0]].variables if name not in given)
+        match = nx.bipartite.maximum_matching(graph, top_nodes=equations)
+        # from an equation to what it holds, and from a quantity to the equation that gives it
+        order = nx.DiGraph()
+        order.add_nodes_from(graph)
+        order.add_edges_from((e, name) for e in equations for name in graph[e])
+        order.add_edges_from((name, match[name]) for name in unknown if name in match)
+        over = {e for e in equations if e not in match}
+        tied = over.union(*(nx.descendants(order, e) for e in over))
+        redundant = {name for e in equations if e in tied for name in self.relations[e[0]].variables if name in given}
+        loose = {name for name in unknown if name not in match}
+        open_ = loose.union(*(nx.ancestors(order, name) for name in loose))
+        return sorted(redundant), [name for name in unknown if name in open_]
 
     def _complaint(self, given: frozenset[str], redundant: list[str], missing: list[str]) -> InputError:
         own, zero = sorted(given - set(self.free)), set(self.free) & given
