@@ -38,10 +38,10 @@ class _LazyCard:
 
 
 def field_parameters(cls: type, fitted: Ranges, typical: Ranges) -> tuple[Parameter, ...]:
-    """The fields of a frozen module as parameters, in order."""
+    """The fields of a frozen module as parameters, in the order of its signature: what may only be named comes last."""
     hints = get_type_hints(cls, include_extras=True)
     found = []
-    for item in dataclasses.fields(cls):
+    for item in sorted(dataclasses.fields(cls), key=lambda field: field.kw_only is True):
         if not item.init:
             continue
         default = item.default if item.default is not dataclasses.MISSING else REQUIRED

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import abc
-from dataclasses import KW_ONLY
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
@@ -20,27 +19,22 @@ from granum.centrifuges.formulas.spinning import (
 from granum.core import equipment
 from granum.core.kinds import (
     CakeResistance,
-    Diffusivity,
     Distance,
     Fraction,
-    Law,
     Length,
-    MediumResistance,
     MoistureDryBasis,
     PositiveNumber,
     Power,
     Ratio,
     RotationSpeed,
-    SurfaceTension,
     Time,
     VoidFraction,
 )
 from granum.core.limits import Limit
-from granum.porous.displacement import practical_number, remaining_fraction
-from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
-from granum.streams.dissolution import dissolved_share
+from granum.streams.cake_maker import CakeMaker
+from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits
 
 TRICKLE, THIN = 1e-15, 1e-12  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
 Ends = tuple[float, float]
@@ -101,23 +95,13 @@ def machine_limits(*, diameter: float, solids: Ends, effect: Ends, layer: Ends) 
 FLOODING: Limits = {"flood": Limit("filtrate over the critical flow (flooding)", 0.0, 1.0, "dimensionless", "storrow1957")}
 
 
-class FilteringCentrifuge(Unit):
-    """Abstract filtering centrifuge: a cylindrical cake between the basket wall and an inner radius.
-
-    The surface–volume diameter for washing and drainage is that of the solid in the feed unless given.
-    """
+class FilteringCentrifuge(CakeMaker):
+    """Abstract filtering centrifuge: a cylindrical cake between the basket wall and an inner radius."""
 
     radius_outer: Length
     rotation_speed: RotationSpeed
     cake_resistance: CakeResistance
     void_fraction: VoidFraction
-    _: KW_ONLY
-    medium_resistance: MediumResistance = 0.0
-    solids_recovery: Fraction = 1.0
-    surface_tension: SurfaceTension = 0.072
-    diffusivity: Diffusivity = 1e-9
-    particle_diameter: Length | None = None
-    wash_dissolution: Annotated[Any, Law("wash_dissolution")] | None = None
 
     @abc.abstractmethod
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
@@ -148,23 +132,17 @@ class FilteringCentrifuge(Unit):
             "cake_permeability": self.permeability(feed), "medium_resistance": self.medium_resistance,
         }  # fmt: skip
 
-    def wash_ratio(self, feed: Stream, wash: Stream | None) -> Any:
-        """Wash liquor per void volume."""
-        void = void_flow(feed, self.solids_recovery, self.void_fraction)
-        return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
-
     def solute_left(self, feed: Stream, wash: Stream | None) -> Any:
         """Fraction of the mother liquor that washing leaves, the wash liquor passing at the critical flow."""
         if wash is None:
             return jnp.ones(())
         face = jnp.pi * (self.radius_outer + self.inner_radius(feed)) * self.height
-        velocity = filtrate_flow_critical(basket_height=self.height, **self.case(feed)) / face / self.void_fraction
-        number = practical_number(velocity, self.thickness(feed), solid_diameter(feed, self.particle_diameter), self.diffusivity)
-        return remaining_fraction(self.wash_ratio(feed, wash), number)
+        velocity = filtrate_flow_critical(basket_height=self.height, **self.case(feed)) / face
+        return self.left_by_washing(velocity, self.thickness(feed), feed, wash)
 
     def saturation(self, feed: Stream, spin: Spin) -> Any:
         """Saturation of the cake at discharge."""
-        d, middle = solid_diameter(feed, self.particle_diameter), 0.5 * (self.radius_outer + self.inner_radius(feed))
+        d, middle = self.diameter(feed), 0.5 * (self.radius_outer + self.inner_radius(feed))
         lowest = irreducible_saturation_leung(
             d, self.void_fraction, self.thickness(feed), middle, self.rotation_speed, feed.liquid_density, self.surface_tension
         )
@@ -186,10 +164,7 @@ class FilteringCentrifuge(Unit):
         return Spun(spin, jnp.asarray(self.thickness(feed), dtype=float), self.wash_ratio(feed, wash), left, wet)
 
     def outlets(self, inside: Spun, feed: Stream, wash: Stream | None = None) -> Filtered:
-        parted = part_cake(
-            feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=inside.saturation, left=inside.left
-        )
-        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
+        return self.parted(feed, wash, saturation=inside.saturation, left=inside.left)
 
     def figures(self, inside: Spun, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> SpinFigures:
         spin = inside.spin
@@ -206,7 +181,7 @@ class FilteringCentrifuge(Unit):
             solute_remaining=inside.left,
             cake_saturation=inside.saturation,
             moisture_dry_basis=outlets.cake.moisture_dry_basis,
-            dissolved_share=dissolved_share(feed, self.solids_recovery, outlets.cake),
+            dissolved_share=self.dissolved(feed, outlets.cake),
             shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
         )
 
@@ -214,7 +189,7 @@ class FilteringCentrifuge(Unit):
         return {
             "use": inside.spin.capacity_use,
             "flood": inside.spin.flooding,
-            "coarse": solid_diameter(feed, self.particle_diameter),
+            "coarse": self.diameter(feed),
             "rich": feed.solids_volume_fraction,
             "effect": figures.centrifugal_effect,
             "layer": inside.thickness,
@@ -260,7 +235,7 @@ class Peeler(SetCake):
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
         case = self.case(feed)
-        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        void = self.void_flow(feed)
         cake_flow = void / self.void_fraction
         filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + TRICKLE)
         loading = loading_time_basket(
@@ -292,7 +267,7 @@ class Pusher(SetCake):
         return self.basket_length
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
-        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        void = self.void_flow(feed)
         cake_flow = jnp.maximum(void / self.void_fraction, 1e-300)
         stay = self.cake_volume / cake_flow
         critical = filtrate_flow_critical(basket_height=self.basket_length, **self.case(feed))

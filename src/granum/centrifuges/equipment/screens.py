@@ -15,7 +15,7 @@ from granum.centrifuges.formulas.spinning import filtrate_flow_critical
 from granum.core import equipment
 from granum.core.kinds import Acceleration, Angle, Fraction, Length, RotationSpeed, Time, Within
 from granum.core.limits import Limit
-from granum.streams.cakes import Filtered, void_flow
+from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -48,13 +48,13 @@ class ConicalScreen(FilteringCentrifuge):
         return self.basket_length
 
     def inner_radius(self, feed: Stream) -> Any:
-        cake = void_flow(feed, self.solids_recovery, self.void_fraction) / self.void_fraction * self.stay
+        cake = self.void_flow(feed) / self.void_fraction * self.stay
         layer = jnp.maximum(cake / (2.0 * jnp.pi * self.radius_outer * self.basket_length), THINNEST)
         return self.radius_outer * jnp.sqrt(jnp.maximum(1.0 - 2.0 * layer / self.radius_outer, 0.01))
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
         critical = filtrate_flow_critical(basket_height=self.basket_length, **self.case(feed))
-        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        void = self.void_flow(feed)
         forming = jnp.maximum(feed.liquid_volume_flow - void, 0.0) / (self.feed_share * critical)
         washing = 0.0 if wash is None else wash.liquid_volume_flow / (self.wash_share * critical)
         washed = 0.0 if wash is None else self.wash_share

@@ -50,7 +50,7 @@ class BatchFilter(CakeFilter):
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         loading, formation = self.loading(s), self.formation_time(s)
         void = self.full_thickness * self.void_fraction
-        wash_time = self.wash_ratio(s, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, s))
+        wash_time = self.wash_ratio(feed, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, s))
         cycle = formation + wash_time + self.deliquoring_time + self.dead_time
         return Plan(
             loading, jnp.asarray(self.full_thickness, dtype=float), formation, wash_time, jnp.asarray(self.deliquoring_time, dtype=float),

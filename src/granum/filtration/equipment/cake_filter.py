@@ -4,24 +4,19 @@ from __future__ import annotations
 
 import abc
 from dataclasses import KW_ONLY
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
 from granum.core.kinds import (
     Area,
     CakeResistance,
-    Diffusivity,
     Distance,
     Fraction,
-    Law,
-    Length,
     MassPerAreaOrZero,
-    MediumResistance,
     MoistureDryBasis,
     PressureDrop,
     Ratio,
-    SurfaceTension,
     Time,
     VoidFraction,
     VolumeFlow,
@@ -29,11 +24,10 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
-from granum.porous.displacement import practical_number, remaining_fraction
-from granum.streams.cakes import Filtered, part_cake, solid_diameter, void_flow
-from granum.streams.dissolution import dissolved_share
+from granum.streams.cake_maker import CakeMaker
+from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits
 
 # so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it, resistance 1/m of nothing
 TRICKLE, THIN, OPEN = 1e-15, 1e-9, 1e3
@@ -94,11 +88,11 @@ class Caked(NamedTuple):
     saturation: Any
 
 
-class CakeFilter(Unit):
+class CakeFilter(CakeMaker):
     """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle goes.
 
     The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power ``compressibility`` of the
-    pressure drop. The surface–volume diameter for washing and deliquoring is that of the solid in the feed unless given. Crystals dissolve in the wash by ``wash_dissolution``, if one is given.
+    pressure drop.
     """
 
     area: Area
@@ -106,14 +100,8 @@ class CakeFilter(Unit):
     cake_resistance: CakeResistance
     void_fraction: VoidFraction
     _: KW_ONLY  # so that subclasses may add fields without a default
-    medium_resistance: MediumResistance = 0.0
     compressibility: Ratio = 0.0
     reference_pressure: PressureDrop = 1e5
-    solids_recovery: Fraction = 1.0
-    surface_tension: SurfaceTension = 0.072
-    diffusivity: Diffusivity = 1e-9
-    particle_diameter: Length | None = None
-    wash_dissolution: Annotated[Any, Law("wash_dissolution")] | None = None
 
     limits: ClassVar[Limits] = {
         "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
@@ -137,7 +125,7 @@ class CakeFilter(Unit):
     def slurry(self, feed: Stream, wash: Stream | None = None) -> Slurry:
         """Flows and properties that the filtration equations need."""
         solid, liquid = self.solids_recovery * feed.solid_flow, feed.liquid_volume_flow
-        void = void_flow(feed, self.solids_recovery, self.void_fraction)
+        void = self.void_flow(feed)
         filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + TRICKLE)
         cake = jnp.maximum(solid / filtrate, THIN)
         own = feed.liquid_viscosity
@@ -155,24 +143,18 @@ class CakeFilter(Unit):
         """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not squeeze."""
         return 1.0
 
-    def wash_ratio(self, s: Slurry, wash: Stream | None) -> Any:
-        """Wash liquor per void volume."""
-        void = s.void_volume_flow
-        return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
-
     def solute_left(self, s: Slurry, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
-        """Fraction of the mother liquor that washing leaves in the cake, by dispersion but never better than practice."""
+        """Fraction of the mother liquor that washing leaves in the cake."""
         if wash is None:
             return jnp.ones(())
-        pore_velocity = self.wash_flux(plan.dry_cake_mass_per_area, s) / self.void_fraction
-        number = practical_number(pore_velocity, jnp.maximum(plan.cake_thickness, 1e-9), self._diameter(feed), self.diffusivity)
-        return remaining_fraction(self.wash_ratio(s, wash), number)
+        velocity = self.wash_flux(plan.dry_cake_mass_per_area, s)
+        return self.left_by_washing(velocity, jnp.maximum(plan.cake_thickness, 1e-9), feed, wash)
 
     def saturation(self, s: Slurry, feed: Stream, plan: Plan) -> Any:
         """Saturation of the cake at discharge."""
         thick = jnp.maximum(plan.cake_thickness, 1e-9)
         capillary = capillary_number_cake(
-            self._diameter(feed), self.void_fraction, thick, self.pressure_drop, s.liquid_density, self.surface_tension
+            self.diameter(feed), self.void_fraction, thick, self.pressure_drop, s.liquid_density, self.surface_tension
         )
         return saturation_after_deliquoring(
             plan.deliquoring_time,
@@ -184,18 +166,13 @@ class CakeFilter(Unit):
             irreducible_saturation(capillary),
         )
 
-    def _diameter(self, feed: Stream) -> Any:
-        return solid_diameter(feed, self.particle_diameter)
-
     def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
         s = self.slurry(feed, wash)
         plan = self.plan(s, feed, wash)
-        return Caked(s, plan, self.wash_ratio(s, wash), self.solute_left(s, feed, wash, plan), self.saturation(s, feed, plan))
+        return Caked(s, plan, self.wash_ratio(feed, wash), self.solute_left(s, feed, wash, plan), self.saturation(s, feed, plan))
 
     def outlets(self, inside: Caked, feed: Stream, wash: Stream | None = None) -> Filtered:
-        wet = inside.saturation * self.squeezed()
-        parted = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=wet, left=inside.left)
-        return parted if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(parted)
+        return self.parted(feed, wash, saturation=inside.saturation * self.squeezed(), left=inside.left)
 
     def figures(self, inside: Caked, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> CakeFigures:
         plan, cake = inside.plan, outlets.cake
@@ -214,7 +191,7 @@ class CakeFilter(Unit):
             solute_remaining=inside.left,
             cake_saturation=inside.saturation,
             moisture_dry_basis=cake.moisture_dry_basis,
-            dissolved_share=dissolved_share(feed, self.solids_recovery, cake),
+            dissolved_share=self.dissolved(feed, cake),
         )
 
     def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
