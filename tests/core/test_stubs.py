@@ -1,10 +1,12 @@
 """What an editor and a type checker see of the domains."""
 
+import importlib.util
 import inspect
 import json
 import subprocess
 import sys
 from collections import defaultdict
+from pathlib import Path
 
 import pytest
 
@@ -82,3 +84,12 @@ def test_help_tells_what_is_declared():
     ):
         assert words in oven
     assert "critical_moisture" in inspect.signature(gr.drying.TrayDryer).parameters
+
+
+def test_the_tree_of_the_documentation_is_that_of_the_package():
+    place = Path(__file__).parents[2] / "docs"
+    script = importlib.util.spec_from_file_location("house", place / "house.py")
+    house = importlib.util.module_from_spec(script)
+    script.loader.exec_module(house)
+    page = house.PAGE.read_text(encoding="utf-8")
+    assert page == house.written(page), "run: python docs/house.py"

@@ -34,7 +34,9 @@ def test_a_card_shows_what_show_prints():
 
 def test_a_fit_is_a_table_of_estimates():
     time = np.array([0.0, 600.0, 1200.0, 1800.0, 2400.0, 3000.0])
-    fit = gr.drying.ThinLayerTest(time=time, moisture_ratio=np.exp(-1e-3 * time) * (1 + 1e-3 * np.array([0, 1, -1, 1, -1, 1])), model="lewis").fit()
+    fit = gr.drying.ThinLayerTest(
+        time=time, moisture_ratio=np.exp(-1e-3 * time) * (1 + 1e-3 * np.array([0, 1, -1, 1, -1, 1])), model="lewis"
+    ).fit()
     frame = fit.to_pandas()
     row = frame.loc[next(iter(fit.parameters))]
     assert row["value"] == pytest.approx(1e-3, rel=0.01)
