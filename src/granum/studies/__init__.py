@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 _HOME = {
-    "Study": "study", "KINDS": "study", "Outcome": "outcome", "Progress": "engine", "evaluate": "engine", "subject_of": "subjects",
+    "Study": "study", "KINDS": "study", "Outcome": "outcome", "Progress": "engine", "evaluate": "engine", "subject_of": "lines",
     "FormulaSubject": "subjects", "LineSubject": "lines", "monte_carlo": "ensembles", "sobol": "ensembles", "sweep": "grids",
     "parameter_map": "grids", "scenarios": "grids", "optimize": "optimizing", "pareto": "fronts",
 }  # fmt: skip

@@ -21,6 +21,7 @@ from granum.studies.grids import (
 )
 from granum.studies.lines import (
     LineSubject as LineSubject,
+    subject_of as subject_of,
 )
 from granum.studies.optimizing import (
     optimize as optimize,
@@ -33,5 +34,4 @@ from granum.studies.study import (
 )
 from granum.studies.subjects import (
     FormulaSubject as FormulaSubject,
-    subject_of as subject_of,
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import plotly.graph_objects as go
@@ -12,12 +12,14 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.core.symbols import html_symbol
 from granum.core.units import format_number, from_si, pretty_unit
-from granum.studies.ensembles import Ensemble, Sensitivity
-from granum.studies.fronts import Front
-from granum.studies.grids import Map, Sweep
-from granum.studies.optimizing import Optimum
 from granum.studies.outcome import meets
 from granum.studies.subjects import Variable
+
+if TYPE_CHECKING:
+    from granum.studies.ensembles import Ensemble, Sensitivity
+    from granum.studies.fronts import Front
+    from granum.studies.grids import Map, Sweep
+    from granum.studies.optimizing import Optimum
 
 SHOWN = 12
 """Most figures and most bars that are drawn."""

@@ -14,9 +14,10 @@ from granum.core.i18n import _
 from granum.studies.declared import MOST_CASES, limits_of, prepare, sources_of, whole
 from granum.studies.distributions import Source
 from granum.studies.engine import evaluate
+from granum.studies.lines import subject_of
 from granum.studies.outcome import Limits, Outcome, meets, number, wilson
 from granum.studies.sampling import inputs_at, unit_points
-from granum.studies.subjects import NOT_RUN, subject_of
+from granum.studies.subjects import NOT_RUN
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go

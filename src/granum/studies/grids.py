@@ -13,8 +13,9 @@ from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
 from granum.studies.declared import MOST_CASES, limits_of, prepare, si, whole
 from granum.studies.engine import evaluate
+from granum.studies.lines import subject_of
 from granum.studies.outcome import Limits, Outcome, meets, number
-from granum.studies.subjects import Subject, subject_of
+from granum.studies.subjects import Subject
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go

@@ -36,6 +36,7 @@ from granum.studies.subjects import (
     OVERSATURATED,
     TOO_HOT,
     UNMET,
+    FormulaSubject,
     Subject,
     Variable,
     split_index,
@@ -308,3 +309,16 @@ def _declared(thing: Any, names: tuple[str, ...]) -> Parameter:
     card = getattr(type(thing), "card", None)
     found = {p.name: p for p in card.parameters} if card is not None else {}
     return found.get(names[-1], Parameter(names[-1]))
+
+
+def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: Mapping[str, Any] | None = None) -> Subject:
+    """The subject of a study: a line (``granum.read``), a flowsheet, a formula or the key of a card."""
+    if isinstance(thing, Subject):
+        made: Subject = thing
+    elif hasattr(thing, "sheet") or hasattr(thing, "links"):
+        if fixed:
+            raise InputError(_("A line holds its own inputs: change them with 'with_values'."))
+        made = LineSubject.of(thing)
+    else:
+        made = FormulaSubject.of(thing, fixed or {})
+    return made.with_quantities(quantities) if quantities else made

@@ -13,10 +13,11 @@ from granum.core.i18n import _
 from granum.studies.declared import limits_of, prepare, si, sources_of, whole
 from granum.studies.distributions import Source
 from granum.studies.engine import Cases
+from granum.studies.lines import subject_of
 from granum.studies.outcome import Limits
 from granum.studies.sampling import inputs_at, unit_points
 from granum.studies.search import METHODS, Constraint, Found, Search, Span
-from granum.studies.subjects import EXTRAPOLATED, FormulaSubject, Subject, subject_of
+from granum.studies.subjects import EXTRAPOLATED, FormulaSubject, Subject
 
 WIDE = 100.0
 """A range of positive values that spans more than this is searched on a logarithmic scale."""

@@ -352,18 +352,3 @@ class FormulaSubject(Subject):
             return value if index is None else jnp.asarray(value)[index]
 
         return lookup, jnp.asarray(FINE)
-
-
-def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: Mapping[str, Any] | None = None) -> Subject:
-    """The subject of a study: a line (``granum.read``), a flowsheet, a formula or the key of a card."""
-    from granum.studies.lines import LineSubject
-
-    if isinstance(thing, Subject):
-        made: Subject = thing
-    elif hasattr(thing, "sheet") or hasattr(thing, "links"):
-        if fixed:
-            raise InputError(_("A line holds its own inputs: change them with 'with_values'."))
-        made = LineSubject.of(thing)
-    else:
-        made = FormulaSubject.of(thing, fixed or {})
-    return made.with_quantities(quantities) if quantities else made
