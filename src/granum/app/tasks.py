@@ -24,6 +24,7 @@ from granum.core.i18n import _, current_language
 from granum.core.units import format_number
 from granum.flowsheet.watching import Watch
 from granum.reports.quantities import (
+    audit_text,
     check_row,
     defaults_text,
     estimate_rows,
@@ -190,6 +191,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
     outcome = _outcome(payload, tell)
     tell(0.8, _("drawing"))
     data = outcome.as_json()
+    data["audit"]["text"] = audit_text(outcome.audit)
     for name, report in outcome.units.items():
         data["units"][name]["title"] = report.model.card.title
         for p, value in report.figures():

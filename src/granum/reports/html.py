@@ -21,6 +21,7 @@ from granum.core.units import format_number, from_si
 from granum.estimation.results import by_fit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import (
+    audit_text,
     check_row,
     defaults_text,
     estimate_rows,
@@ -162,7 +163,7 @@ def line_report(run: Any) -> str:
     ]
     environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     audit = run.audit
-    numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")}
+    numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")} | {"text": audit_text(audit)}
     return environment.get_template("line.html.j2").render(
         _=_, lang=current_language(), run=run, description=_(described) if described else "",
         title_block=[(label, value) for label, value in block if value], units=units,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from typing import Any, NamedTuple
@@ -275,3 +276,9 @@ def stream_table(run: Any) -> StreamTable:
         heads.append(f"{label} {pretty_unit(unit)}")
         cells.append(["" if math.isnan(x) else format_number(float(from_si(x, unit, kind))) for x in values])
     return StreamTable(tuple(heads), list(zip(streams, map(list, zip(*cells, strict=True)), strict=True)))
+
+
+def audit_text(audit: Mapping[str, Any]) -> str:
+    """To what the balances of a solved line close."""
+    closures = {side: format_number(audit[f"{side}_closure"], 2) for side in ("mass", "energy")}
+    return _("mass closes to {mass}, energy to {energy}").format(**closures)

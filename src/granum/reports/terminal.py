@@ -23,6 +23,7 @@ from granum.core.results import Result
 from granum.core.symbols import text_symbol
 from granum.core.units import format_number, pretty_unit, show
 from granum.reports.quantities import (
+    audit_text,
     check_row,
     defaults_text,
     estimate_rows,
@@ -223,9 +224,7 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
     console.print(table)
     audit = outcome.audit
     closes = audit["mass_closure"] <= 1e-9 and audit["energy_closure"] <= 1e-9
-    words = _("audit: mass closes to {mass}, energy to {energy}").format(
-        mass=format_number(audit["mass_closure"], 2), energy=format_number(audit["energy_closure"], 2)
-    )
+    words = _("audit: {closures}").format(closures=audit_text(audit))
     console.print(Text(words, style=OK if closes else OUT))
     _notices(console, outcome.flags)
     for path in saved:

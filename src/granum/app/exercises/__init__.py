@@ -9,7 +9,7 @@ from typing import Any
 
 from granum.core import registry
 from granum.core.i18n import current_language
-from granum.core.units import pretty_unit
+from granum.core.units import format_number, pretty_unit
 
 
 @cache
@@ -39,6 +39,6 @@ def listing() -> dict[str, Any]:
         for step in exercise["steps"]:
             card = registry.find(step["card"]).card
             step["title"] = card.title
-            step["expected"]["unit"] = pretty_unit(step["expected"]["unit"])
+            step["expected"]["text"] = f"{format_number(step['expected']['value'])} {pretty_unit(step['expected']['unit'])}".strip()
             step["expected"]["label"] = card.parameter(step["expected"]["output"]).label
     return {"exercises": found["exercise"], "quizzes": found["quiz"]}

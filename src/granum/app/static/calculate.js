@@ -118,8 +118,8 @@ function appended(text, value, unit) {
 function Result({ card, values, data, old, kept, keep, clear, choose, laws, setLaws }) {
   const bad = data.flags.length > 0;
   const single = data.shown.length <= 3;
-  return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></div></div>`)
-    : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class=${isPlain(data.outputs[row.name].value) ? 'n' : ''} data-output=${row.name}><${Value} row=${row} raw=${data.outputs[row.name].value} /></td></tr>`)}</tbody></table></div>`}
+  return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}>${row.text}</div></div>`)
+    : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class="n" data-output=${row.name}>${row.text}</td></tr>`)}</tbody></table></div>`}
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>
@@ -146,22 +146,4 @@ function Comparison({ cases, clear }) {
     <tbody>${names.map((name) => html`<tr class="dim"><td>${cases.map((c) => row(c, name)?.label).find(Boolean)}</td>${cases.map((c) => html`<td class="n">${row(c, name)?.text ?? '—'}</td>`)}</tr>`)}
     ${cases[0].shown.map((first, i) => html`<tr><td><strong>${first.label}</strong></td>${cases.map((c) => html`<td class="n"><strong>${c.shown[i].text}</strong></td>`)}</tr>`)}</tbody></table></div>
     <div class="row"><button class="button" onClick=${clear}>${t('Clear')}</button></div>`;
-}
-
-const isPlain = (raw) => !(raw && typeof raw === 'object' && !isSeries(raw));
-const isSeries = (raw) => Array.isArray(raw) && raw.every((x) => typeof x === 'number' || x === null);
-
-function Value({ row, raw }) {
-  return isPlain(raw) ? row.text : html`<${Data} value=${raw} />`;
-}
-
-/** Lists and tables that a procedure returns. */
-function Data({ value }) {
-  if (Array.isArray(value) && value.length && value[0] && typeof value[0] === 'object' && !Array.isArray(value[0])) {
-    const heads = Object.keys(value[0]);
-    return html`<div class="wide small"><table><thead><tr>${heads.map((head) => html`<th scope="col">${head.replaceAll('_', ' ')}</th>`)}</tr></thead><tbody>${value.map((row) => html`<tr>${heads.map((head) => html`<td><${Data} value=${row[head]} /></td>`)}</tr>`)}</tbody></table></div>`;
-  }
-  if (Array.isArray(value)) return html`<ul class="plain small">${value.map((item) => html`<li><${Data} value=${item} /></li>`)}</ul>`;
-  if (value && typeof value === 'object') return html`<dl class="small">${Object.entries(value).map(([name, item]) => html`<dt class="dim">${name.replaceAll('_', ' ')}</dt><dd><${Data} value=${item} /></dd>`)}</dl>`;
-  return html`${value === null || value === undefined ? '—' : typeof value === 'number' ? String(Number(value.toPrecision(4))).replace('.', settings.language === 'fr' ? ',' : '.') : typeof value === 'boolean' ? t(value ? 'yes' : 'no') : String(value)}`;
 }

@@ -61,19 +61,6 @@ export function t(text, values = {}) {
   return found.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 
-export function number(value, digits = 4) {
-  if (value === null || value === undefined || !Number.isFinite(value)) return '—';
-  if (value === 0) return '0';
-  const size = Math.floor(Math.log10(Math.abs(value)));
-  let text;
-  if (size >= -4 && size < 5) text = String(Number(value.toPrecision(digits)));
-  else {
-    const [mantissa, power] = value.toExponential(digits - 1).split('e');
-    text = `${Number(mantissa)} × 10${String(Number(power)).replace(/[-0-9]/g, (c) => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)])}`;
-  }
-  return settings.language === 'fr' ? text.replace('.', ',') : text;
-}
-
 // ---- requests -------------------------------------------------------------------------------------
 const ATTEMPTS = 3;
 let waiting = null;

@@ -1,5 +1,5 @@
 // Exercises: statement on the left, live calculation on the right, the printed answer hidden until asked for; quizzes under them.
-import { html, t, ask, link, number, useAnswer, useState, settings } from './core.js';
+import { html, t, ask, link, useAnswer, useState, settings } from './core.js';
 import { Quiz } from './quiz.js';
 
 export function Exercises({ state }) {
@@ -27,7 +27,7 @@ function Step({ step }) {
     <div class="row"><button class="button" aria-expanded=${String(told)} onClick=${() => setTold(!told)}>${told ? t('Hide the answer') : t('Show the answer')}</button>
       <button class="button" aria-expanded=${String(open)} onClick=${() => setOpen(!open)}>${open ? t('Hide the calculation') : t('Show the calculation')}</button>
       <a href=${link('calculate', step.card, step.inputs)}>${t('Open in Calculate')}</a></div>
-    <div aria-live="polite">${told && html`<p data-answer><strong>${x.label} = ${number(x.value)} ${x.unit}</strong> <span class="dim">(${t('as printed in the course')})</span></p>${step.remark && html`<p class="small dim">${step.remark}</p>`}`}
+    <div aria-live="polite">${told && html`<p data-answer><strong>${x.label} = ${x.text}</strong> <span class="dim">(${t('as printed in the course')})</span></p>${step.remark && html`<p class="small dim">${step.remark}</p>`}`}
     ${calculated.error && html`<p class="message out">${calculated.error.message}</p>`}
     ${open && row && html`<div class="card"><div class="dim">${step.title}</div>${calculated.data.equation && html`<div class="equation" tabindex="0" role="region" aria-label=${t('Equation')} dangerouslySetInnerHTML=${{ __html: calculated.data.equation }} />`}
       <p class="small">${calculated.data.inputs_shown.map((r, i) => html`${i > 0 ? ' ; ' : ''}<span class="pair"><span dangerouslySetInnerHTML=${{ __html: r.symbol }} /> = ${r.text}</span>`)}</p>

@@ -1,5 +1,5 @@
 // Lines: open or write a case file, edit it through forms made from the declarations, solve it, click through units and streams, compare, report.
-import { html, t, ask, link, number, useState, useEffect, useRef, remember, recall, replaceLink, download, stoppable, Plot, Working } from './core.js';
+import { html, t, ask, link, useState, useEffect, useRef, remember, recall, replaceLink, download, stoppable, Plot, Working } from './core.js';
 import { caseAt, keepDraft, packed } from './drafts.js';
 import { Field } from './form.js';
 
@@ -173,11 +173,9 @@ function Outcome({ data, kept, form, typedIn, tools, clear }) {
     event.preventDefault();
     choose(found.dataset.unit ? { sort: 'unit', name: found.dataset.unit } : { sort: 'stream', name: found.dataset.stream });
   };
-  const closes = [data.audit.mass_closure, data.audit.energy_closure].every((off) => off !== null && off <= 1e-9);
   const cases = [...kept, { ...data, form }];
   return html`<div class="row spread"><h2 class="first">${data.title}</h2><div class="row">${tools}</div></div>
-    ${closes ? html`<p class="ok">● ${t('mass closes to {mass}, energy to {energy}', { mass: number(data.audit.mass_closure, 2), energy: number(data.audit.energy_closure, 2) })}</p>`
-      : html`<p class="message out" role="alert">▲ ${t('The balances do not close: mass is {mass} % off, energy {energy} %. Do not use these figures.', { mass: number(100 * data.audit.mass_closure, 2), energy: number(100 * data.audit.energy_closure, 2) })}</p>`}<div class=${closes ? '' : 'stale'}>
+    <p class="ok">● ${data.audit.text}</p><div>
     <div class="diagram" tabindex="0" role="region" aria-label=${t('Flow diagram')} onClick=${pick} onKeyDown=${pick} dangerouslySetInnerHTML=${{ __html: data.diagram }} />
     <p class="small dim">${t('Click a unit or a stream, or reach it with the tabulator key and press Enter.')}</p>
     <div ref=${panel} aria-live="polite">${chosen.sort === 'stream' && data.streams[chosen.name] && html`<div class="card" data-panel=${chosen.name}><h3>${chosen.name}</h3><${StreamPanel} stream=${data.streams[chosen.name]} /></div>`}
@@ -200,7 +198,7 @@ function Comparison({ cases, clear }) {
         for (const p of item.parameters) put(inputs, `${sort}.${name}.${p.name}`, `${name}: ${p.label}`, i, item.values[p.name] ?? '—');
       }
     }
-    for (const [name, unit] of Object.entries(c.units)) for (const [key, row] of Object.entries(unit.results)) put(figures, `${name}.${key}`, `${name}: ${row.label}`, i, row.text ?? number(row.value));
+    for (const [name, unit] of Object.entries(c.units)) for (const [key, row] of Object.entries(unit.results)) put(figures, `${name}.${key}`, `${name}: ${row.label}`, i, row.text);
   });
   const differ = ([, row]) => cases.some((_, i) => row.values[i] !== row.values[0]);
   const body = (rows, strong) => [...rows].filter(differ).map(([key, row]) => html`<tr key=${key} class=${strong ? '' : 'dim'}><td>${row.label}</td>${cases.map((_, i) => html`<td class="n">${strong ? html`<strong>${row.values[i] ?? '—'}</strong>` : row.values[i] ?? '—'}</td>`)}</tr>`);
@@ -217,7 +215,7 @@ function put(rows, key, label, index, value) {
 
 function UnitPanel({ name, unit, cases }) {
   return html`<h3>${name} <span class="dim">${unit.title || unit.model}</span></h3><div class="wide" tabindex="0" role="region" aria-label=${name}><table>${cases.length > 1 && html`<thead><tr><td></td>${cases.map((_, i) => html`<th class="n" scope="col">${i + 1}</th>`)}</tr></thead>`}<tbody>
-    ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? number(c.units[name]?.results[figure]?.value)}</td>`)}</tr>`)}
+    ${Object.entries(unit.results).map(([figure, row]) => html`<tr><td>${row.label || figure.replaceAll('_', ' ')}</td>${cases.map((c) => html`<td class="n" data-figure=${name + '.' + figure}>${c.units[name]?.results[figure]?.text ?? '—'}</td>`)}</tr>`)}
     ${unit.checks.map((c) => html`<tr class=${c.ok ? 'ok' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n" colspan=${cases.length}>${c.text} <span class="dim">(${c.allowed})</span></td></tr>`)}</tbody></table></div>`;
 }
 
