@@ -86,7 +86,14 @@ class LewickiThree(_Called):
         return activity_by_search(self, X, T)
 
 
-@law("isotherm", name="isotherm_halsey", source="halsey1948", title="Halsey isotherm", equation=r"a = \exp(-A\,X^{-B})")
+@law(
+    "isotherm",
+    name="isotherm_halsey",
+    source="halsey1948; iglesias1976model",
+    fitted={"water_activity": (0.1, 0.8)},
+    title="Halsey isotherm",
+    equation=r"a = \exp(-A\,X^{-B})",
+)
 class Halsey(_Called):
     """Halsey's condensation at a distance from the surface; starchy foods, 0.1 to 0.8.
 
@@ -109,6 +116,7 @@ class Halsey(_Called):
     "isotherm",
     name="isotherm_ferro_fontan",
     source="ferrofontan1982",
+    fitted={"water_activity": (0.0, 0.95)},
     title="Ferro-Fontán isotherm",
     equation=r"\ln\frac{\gamma}{a} = b\,X^{-r}",
 )
@@ -152,7 +160,14 @@ class Henderson(_Called):
         return -jnp.expm1(-self.isotherm_coefficient * jnp.asarray(T) * jnp.maximum(X, 1e-30) ** self.isotherm_exponent)
 
 
-@law("isotherm", name="isotherm_smith", source="smith1947", title="Smith isotherm", equation=r"X = A - B\,\ln(1-a)")
+@law(
+    "isotherm",
+    name="isotherm_smith",
+    source="smith1947",
+    fitted={"water_activity": (0.3, 0.95)},
+    title="Smith isotherm",
+    equation=r"X = A - B\,\ln(1-a)",
+)
 class Smith(_Called):
     """Smith's logarithmic form for high polymers, from 0.3 to 0.9 or 0.95.
 
@@ -244,7 +259,14 @@ class IglesiasChirife(_Called):
         return jnp.clip(a, 0.0, 1.0)
 
 
-@law("isotherm", name="isotherm_caurie", source="caurie1970", title="Caurie isotherm", equation=r"\ln X = A + B\,a")
+@law(
+    "isotherm",
+    name="isotherm_caurie",
+    source="caurie1970",
+    fitted={"water_activity": (0.0, 0.85)},
+    title="Caurie isotherm",
+    equation=r"\ln X = A + B\,a",
+)
 class Caurie(_Called):
     """Caurie's exponential, from no water to 0.85.
 
@@ -263,7 +285,14 @@ class Caurie(_Called):
         return jnp.clip((jnp.log(jnp.maximum(X, 1e-30)) - self.isotherm_coefficient) / self.isotherm_coefficient_second, 0.0, 1.0)
 
 
-@law("isotherm", name="isotherm_kuhn", source="kuhn1964", title="Kuhn isotherm", equation=r"X = \frac{A}{-\ln a} + B")
+@law(
+    "isotherm",
+    name="isotherm_kuhn",
+    source="kuhn1964",
+    fitted={"water_activity": (0.0, 0.5)},
+    title="Kuhn isotherm",
+    equation=r"X = \frac{A}{-\ln a} + B",
+)
 class Kuhn(_Called):
     """Kuhn's potential form, below 0.5. Written with −ln a so that A is positive.
 

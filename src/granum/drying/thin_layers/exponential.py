@@ -105,12 +105,15 @@ class Weibull(_Called):
 @law(
     "thin_layer",
     name="thin_layer_henderson_pabis",
-    source="henderson1961",
+    source="henderson1961; crank1975, eq. 4.18",
+    fitted={"thin_layer": (0.0, 0.6)},
     title="Thin layer, Henderson–Pabis",
     equation=r"MR = a\,e^{-kt}",
 )
 class HendersonPabis(_Called):
     """First term of the diffusion series with a free factor; it need not start at 1.
+
+    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less than a hundredth of it.
 
     >>> round(float(HendersonPabis(model_factor=1.0, rate_constant=1e-3)(1000.0)), 4)
     0.3679
@@ -129,9 +132,18 @@ class HendersonPabis(_Called):
         return {"model_factor": 1.0, "rate_constant": k}
 
 
-@law("thin_layer", name="thin_layer_logarithmic", source="yagcioglu1999", title="Thin layer, logarithmic", equation=r"MR = a\,e^{-kt} + c")
+@law(
+    "thin_layer",
+    name="thin_layer_logarithmic",
+    source="yagcioglu1999; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, logarithmic",
+    equation=r"MR = a\,e^{-kt} + c",
+)
 class Logarithmic(_Called):
     """Henderson and Pabis with an offset, which often makes good for a wrong equilibrium moisture.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Logarithmic(model_factor=1.0, rate_constant=1e-3, model_offset=0.0)(1000.0)), 4)
     0.3679
@@ -154,12 +166,15 @@ class Logarithmic(_Called):
 @law(
     "thin_layer",
     name="thin_layer_two_term",
-    source="henderson1974",
+    source="henderson1974; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, two-term",
     equation=r"MR = a\,e^{-k_1 t} + b\,e^{-k_2 t}",
 )
 class TwoTerm(_Called):
     """Two exponentials with free factors.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(TwoTerm(0.5, 1e-3, 0.5, 1e-3)(1000.0)), 4)
     0.3679
@@ -251,10 +266,12 @@ class DiffusionApproach(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_ratio": 3.5}
 
 
-@law("thin_layer", name="thin_layer_henderson_pabis_modified", source="karathanos1999", title="Thin layer, modified Henderson–Pabis",
+@law("thin_layer", name="thin_layer_henderson_pabis_modified", source="karathanos1999; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, modified Henderson–Pabis",
      equation=r"MR = a\,e^{-kt} + b\,e^{-gt} + c\,e^{-ht}")  # fmt: skip
 class HendersonPabisModified(_Called):
     """Three exponentials; six parameters that few data can tell apart.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(HendersonPabisModified(0.4, 1e-3, 0.3, 1e-3, 0.3, 1e-3)(1000.0)), 4)
     0.3679
