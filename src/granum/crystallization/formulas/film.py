@@ -63,6 +63,7 @@ def _interface(C, C_star, kd, kr, r):
 
 @formula(
     source="mullin2001, ch. 6; garside1985",
+    fitted={"integration_order": (1.0, 2.0)},
     equation=r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r",
     title="Crystal growth by diffusion and integration in series",
 )
@@ -80,6 +81,8 @@ def film_growth(
 
     The effectiveness factor is the flux over the one that integration alone would allow: 1 means integration controls, 0
     diffusion. For order 1 the resistances add.
+
+    Mullin gives orders of integration between 1 and 2.
 
     >>> flux, surface, factor = film_growth(solute_concentration=110, solubility_concentration=100, diffusion_coefficient=1e-5,
     ...                                     integration_coefficient=1e-5, integration_order=1.0)
@@ -140,13 +143,15 @@ def diffusion_coefficient_sherwood(
     return sherwood_number * diffusivity / crystal_size
 
 
-@law("growth_rate", name="film_growth_law", source="mullin2001, ch. 6", title="Growth by diffusion and integration in series",
+@law("growth_rate", name="film_growth_law", source="mullin2001, ch. 6", fitted={"integration_order": (1.0, 2.0)}, title="Growth by diffusion and integration in series",
      equation=r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r,\quad G = \frac{k_a \Phi}{3 k_v \rho_c}")  # fmt: skip
 class FilmGrowthLaw(GrowthLaw):
     """Growth by diffusion through the film and integration at the surface in series, both with activation energies.
 
     Concentrations are taken per volume of solution with a constant density of the solution. ``diffusion_coefficient`` and
     ``integration_coefficient`` multiply ``exp(-E/RT)``; the latter is the flux at a driving force of 1 kg/m³, in kg/(m² s) at every order.
+
+    Mullin gives orders of integration between 1 and 2.
     """
 
     diffusion_coefficient: MassTransferCoefficient
@@ -171,6 +176,7 @@ class FilmGrowthLaw(GrowthLaw):
 
 @formula(
     source="mullin2001, ch. 6",
+    fitted={"integration_order": (1.0, 2.0)},
     equation=r"\mathrm{Da} = \frac{k_r}{k_d\,c_0}\left(\frac{C-C^*}{c_0}\right)^{r-1},\ c_0 = 1\ \mathrm{kg/m^3}",
     output="damkohler_growth",
 )
@@ -184,6 +190,8 @@ def damkohler_growth(
     """Damköhler number of crystal growth: integration rate over mass transfer rate at the full driving force.
 
     Well above 1 diffusion controls the growth, well below 1 the integration does.
+
+    Mullin gives orders of integration between 1 and 2.
 
     >>> damkohler_growth(solute_concentration=110, solubility_concentration=100, diffusion_coefficient=1e-5,
     ...                  integration_coefficient=1e-5, integration_order=1.0)

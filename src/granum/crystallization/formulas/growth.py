@@ -34,6 +34,7 @@ def arrhenius(activation_energy: Any, temperature: Any) -> Any:
 
 @formula(
     source="mullin2001, ch. 6",
+    fitted={"growth_order": (1.0, 2.0)},
     equation=r"G = k_g\,e^{-E_g/RT}\,\sigma^g",
     family="growth_formula",
 )
@@ -48,6 +49,8 @@ def growth_rate_power(
 
     Zero at and below saturation. Potassium nitrate of Miller and Rawlings: 6967 µm/min and order 1.32.
 
+    Mullin gives orders between 1 and 2.
+
     >>> round(growth_rate_power(relative_supersaturation=0.01, growth_coefficient=6967e-6 / 60, growth_order=1.32) * 60e6, 2)
     15.96
     """
@@ -55,12 +58,14 @@ def growth_rate_power(
     return k * safe_power(relative_supersaturation, growth_order)
 
 
-@law("growth_rate", name="power_law_growth", source="mullin2001, ch. 6", title="Growth rate by a power law",
+@law("growth_rate", name="power_law_growth", source="mullin2001, ch. 6", fitted={"growth_order": (1.0, 2.0)}, title="Growth rate by a power law",
      equation=r"G = k_g\,e^{-E_g/RT}\,S^g")  # fmt: skip
 class PowerLawGrowth(GrowthLaw):
     """Growth rate proportional to a power of the driving force, with Arrhenius temperature dependence.
 
     ``growth_coefficient`` is in m/s per (unit of the driving force)^order.
+
+    Mullin gives orders between 1 and 2.
     """
 
     growth_coefficient: RateCoefficient

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.constants import BOLTZMANN, STANDARD_GRAVITY
 from granum.core.kinds import (
     Concentration,
@@ -146,7 +146,8 @@ def collector_efficiency_tufenkji(
 
 
 @formula(
-    source="carman1938",
+    source="carman1938; carman1937",
+    fitted={"reynolds_bed": (0.0, 10.0)},
     equation=r"\frac{H}{L} = \frac{36\,h_K\,\eta\,u\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 d_c^2\,\varepsilon^3}",
     output="head_loss",
     typical={
@@ -167,10 +168,13 @@ def head_loss_clean_bed(
 ) -> Distance:
     """Head loss of a clean bed of sand in laminar flow; the diameter is the surface–volume one.
 
+    Laminar up to a Reynolds number of the bed of 10, as for ``pressure_gradient_kozeny_carman``.
+
     >>> round(head_loss_clean_bed(1.0, "0.6 mm", "2 mm/s", 0.4, 1e-3, 1000), 3)
     0.574
     """
     e = void_fraction
+    watch(reynolds_bed=liquid_density * superficial_velocity * collector_diameter / (dynamic_viscosity * (1.0 - e)))
     return (
         36.0 * kozeny_coefficient * dynamic_viscosity * superficial_velocity * (1.0 - e) ** 2 * bed_depth
         / (liquid_density * STANDARD_GRAVITY * collector_diameter**2 * e**3)
