@@ -187,12 +187,14 @@ class PowerBreakage(Breakage):
         return 2.0 * (b - a) / parent, (b**2 - a**2) / parent**2
 
 
-@law("breakage_law", name="attrition", source="garside1985", title="Attrition: small chips from large crystals",
+@law("breakage_law", name="attrition", source="garside1985", fitted={"chip_fraction": (0.0, 0.5)}, title="Attrition: small chips from large crystals",
      equation=r"S = S_0 (L/L_{ref})^p,\quad \text{chips of volume share } w")  # fmt: skip
 class Attrition(Breakage):
     """Chipping: each event takes a small share of the volume off a crystal as chips spread evenly in volume up to that share.
 
     The parent keeps the rest; the number of chips follows from their mean volume.
+
+    A chip can be no larger than what is left: the share of an event is at most a half.
     """
 
     breakage_frequency: Frequency

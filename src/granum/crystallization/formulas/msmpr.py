@@ -200,7 +200,8 @@ def relative_nucleation_order(nucleation_order: PositiveNumber, growth_order: Po
 
 
 @formula(
-    source="randolph1988, ch. 4",
+    source="randolph1988, ch. 4; garside1985",
+    fitted={"magma_order": (0.4, 2.0)},
     equation=r"\frac{L_{D,2}}{L_{D,1}} = \left(\frac{\tau_2}{\tau_1}\right)^{\frac{i-1}{i+3}} \left(\frac{M_{T,2}}{M_{T,1}}\right)^{\frac{1-j}{i+3}}",
     output="dominant_size",
     typical={"residence_time_ratio": (0.25, 4.0), "magma_density_ratio": (0.3, 3.0)},
@@ -215,6 +216,8 @@ def dominant_size_changed(
     """Dominant size of an ideal continuous crystallizer after residence time and magma density have changed.
 
     With a relative order of 1 the residence time has no effect: longer time, less supersaturation, fewer nuclei.
+
+    Garside's review has orders in the magma density from 0.4 to 2.
 
     >>> round(dominant_size_changed(dominant_size=500e-6, residence_time_ratio=2.0, magma_density_ratio=1.0, relative_nucleation_order=3.0)
     ...       * 1e6, 1)

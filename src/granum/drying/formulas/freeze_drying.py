@@ -236,7 +236,7 @@ def freeze_drying_slab(
     return SlabFreezeDrying(T, ice_vapor_pressure(T), time)
 
 
-@formula(source="patel2010; searles2004", equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",
+@formula(source="patel2010; searles2004", fitted={"discharge_coefficient": (0.0, 1.0)}, equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",
          typical={"duct_diameter": (0.1, 0.6), "pressure_chamber": (3.0, 30.0), "temperature": (260.0, 300.0), "discharge_coefficient": (0.6, 1.0)},
          title="Choked flow in the duct of a freeze dryer")  # fmt: skip
 def choked_flow_rate(
@@ -248,6 +248,8 @@ def choked_flow_rate(
     0.75 for five diameters of a smooth duct, less with baffles.
 
     By hand: 10 Pa on 1 m² at 300 K without loss is 10·√(1.33/(461.5·300))·0.5826 = 18.1 g/s.
+
+    A coefficient of 1 is the duct without loss.
 
     >>> round(choked_flow_rate(10.0, (4 / 3.141592653589793)**0.5, 300.0, 1.0) * 1e3, 1)
     18.1

@@ -85,7 +85,7 @@ def residence_time_saeman_mitchell(
 @formula(
     source="friedman1949part2; treybal1980, ch. 12",
     equation=r"U a = K\,\frac{G^{n}}{D}",
-    fitted={"gas_mass_flux": (0.3, 7.0)},
+    fitted={"gas_mass_flux": (0.3, 7.0), "transfer_exponent": (0.46, 0.67)},
     typical={"gas_mass_flux": (0.5, 5.0), "diameter": (0.5, 3.0), "transfer_constant": (150.0, 350.0), "transfer_exponent": (0.46, 0.67)},
     title="Volumetric heat transfer in a rotary drum",
 )

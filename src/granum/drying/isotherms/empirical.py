@@ -19,9 +19,18 @@ class _Called(AbstractIsotherm):
         return self.moisture(water_activity, temperature)
 
 
-@law("isotherm", name="isotherm_oswin", source="oswin1946", title="Oswin isotherm", equation=r"X = (A + A_1 t)\left(\frac{a}{1-a}\right)^B")
+@law(
+    "isotherm",
+    name="isotherm_oswin",
+    source="oswin1946; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Oswin isotherm",
+    equation=r"X = (A + A_1 t)\left(\frac{a}{1-a}\right)^B",
+)
 class Oswin(_Called):
     """Oswin's power of a/(1 − a), with the coefficient linear in °C; starch, meat, vegetables.
+
+    Its curve is that of ``isotherm_oswin_modified``: the data behind the standard lie between 0.2 and 0.95.
 
     >>> round(float(Oswin(isotherm_coefficient=0.1, isotherm_exponent=0.5)(0.8)), 3)
     0.2
@@ -44,10 +53,12 @@ class Oswin(_Called):
         return ratio / (1.0 + ratio)
 
 
-@law("isotherm", name="isotherm_lewicki_two", source="lewicki1998", title="Lewicki isotherm, two parameters",
+@law("isotherm", name="isotherm_lewicki_two", source="lewicki1998; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Lewicki isotherm, two parameters",
      equation=r"X = A\left(\frac1a-1\right)^{B-1}")  # fmt: skip
 class LewickiTwo(_Called):
     """Lewicki's two-parameter form: the curve of Oswin with exponent 1 − B.
+
+    The range is that of ``isotherm_oswin_modified``.
 
     >>> round(float(LewickiTwo(isotherm_coefficient=0.1, isotherm_exponent=0.5)(0.8)), 3)
     0.2
@@ -141,9 +152,18 @@ class FerroFontan(_Called):
         return jnp.minimum(a, 1.0)
 
 
-@law("isotherm", name="isotherm_henderson", source="henderson1952", title="Henderson isotherm", equation=r"1 - a = \exp(-A\,T\,X^{B})")
+@law(
+    "isotherm",
+    name="isotherm_henderson",
+    source="henderson1952; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Henderson isotherm",
+    equation=r"1 - a = \exp(-A\,T\,X^{B})",
+)
 class Henderson(_Called):
     """Henderson's form with the absolute temperature; X a mass ratio, T in kelvin.
+
+    Its curve is that of ``isotherm_henderson_modified``: the data behind the standard lie between 0.2 and 0.95.
 
     >>> round(float(Henderson(isotherm_coefficient=0.2, isotherm_exponent=2.0).activity(0.1, 300.0)), 4)
     0.4512
@@ -311,9 +331,18 @@ class Kuhn(_Called):
         return jnp.exp(-self.isotherm_coefficient / jnp.maximum(X - self.isotherm_coefficient_second, 1e-12))
 
 
-@law("isotherm", name="isotherm_bradley", source="bradley1936", title="Bradley isotherm", equation=r"-\ln a = K_2 K_1^{X}")
+@law(
+    "isotherm",
+    name="isotherm_bradley",
+    source="bradley1936; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Bradley isotherm",
+    equation=r"-\ln a = K_2 K_1^{X}",
+)
 class Bradley(_Called):
     """Bradley's polarized layers: at one temperature the curve of Chung and Pfost.
+
+    The range is that of ``isotherm_chung_pfost``.
 
     >>> round(float(Bradley(isotherm_base=1e-5, isotherm_coefficient=3.0).activity(0.1, 298.15)), 4)
     0.3873

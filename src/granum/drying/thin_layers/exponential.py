@@ -196,10 +196,12 @@ class TwoTerm(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "model_factor_second": 0.4, "rate_constant_second": 2.5 * k}
 
 
-@law("thin_layer", name="thin_layer_two_term_exponential", source="sharafeldeen1980", title="Thin layer, two-term exponential",
+@law("thin_layer", name="thin_layer_two_term_exponential", source="sharafeldeen1980; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, two-term exponential",
      equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kat}")  # fmt: skip
 class TwoTermExponential(_Called):
     """Two exponentials that share one factor and start at 1.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(TwoTermExponential(1.0, 1e-3)(1000.0)), 4)
     0.3679
@@ -219,9 +221,18 @@ class TwoTermExponential(_Called):
         return {"model_factor": 1.6, "rate_constant": 1.2 * k}
 
 
-@law("thin_layer", name="thin_layer_verma", source="verma1985", title="Thin layer, Verma", equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-gt}")
+@law(
+    "thin_layer",
+    name="thin_layer_verma",
+    source="verma1985; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Verma",
+    equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-gt}",
+)
 class Verma(_Called):
     """Two exponentials that start at 1.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Verma(0.5, 1e-3, 1e-3)(1000.0)), 4)
     0.3679
@@ -242,10 +253,12 @@ class Verma(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_constant_second": 2.5 * k}
 
 
-@law("thin_layer", name="thin_layer_diffusion_approach", source="yaldiz2001", title="Thin layer, diffusion approach",
+@law("thin_layer", name="thin_layer_diffusion_approach", source="yaldiz2001; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, diffusion approach",
      equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kbt}")  # fmt: skip
 class DiffusionApproach(_Called):
     """Verma's curve with g written as k b.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(DiffusionApproach(0.5, 1e-3, 1.0)(1000.0)), 4)
     0.3679

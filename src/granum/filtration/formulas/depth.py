@@ -108,7 +108,7 @@ def filter_coefficient(
 
 
 @formula(
-    source="tufenkji2004",
+    source="tufenkji2004", fitted={"particle_diameter": (1e-8, 1e-5)},
     equation=r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + 0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}",
     output="collector_efficiency",
     typical={"particle_diameter": (1e-7, 5e-6), "collector_diameter": (2e-4, 1e-3), "superficial_velocity": (1e-4, 3e-3),
@@ -129,6 +129,8 @@ def collector_efficiency_tufenkji(
     """Single-collector contact efficiency in a granular bed: diffusion, interception and gravity with van der Waals attraction.
 
     A buoyant particle gets no gravity term.
+
+    Trajectories were computed for particles of 0.01 to 10 µm.
 
     >>> round(collector_efficiency_tufenkji("1 um", "0.6 mm", "2 mm/s", 0.4, 1050, 998, 1e-3), 5)
     0.00053
