@@ -51,7 +51,7 @@ def residence_time_friedman_marshall(
 
 
 @formula(
-    source="saeman1954; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, 3.15)},
+    source="saeman1954; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, pi)},
     equation=r"\tau = \frac{L}{f\,N\,D\,(S \mp m\,u)}",
     typical={"length": (3.0, 30.0), "diameter": (0.5, 3.0), "drum_slope": (0.02, 0.08), "rotation_speed": (0.1, 0.6), "gas_velocity": (0.0, 2.0)},
     output="residence_time",

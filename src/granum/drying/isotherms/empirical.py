@@ -359,9 +359,18 @@ class Bradley(_Called):
         return jnp.exp(-self.isotherm_coefficient * self.isotherm_base ** jnp.asarray(X))
 
 
-@law("isotherm", name="isotherm_chen", source="chen1971", title="Chen isotherm", equation=r"\ln a = K - A\,e^{-B X}")
+@law(
+    "isotherm",
+    name="isotherm_chen",
+    source="chen1971; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Chen isotherm",
+    equation=r"\ln a = K - A\,e^{-B X}",
+)
 class Chen(_Called):
     """Chen's form; with K = 0, for products with little bound water, it is the curve of Chung and Pfost.
+
+    The range is that of ``isotherm_chung_pfost``.
 
     >>> round(float(Chen(isotherm_coefficient=3.0, isotherm_exponent=11.5129).activity(0.1, 298.15)), 3)
     0.387
