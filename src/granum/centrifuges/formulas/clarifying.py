@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.flags import impossible
 from granum.core.kinds import (
@@ -35,6 +37,11 @@ _MUD = {
     "sigma_factor": (500.0, 50000.0),
     "volume_flow": (1e-4, 1e-2),
 }
+
+
+def stokes_velocity(diameter: Any, excess: Any, viscosity: Any) -> Any:
+    """Settling velocity under gravity by Stokes' law, from the excess of density."""
+    return diameter**2 * excess * STANDARD_GRAVITY / (18.0 * viscosity)
 
 
 @formula(
@@ -162,7 +169,8 @@ def sigma_factor_bottle(volume: Volume, radius_inner: Length, radius_outer: Leng
 
 
 @formula(
-    source="ambler1959",
+    source="ambler1959; richardson2002, ch. 9",
+    fitted={"reynolds": (0.0, 2.0)},
     equation=r"d = \sqrt{\frac{18\,\eta\,Q}{j\,E\,\Sigma\,g\,(\rho_p - \rho_f)}}",
     typical=_MUD,
 )
@@ -180,6 +188,8 @@ def cut_size_centrifuge(
     The flow multiple goes with the convention of Sigma: 1 where Q = v_g Σ (the size caught completely), 2 where Q = 2 v_g Σ (half
     caught). Real machines reach 0.9 to 1 (tubular), 0.45 to 0.6 (disc) or 0.5 to 0.7 (scroll) of their Sigma.
 
+    The particle must settle by Stokes' law, under gravity at the least, where its Reynolds number is checked.
+
     >>> round(cut_size_centrifuge(0.002832 / 3600, 196.3, 1461, 801, 0.1, flow_multiple=2.0) * 1e6, 3)
     0.746
     """
@@ -187,11 +197,14 @@ def cut_size_centrifuge(
     some = excess > 0
     impossible(~some, particle_density, "particle_density", fluid_density, jnp.inf)
     settled = flow_multiple * sigma_efficiency * sigma_factor * STANDARD_GRAVITY * jnp.where(some, excess, 1.0)
-    return jnp.where(some, jnp.sqrt(18.0 * dynamic_viscosity * volume_flow / settled), jnp.inf)
+    d = jnp.sqrt(18.0 * dynamic_viscosity * volume_flow / settled)
+    watch(reynolds=fluid_density * stokes_velocity(d, jnp.where(some, excess, 1.0), dynamic_viscosity) * d / dynamic_viscosity)
+    return jnp.where(some, d, jnp.inf)
 
 
 @formula(
-    source="ambler1959",
+    source="ambler1959; richardson2002, ch. 9",
+    fitted={"reynolds": (0.0, 2.0)},
     equation=r"Q = j\,E\,\Sigma\,\frac{d^2 (\rho_p - \rho_f)\,g}{18\,\eta}",
     typical={**_MUD, "particle_diameter": (1e-6, 1e-5)},
 )
@@ -206,11 +219,14 @@ def volume_flow_centrifuge(
 ) -> VolumeFlow:
     """Flow at which a centrifuge catches a size; the way back from the cut size, with the same conventions.
 
+    The particle must settle by Stokes' law, under gravity at the least, where its Reynolds number is checked.
+
     >>> round(volume_flow_centrifuge("0.746 um", 196.3, 1461, 801, 0.1, flow_multiple=2.0) * 3600, 6)
     0.002828
     """
     excess = jnp.maximum(jnp.asarray(particle_density) - fluid_density, 0.0)
-    velocity = particle_diameter**2 * excess * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
+    velocity = stokes_velocity(particle_diameter, excess, dynamic_viscosity)
+    watch(reynolds=fluid_density * velocity * particle_diameter / dynamic_viscosity)
     return flow_multiple * sigma_efficiency * sigma_factor * velocity
 
 
@@ -319,7 +335,8 @@ def radius_heavy_dam(radius_interface: Length, radius_light: Length, density_hea
 
 
 @formula(
-    source="perry2008, § 18",
+    source="perry2008, § 18; budynas2015, ch. 3",
+    fitted={"thickness_ratio": (0.0, 0.1)},
     equation=r"\sigma_\theta = \rho_m\,\omega^2 R^2 + \frac{p R}{s}",
     typical={"bowl_radius": (0.1, 0.5), "wall_thickness": (5e-3, 3e-2), "rotation_speed": (100.0, 600.0), "pressure": (1e5, 5e6)},
 )
@@ -328,7 +345,10 @@ def hoop_stress_bowl(
 ) -> Stress:
     """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
 
+    A wall counts as thin up to a tenth of its radius (Budynas and Nisbett).
+
     >>> round(hoop_stress_bowl(0.3, 0.01, 300, 1e6) / 1e6, 1)
     93.6
     """
+    watch(thickness_ratio=wall_thickness / bowl_radius)
     return wall_density * (rotation_speed * bowl_radius) ** 2 + pressure * bowl_radius / wall_thickness

@@ -92,12 +92,14 @@ def screening_capacity_karra(
     return jnp.where(A > 0.0, A, jnp.nan) * factors * 0.844 * (1.0 - X) ** 3.453 * TONNE_PER_HOUR
 
 
-@formula(source="karra1979; king2012", equation=r"\frac{d_{50}}{h_T} = \left(\frac{\dot m''}{\dot m''_U}\right)^{-0.148}",
+@formula(source="karra1979; king2012", fitted={"throughfall_aperture": (0.001, 0.1)}, equation=r"\frac{d_{50}}{h_T} = \left(\frac{\dot m''}{\dot m''_U}\right)^{-0.148}",
          typical={"mass_flux_undersize": (1.0, 8.0), "screening_capacity": (1.0, 8.0), "throughfall_aperture": (3e-3, 5e-2)})  # fmt: skip
 def cut_size_karra(throughfall_aperture: Length, mass_flux_undersize: MassFlux, screening_capacity: MassFlux) -> Length:
     """Size that half passes a loaded vibrating screen: the more undersize per area, the finer the cut.
 
     The partition curve is that of Rosin and Rammler's form with the exponent 5.846. The law knows no upper limit for an idle screen.
+
+    The apertures are those of ``screening_capacity_karra``.
 
     >>> round(cut_size_karra("20 mm", mass_flux_undersize=6.0, screening_capacity=3.0) * 1e3, 2)
     18.05

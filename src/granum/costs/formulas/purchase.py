@@ -23,11 +23,12 @@ class EquipmentCost(NamedTuple):
 
 
 def _cost(equipment: str, value: Any, name: str, card: str, cost_index: Any, unit: float = 1.0) -> EquipmentCost:
-    """``unit``: SI units in the unit of the table."""
+    """``unit``: SI units in the unit of the table. Without a card the range is the same for all choices, and the formula declares it."""
     row = correlations()[equipment]
     low, high = row.smallest * unit, row.largest * unit
     flags.impossible(~(value > 0), value, name, 0.0, jnp.inf)
-    flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, name, card, low, high, "turton2018, table A.1")
+    if card:
+        flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, name, card, low, high, "turton2018, table A.1")
     decades = jnp.log10(value / unit)
     bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX
     return EquipmentCost(bought, bought * row.bare_module_factor)
@@ -64,7 +65,7 @@ def equipment_cost_by_area(
     return _cost(equipment_by_area, area, "area", "costs.equipment_cost_by_area", cost_index)
 
 
-@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a shell-and-tube exchanger", typical={"area": (20.0, 500.0)},
+@formula(source="turton2018, eq. A.1, table A.1", fitted={"area": (10.0, 1000.0)}, title="Cost of a shell-and-tube exchanger", typical={"area": (20.0, 500.0)},
          equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2")  # fmt: skip
 def purchased_cost_exchanger(
     area: Area,
@@ -78,7 +79,7 @@ def purchased_cost_exchanger(
     >>> round(purchased_cost_exchanger(exchanger="floating_head_exchanger", area=100.0), -3)
     25000.0
     """
-    return _cost(exchanger, area, "area", "costs.purchased_cost_exchanger", cost_index).purchased_cost
+    return _cost(exchanger, area, "area", "", cost_index).purchased_cost
 
 
 @formula(
@@ -105,7 +106,10 @@ def equipment_cost_by_volume(
 
 
 @formula(
-    source="turton2018, eq. A.1, tables A.1 and A.7", equation=_EQUATION, title="Cost of a centrifuge", typical={"diameter": (0.5, 1.0)}
+    source="turton2018, eq. A.1, tables A.1 and A.7",
+    equation=_EQUATION,
+    title="Cost of a centrifuge",
+    typical={"diameter": (0.5, 1.0)},
 )
 def equipment_cost_by_diameter(
     diameter: Length,
@@ -143,7 +147,7 @@ def purchased_cost_evaporator(
     return _cost(evaporator, area, "area", "costs.purchased_cost_evaporator", cost_index).purchased_cost
 
 
-@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a fan", typical={"volume_flow": (5.0, 80.0)},
+@formula(source="turton2018, eq. A.1, table A.1", fitted={"volume_flow": (1.0, 100.0)}, title="Cost of a fan", typical={"volume_flow": (5.0, 80.0)},
          equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} \dot V + K_3 (\log_{10} \dot V)^2")  # fmt: skip
 def purchased_cost_fan(
     volume_flow: VolumeFlow,
@@ -157,7 +161,7 @@ def purchased_cost_fan(
     >>> round(purchased_cost_fan(volume_flow=10.0, fan="radial_fan"), -2)
     4300.0
     """
-    return _cost(fan, volume_flow, "volume_flow", "costs.purchased_cost_fan", cost_index).purchased_cost
+    return _cost(fan, volume_flow, "volume_flow", "", cost_index).purchased_cost
 
 
 @formula(source="turton2018, eq. A.1, table A.1", title="Cost of a pump", typical={"power": (2e3, 9e4)},
@@ -177,7 +181,13 @@ def purchased_cost_pump(
     return _cost(pump, power, "power", "costs.purchased_cost_pump", cost_index, KILOWATT).purchased_cost
 
 
-@formula(source="turton2018, eq. A.1, tables A.1 and A.7", title="Cost of a mixer", typical={"power": (6e3, 1.4e5)}, equation=_EQUATION)
+@formula(
+    source="turton2018, eq. A.1, tables A.1 and A.7",
+    fitted={"power": (5e3, 1.5e5)},
+    title="Cost of a mixer",
+    typical={"power": (6e3, 1.4e5)},
+    equation=_EQUATION,
+)
 def equipment_cost_mixer(
     power: Power, mixer: Literal["impeller_mixer", "turbine_mixer"] = "impeller_mixer", cost_index: PositiveNumber = BASE_INDEX
 ) -> EquipmentCost:
@@ -188,15 +198,17 @@ def equipment_cost_mixer(
     >>> round(equipment_cost_mixer(power="10 kW", mixer="impeller_mixer").purchased_cost, -2)
     35600.0
     """
-    return _cost(mixer, power, "power", "costs.equipment_cost_mixer", cost_index, KILOWATT)
+    return _cost(mixer, power, "power", "", cost_index, KILOWATT)
 
 
-@formula(source="williams1947", equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}", title="Cost of a larger or smaller piece of the same kind",
+@formula(source="williams1947; peters2003, ch. 6", fitted={"capacity_ratio": (0.1, 10.0), "scaling_exponent": (0.3, 1.0)}, equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}", title="Cost of a larger or smaller piece of the same kind",
          typical={"scaling_exponent": (0.4, 0.9)})  # fmt: skip
 def purchased_cost_scaled(purchased_cost_known: Cost, capacity_ratio: PositiveNumber, scaling_exponent: Ratio = 0.6) -> Cost:
     """Cost of equipment of another capacity from a known price, by the six-tenths rule.
 
     Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment lie between 0.3 and 1.
+
+    Peters and others advise against it beyond ten times the capacity.
 
     >>> round(purchased_cost_scaled(purchased_cost_known=100.0, capacity_ratio=2.0), 1)
     151.6

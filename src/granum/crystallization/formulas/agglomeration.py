@@ -9,7 +9,7 @@ from typing import Any
 import equinox as eqx
 import jax.numpy as jnp
 
-from granum.core import formula, law
+from granum.core import formula, law, watch
 from granum.core.constants import BOLTZMANN
 from granum.core.kinds import (
     DynamicViscosity,
@@ -24,6 +24,7 @@ from granum.core.kinds import (
 from granum.crystallization.kinds import AgglomerationRate, AgglomerationRatePerVolumes
 
 SMALL_EDDIES = (8.0 * math.pi / 15.0) ** 0.5  # Saffman and Turner, 1.2944
+WATER_VISCOSITY = 1e-6  # m²/s, kinematic, at 20 °C
 
 
 class AgglomerationKernel(eqx.Module):
@@ -76,7 +77,7 @@ class ProductKernel(AgglomerationKernel):
         return self.agglomeration_coefficient * crystal_size**3 * crystal_size_other**3
 
 
-@formula(source="smoluchowski1917; mullin2001, ch. 7", equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}", output="agglomeration_coefficient",
+@formula(source="smoluchowski1917; mullin2001, ch. 7", fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)}, equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}", output="agglomeration_coefficient",
          typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)})  # fmt: skip
 def agglomeration_coefficient_brownian(
     crystal_size: Length, crystal_size_other: Length, dynamic_viscosity: DynamicViscosity, temperature: Temperature = 298.15
@@ -84,6 +85,8 @@ def agglomeration_coefficient_brownian(
     """Kernel of agglomeration by Brownian motion (perikinetic), m³/s, every collision lasting.
 
     For equal sizes it is 8kT/(3η), whatever the size.
+
+    Brownian motion rules below a micrometer; above, shear does.
 
     >>> k = agglomeration_coefficient_brownian(crystal_size=1e-6, crystal_size_other=1e-6, dynamic_viscosity=1e-3)
     >>> round(k * 1e17, 3)
@@ -93,7 +96,7 @@ def agglomeration_coefficient_brownian(
     return 2.0 * BOLTZMANN * temperature / (3.0 * dynamic_viscosity) * (L + other) ** 2 / (L * other)
 
 
-@formula(source="saffman1956; smoluchowski1917", equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
+@formula(source="saffman1956; smoluchowski1917", fitted={"eddy_ratio": (0.0, 1.0)}, equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
          output="agglomeration_coefficient",
          typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)})  # fmt: skip
 def agglomeration_coefficient_turbulent(
@@ -103,10 +106,14 @@ def agglomeration_coefficient_turbulent(
 
     The shear rate is ``sqrt(power per mass / kinematic viscosity)``; sizes below the smallest eddies. In laminar shear the factor is 4/3.
 
+    The smallest eddies are taken as those of water, √(10⁻⁶ m²/s over the shear rate); a thicker liquid has larger ones.
+
     >>> k = agglomeration_coefficient_turbulent(crystal_size=10e-6, crystal_size_other=10e-6, shear_rate=100.0)
     >>> round(k * 1e13, 3)
     1.294
     """
+    eddy = jnp.sqrt(WATER_VISCOSITY / shear_rate)
+    watch(eddy_ratio=jnp.maximum(crystal_size, crystal_size_other) / eddy)
     return SMALL_EDDIES * capture_efficiency * shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
 
 
@@ -120,10 +127,13 @@ def shear_rate_turbulent(specific_power_input: SpecificPower, kinematic_viscosit
     return jnp.sqrt(specific_power_input / kinematic_viscosity)
 
 
-@law("agglomeration_kernel", name="brownian_kernel", source="smoluchowski1917", title="Brownian (perikinetic) kernel",
+@law("agglomeration_kernel", name="brownian_kernel", source="smoluchowski1917; mullin2001, ch. 7", fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)}, title="Brownian (perikinetic) kernel",
      equation=r"\beta = \frac{2 k T}{3\eta}\frac{(L+\lambda)^2}{L\lambda}")  # fmt: skip
 class BrownianKernel(AgglomerationKernel):
-    """Agglomeration by Brownian motion, for crystals below a micrometer."""
+    """Agglomeration by Brownian motion, for crystals below a micrometer.
+
+    Brownian motion rules below a micrometer; above, shear does.
+    """
 
     dynamic_viscosity: DynamicViscosity
     temperature: Temperature = 298.15
@@ -177,12 +187,14 @@ class PowerBreakage(Breakage):
         return 2.0 * (b - a) / parent, (b**2 - a**2) / parent**2
 
 
-@law("breakage_law", name="attrition", source="garside1985", title="Attrition: small chips from large crystals",
+@law("breakage_law", name="attrition", source="garside1985", fitted={"chip_fraction": (0.0, 0.5)}, title="Attrition: small chips from large crystals",
      equation=r"S = S_0 (L/L_{ref})^p,\quad \text{chips of volume share } w")  # fmt: skip
 class Attrition(Breakage):
     """Chipping: each event takes a small share of the volume off a crystal as chips spread evenly in volume up to that share.
 
     The parent keeps the rest; the number of chips follows from their mean volume.
+
+    A chip can be no larger than what is left: the share of an event is at most a half.
     """
 
     breakage_frequency: Frequency

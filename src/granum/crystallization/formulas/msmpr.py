@@ -141,11 +141,14 @@ def gamma_share(x):
 
 @formula(
     source="abegg1968",
+    fitted={"size_exponent": (0.0, 1.0)},
     equation=r"\varphi = (1 + \gamma L)^b",
     typical={"crystal_size": (1e-5, 1e-3)},
 )
 def size_factor(crystal_size: Distance, size_parameter: SizeParameter, size_exponent: Ratio) -> Ratio:
     """Growth rate of a crystal over that of a nucleus, after Abegg, Stevens and Larson.
+
+    Exponents below 1, for which all moments of the distribution of a continuous crystallizer are finite.
 
     >>> round(size_factor(crystal_size=1e-4, size_parameter=1e4, size_exponent=0.5), 4)
     1.4142
@@ -155,6 +158,7 @@ def size_factor(crystal_size: Distance, size_parameter: SizeParameter, size_expo
 
 @formula(
     source="abegg1968",
+    fitted={"size_exponent": (0.0, 1.0)},
     equation=r"n = n_0 (1+\gamma L)^{-b} \exp\left(\frac{1-(1+\gamma L)^{1-b}}{\gamma G_0\tau(1-b)}\right)",
     typical={"size_exponent": (0.1, 0.8), "crystal_size": (1e-5, 5e-4), **_GROWTH},
 )

@@ -70,7 +70,8 @@ def _barrier(log_ratio: Any, gamma: Any, v: Any, T: Any, nu: Any, phi: Any) -> A
 
 
 @formula(
-    source="mullin2001, ch. 5",
+    source="mullin2001, ch. 5; volmer1939",
+    fitted={"heterogeneous_factor": (0.0, 1.0)},
     equation=r"\frac{\Delta G^*}{kT} = \frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}",
     typical={"supersaturation_ratio": (1.5, 10.0)},
 )
@@ -85,6 +86,8 @@ def nucleation_barrier(
 ) -> PositiveNumber:
     """Nucleation barrier of classical theory over kT.
 
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+
     >>> round(nucleation_barrier(supersaturation_ratio=4.0, interfacial_energy="10 mN/m", crystal_density=2000, molar_mass=0.120443), 3)
     1.25
     """
@@ -96,7 +99,8 @@ def nucleation_barrier(
 
 
 @formula(
-    source="mullin2001, ch. 5",
+    source="mullin2001, ch. 5; volmer1939",
+    fitted={"heterogeneous_factor": (0.0, 1.0)},
     equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
     family="nucleation_formula",
     typical={"supersaturation_ratio": (2.0, 10.0), "interfacial_energy": (2e-3, 1e-2), "molar_mass": (0.05, 0.15)},
@@ -115,6 +119,8 @@ def nucleation_rate_classical(
 
     The pre-exponential factor is in 1/(m³ s). Zero at and below saturation.
 
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+
     >>> rate = nucleation_rate_classical(supersaturation_ratio=4.0, interfacial_energy="10 mN/m", crystal_density=2000,
     ...                                  molar_mass=0.120443, nucleation_preexponential=1e30)
     >>> round(rate / 1e29, 3)
@@ -129,7 +135,8 @@ def nucleation_rate_classical(
 
 
 @formula(
-    source="mullin2001, ch. 5; mccabe2005, ch. 27",
+    source="mullin2001, ch. 5; mccabe2005, ch. 27; volmer1939",
+    fitted={"heterogeneous_factor": (0.0, 1.0)},
     equation=r"\beta = \exp\sqrt{\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 \nu^2 \ln(A/J)}}",
     output="supersaturation_ratio",
     title="Supersaturation ratio for a nucleation rate",
@@ -149,6 +156,8 @@ def supersaturation_ratio_nucleation(
 
     No value where the rate is zero or not below the pre-exponential factor. Potassium chloride of McCabe, example 27.3 (2.5 erg/cm², 300 K): the
     exponent is 0.00357/ln²β, so that one nucleus per cm³ and second wants ln β = 0.00788.
+
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
 
     >>> ratio = supersaturation_ratio_nucleation(nucleation_rate="1 1/(cm^3*s)", interfacial_energy="2.5 erg/cm^2", crystal_density="1.988 g/cm^3",
     ...     molar_mass="74.56 g/mol", nucleation_preexponential="1e25 1/(cm^3*s)", temperature=300, ions_per_formula=2)
@@ -241,10 +250,13 @@ class PowerLawNucleation(NucleationLaw):
         return rate * safe_power(magma_density, self.magma_order)
 
 
-@law("nucleation_rate", name="classical_nucleation", source="mullin2001, ch. 5", title="Classical primary nucleation",
+@law("nucleation_rate", name="classical_nucleation", source="mullin2001, ch. 5; volmer1939", fitted={"heterogeneous_factor": (0.0, 1.0)}, title="Classical primary nucleation",
      equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)")  # fmt: skip
 class ClassicalNucleation(NucleationLaw):
-    """Primary nucleation of classical theory, homogeneous or heterogeneous."""
+    """Primary nucleation of classical theory, homogeneous or heterogeneous.
+
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+    """
 
     interfacial_energy: SurfaceTension
     crystal_density: Density

@@ -273,7 +273,8 @@ _TYPICAL = {
 
 
 @formula(
-    source="keey1978; mujumdar2014; bonazzi2003",
+    source="keey1978; mujumdar2014; bonazzi2003; wagner2002; iapws2011melting",
+    fitted={"temperature_fresh": (213.0, 623.2), "temperature_outlet": (213.0, 623.2)},
     equation=r"\dot m_e = \dot m_s(X_1 - X_2) = G(1 - r + \lambda)(w_2 - w_0),\quad \dot Q + P = G\,[h_1 - (1-r)h_0 - r h_2],\quad "
     r"G\,[h_1 + \lambda h_0 - (1+\lambda) h_2] + \dot m_s(h_{s1} - h_{s2}) + \dot Q_i - \dot Q_l = 0",
     typical=_TYPICAL,
@@ -326,6 +327,8 @@ def dryer_balance(
 
     ``water_activity`` is that of the leaving product, with which the air could at best be in equilibrium; it only serves the mass efficiency.
     The energy indices count heater, fan and heat given inside. Saturated outlet air, air too cold for the water, or a negative flow: flagged.
+
+    Fresh and outlet air lie within the temperatures of the air–water properties behind it, 213 to 623.2 K.
 
     The notes' maize (D III.4): 100 kg from 0.54 to 0.18 kg/kg with air at 25 °C and 50 % heated to 50 °C. They print 23.3 kg of water,
     56.7 MJ, 20.1 g/kg and 2 284 kg of dry air, read from a chart.

@@ -45,7 +45,7 @@ class StagedHeating(NamedTuple):
     specific_energy_heating: SpecificEnergy
 
 
-@formula(source="keey1978; mujumdar2014", equation=r"q = \sum_k (h_{1,k} - h_{2,k-1}),\qquad \mathrm{CEM} = \frac{q}{w_{2,n} - w_0}",
+@formula(source="keey1978; mujumdar2014; wagner2002; iapws2011melting", fitted={"temperature_fresh": (213.0, 623.2), "temperature_inlet": (213.0, 623.2)}, equation=r"q = \sum_k (h_{1,k} - h_{2,k-1}),\qquad \mathrm{CEM} = \frac{q}{w_{2,n} - w_0}",
          typical={**_FRESH, "temperature_inlet": (335.0, 360.0)}, title="Dryer with staged heating")  # fmt: skip
 def staged_heating(
     temperature_fresh: Temperature,
@@ -60,6 +60,8 @@ def staged_heating(
     The same air carries more water, so less of it is heated from the outside; the notes (D III.3) advise it for that reason.
 
     Without a second stage it is the dryer of the notes' maize: 2 550 kJ/kg at saturation.
+
+    Temperatures are those of the air–water properties behind it, 213 to 623.2 K.
 
     >>> one = staged_heating("25 degC", "9.9 g/kg", "50 degC", "100 %", stage_count=1)
     >>> two = staged_heating("25 degC", "9.9 g/kg", "50 degC", "100 %", stage_count=2)
@@ -91,7 +93,7 @@ class HeatRecovery(NamedTuple):
     recovered_share: Ratio
 
 
-@formula(source="keey1978; mujumdar2014", equation=r"q = \varepsilon\,\min\!\left(g\,[h(T_2, w_0) - h_0],\; h_2 - h(T_0, w_s) - (w_2 - w_s) h_l\right)",
+@formula(source="keey1978; mujumdar2014; wagner2002; iapws2011melting", fitted={"temperature_fresh": (213.0, 623.2), "temperature_outlet": (213.0, 623.2)}, equation=r"q = \varepsilon\,\min\!\left(g\,[h(T_2, w_0) - h_0],\; h_2 - h(T_0, w_s) - (w_2 - w_s) h_l\right)",
          typical={**_FRESH, "temperature_outlet": (320.0, 350.0), "humidity_ratio_outlet": (0.03, 0.06)}, title="Recovery of heat from the exhaust")  # fmt: skip
 def exhaust_heat_recovery(
     temperature_outlet: Temperature,
@@ -109,6 +111,8 @@ def exhaust_heat_recovery(
     exhaust above the fresh air.
 
     By hand, dry air from 80 against 20 °C, half of it: 1.008·30 = 30 kJ/kg.
+
+    Temperatures are those of the air–water properties behind it, 213 to 623.2 K.
 
     >>> round(exhaust_heat_recovery("80 degC", 0.0, "20 degC", 0.0, 0.5).specific_energy_recovered / 1e3, 1)
     30.2
@@ -151,7 +155,7 @@ class HeatPump(NamedTuple):
     specific_energy_rejected: SpecificEnergy
 
 
-@formula(source="mujumdar2014; keey1978", equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\qquad P = \frac{q_e}{\mathrm{COP} - 1},\qquad \mathrm{SMER} = \frac{w_2 - w_1}{P}",
+@formula(source="mujumdar2014; keey1978; wagner2002; iapws2011melting", fitted={"temperature_inlet": (213.0, 623.2), "coil_temperature": (213.0, 623.2)}, equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\qquad P = \frac{q_e}{\mathrm{COP} - 1},\qquad \mathrm{SMER} = \frac{w_2 - w_1}{P}",
          typical={"temperature_inlet": (318.0, 333.0), "relative_humidity_outlet": (0.6, 0.9), "coil_temperature": (283.0, 288.0),
                   "carnot_efficiency": (0.4, 0.6), "coil_bypass_fraction": (0.05, 0.3)},
          title="Heat-pump dryer in a closed loop")  # fmt: skip
@@ -169,6 +173,8 @@ def heat_pump_dryer(
     The dryer is isenthalpic; part of the air bypasses the coil. Evaporation and condensation lie a temperature approach beyond coil and
     hot air; the coefficient of performance is a share of Carnot's. What the condenser gives beyond the need of the air is rejected.
     Usual heat-pump dryers remove 1 to 4 kg/kWh.
+
+    Temperatures are those of the air–water properties behind it, 213 to 623.2 K.
 
     >>> pump = heat_pump_dryer("50 degC", "80 %", "12 degC")
     >>> 1.0 < pump.moisture_extraction_rate * 3.6e6 < 4.0
@@ -210,7 +216,7 @@ class SteamDrying(NamedTuple):
     specific_energy_recoverable: SpecificEnergy
 
 
-@formula(source="mujumdar2014", equation=r"m = \frac{h_v(T_2) - h_l(T_0)}{h_v(T_1) - h_v(T_2)},\qquad \mathrm{CEM} = h_v(T_2) - h_l(T_0)",
+@formula(source="mujumdar2014; iapwsif97", fitted={"pressure": (611.213, 16.529e6), "temperature_inlet": (273.15, 1073.15), "temperature_outlet": (273.15, 1073.15)}, equation=r"m = \frac{h_v(T_2) - h_l(T_0)}{h_v(T_1) - h_v(T_2)},\qquad \mathrm{CEM} = h_v(T_2) - h_l(T_0)",
          typical={"temperature_inlet": (430.0, 500.0), "temperature_outlet": (385.0, 410.0), "temperature_product": (285.0, 300.0),
                   "pressure": (9e4, 1.5e5)}, title="Drying in superheated steam")  # fmt: skip
 def superheated_steam_drying(
@@ -225,6 +231,8 @@ def superheated_steam_drying(
     condensation on the cold product is left out.
 
     With steam tables at 1.013 bar, 200 to 120 °C, water at 20 °C: (2716.5 − 84)/(2875.4 − 2716.5) = 16.57.
+
+    Boiling pressures and the liquid's enthalpy hold up to 350 °C, that is 16.5 MPa. Steam does up to 800 °C.
 
     >>> round(superheated_steam_drying("200 degC", "120 degC", "20 degC").steam_per_water, 1)
     16.6
@@ -252,7 +260,7 @@ class Recompression(NamedTuple):
     coefficient_of_performance: PositiveNumber
 
 
-@formula(source="mujumdar2014; iapwsif97", equation=r"w = \frac{h(p_2, s_1) - h_1}{\eta},\qquad \mathrm{COP} = \frac{h_2 - h_l(p_2)}{w}",
+@formula(source="mujumdar2014; iapwsif97", fitted={"pressure_inlet": (611.213, 16.529e6), "pressure_outlet": (611.213, 16.529e6)}, equation=r"w = \frac{h(p_2, s_1) - h_1}{\eta},\qquad \mathrm{COP} = \frac{h_2 - h_l(p_2)}{w}",
          typical={"pressure_inlet": (8e4, 1.2e5), "pressure_outlet": (1.8e5, 3e5), "compressor_efficiency": (0.65, 0.85)},
          title="Mechanical vapor recompression")  # fmt: skip
 def vapor_recompression(pressure_inlet: Pressure, pressure_outlet: Pressure, compressor_efficiency: OpenFraction = 0.75) -> Recompression:
@@ -260,6 +268,8 @@ def vapor_recompression(pressure_inlet: Pressure, pressure_outlet: Pressure, com
 
     The work is the isentropic one of real steam over the efficiency. The notes' table III.2 gives 160 to 200 kJ/kg of water for
     superheated steam with compression.
+
+    Boiling pressures and the liquid's enthalpy hold up to 350 °C, that is 16.5 MPa.
 
     >>> round(vapor_recompression("1.013 bar", "2 bar", 0.75).energy_per_water / 1e3)
     167
@@ -306,7 +316,7 @@ class DirectFiring(NamedTuple):
     energy_per_water: SpecificEnergy
 
 
-@formula(source="keey1978", equation=r"h_1(n) = h(T_1, w_1(n)),\qquad h_2 = h_1,\qquad \mathrm{CEM} = \frac{\mathrm{PCI}}{m_g\,(w_2 - w_1)}",
+@formula(source="keey1978; wagner2002; iapws2011melting", fitted={"temperature_fresh": (213.0, 623.2), "temperature_outlet": (213.0, 623.2)}, equation=r"h_1(n) = h(T_1, w_1(n)),\qquad h_2 = h_1,\qquad \mathrm{CEM} = \frac{\mathrm{PCI}}{m_g\,(w_2 - w_1)}",
          typical={"temperature_inlet": (450.0, 700.0), "temperature_outlet": (340.0, 370.0), "fuel_fraction_carbon": (0.7, 0.75),
                   "fuel_fraction_hydrogen": (0.2, 0.25), "lower_heating_value": (4.5e7, 5e7), "temperature_fresh": (285.0, 300.0),
                   "humidity_ratio_fresh": (0.005, 0.01), "heat_loss_share": (0.01, 0.05)}, title="Dryer fired directly")  # fmt: skip
@@ -325,6 +335,8 @@ def direct_firing(
 
     The energy counts the lower heating value; the fuel (methane unless its composition is given) brings water of its own. A burner cannot
     give gas hotter than that without excess air.
+
+    Temperatures are those of the air–water properties behind it, 213 to 623.2 K.
 
     >>> gas = direct_firing("400 degC", "100 degC", temperature_fresh="20 degC")
     >>> 2.9e6 < gas.energy_per_water < 3.6e6

@@ -88,9 +88,17 @@ class Wheel(AbstractAtomizer):
         return 0.01 * self.rotation_speed * 0.5 * self.diameter  # what little of the tip speed points along the chamber
 
 
-@law("atomizer", name="atomizer_two_fluid", source="nukiyama1939; masters1991", title="Two-fluid nozzle")
+@law(
+    "atomizer",
+    name="atomizer_two_fluid",
+    source="nukiyama1939; masters1991; perry2008, ch. 14",
+    fitted={"density": (700.0, 1200.0)},
+    title="Two-fluid nozzle",
+)
 class TwoFluidNozzle(AbstractAtomizer):
     """Feed torn off by fast gas, drops after Nukiyama and Tanasawa; mass of atomizing gas per mass of feed.
+
+    The densities are those of ``droplet_diameter_nukiyama_tanasawa``.
 
     >>> 20 < float(TwoFluidNozzle(200.0, 2.0)()) * 1e6 < 60
     True

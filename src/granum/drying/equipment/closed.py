@@ -206,7 +206,7 @@ class CondenserCircuit(AbstractCoilCircuit):
         )
 
 
-@law("drying_circuit", name="circuit_steam", source="mujumdar2014", title="Closed circuit of superheated vapor",
+@law("drying_circuit", name="circuit_steam", source="mujumdar2014; iapwsif97", fitted={"pressure_condensing": (611.213, 16.529e6)}, title="Closed circuit of superheated vapor",
      equation=r"M = \frac{\dot Q}{h_v(T_1) - h_v(T_2)},\quad P = \dot m_e\,w(p, p_c)\,\frac{T_2}{T_b}")  # fmt: skip
 class SteamCircuit(AbstractCircuit):
     """Superheated steam (or vapor of another solvent) at the pressure of the feed; what evaporates leaves as steam, or is compressed and condenses to
@@ -216,6 +216,8 @@ class SteamCircuit(AbstractCircuit):
     to the circulating steam; its condensate leaves boiling. The product leaves at the boiling temperature unless its temperature is given.
 
     Compression from 1 atm to 2 bar with 75 %: 167 kJ/kg, the order of the course notes (160 to 200).
+
+    Pressures as in ``vapor_recompression``.
 
     >>> round(float(SteamCircuit("110 degC", "2 bar")(101325.0)) / 1e3)
     167

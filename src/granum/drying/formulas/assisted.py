@@ -35,7 +35,7 @@ class AssistedDrying(NamedTuple):
     drying_rate_constant: SignedMassFlux
 
 
-@formula(source="treybal1980, ch. 12; dutta2007", equation=r"h\,(T-T_s) + q_r + \varepsilon\sigma(T_r^4 - T_s^4) = \frac{h}{c_h}\,L_v\,(w_s - w)",
+@formula(source="treybal1980, ch. 12; dutta2007; iapwsif97", fitted={"surface_temperature": (273.15, 623.15)}, equation=r"h\,(T-T_s) + q_r + \varepsilon\sigma(T_r^4 - T_s^4) = \frac{h}{c_h}\,L_v\,(w_s - w)",
          typical={"temperature": (320.0, 380.0), "humidity_ratio": (0.005, 0.03), "heat_transfer_coefficient": (15.0, 60.0),
                   "radiated_heat": (500.0, 5000.0), "radiator_temperature": (330.0, 600.0), "emissivity": (0.5, 0.9)},
          title="Constant drying rate with infrared or microwave heat", output="drying_rate_constant")  # fmt: skip
@@ -54,6 +54,8 @@ def drying_rate_assisted(
     (microwaves: power per volume times thickness); a radiator is given by its temperature and the emissivity of the pair. Air over water.
 
     Without help it is at the wet bulb: 41.5 °C and 1.41 g/(m² s) in air at 120 °C and 0.02 (Dutta's example, 43.3 W/(m² K)).
+
+    The latent heat is that of water from 0 to 350 °C.
 
     >>> plain = drying_rate_assisted("120 degC", 0.02, 43.3)
     >>> round(plain.surface_temperature - 273.15), round(plain.drying_rate_constant * 1e3, 2)

@@ -64,7 +64,8 @@ _TYPICAL = {
 
 
 @formula(
-    source=MODEL,
+    source=MODEL + "; iapws2011melting",
+    fitted={"temperature_product": (150.0, 273.16), "temperature_front": (150.0, 273.16)},
     equation=r"A_v K_v (T_{sh}-T_b) = \Delta H_s A_p\frac{p_i(T_s)-P}{R_p(L)},\quad T_b = T_s + \frac{\Delta H_s\,\dot m (L_0-L)}{A_p k_i},\quad "
     r"\frac{dL}{dt} = \frac{\dot m\,L_0}{m_i}",
     typical=_TYPICAL,
@@ -95,6 +96,8 @@ def primary_drying(
 
     Their example ends between 6.65 and 6.66 h, at −14.77 °C.
 
+    The vapor pressure of ice is that of IAPWS, up to the triple point.
+
     >>> found = primary_drying("150 mtorr", "20 degC", "3.8 cm^2", "3.14 cm^2", "2 mL", "0.05 g/mL", "2.75e-4 cal/(s*K*cm^2)",
     ...     "8.93e-4 cal/(s*K*cm^2*torr)", "1.4 cm^2*hour*torr/g", "16 cm*hour*torr/g", 0.0, "0.46 1/torr", "-35 degC", "1 kelvin/min")
     >>> round(found.drying_time / 3600, 2), round(found.temperature_product - 273.15, 1)
@@ -122,7 +125,7 @@ class VialLimit(NamedTuple):
     sublimation_flux_equipment: MassFlux
 
 
-@formula(source="nail2008; shivkumar2019",
+@formula(source="nail2008; shivkumar2019; iapws2011melting", fitted={"temperature_limit": (150.0, 273.16)},
          equation=r"\frac{\Delta H_s\,g\,(L_0-L)}{k_i} = T_{lim} - T_s,\quad g = \frac{p_i(T_s)-P}{R_p},\quad g_{eq} = \frac{a + b P}{N A_p}",
          typical={**_TYPICAL, "temperature_limit": (245.0, 265.0), "sublimation_capacity": (3e-4, 6e-4), "vial_count": (300.0, 500.0)},
          title="Design space of primary drying")  # fmt: skip
@@ -149,6 +152,8 @@ def freeze_drying_limit(
     condenser carry at that pressure, for all vials. No value where the product at its limit has less vapor pressure than the chamber.
 
     Shivkumar et al., example at 150 mTorr and −5 °C: 1.98 h at 3.11 kg/(m² h), 2.29 at the end; the machine 0.489 h.
+
+    The vapor pressure of ice is that of IAPWS, up to the triple point.
 
     >>> edge = freeze_drying_limit("150 mtorr", "-5 degC", "1.573 kg/hour", 398.0, "3.8 cm^2", "3.14 cm^2", "2 mL", "0.05 g/mL",
     ...     "2.75e-4 cal/(s*K*cm^2)", "8.93e-4 cal/(s*K*cm^2*torr)", "1.4 cm^2*hour*torr/g", "16 cm*hour*torr/g", 0.0, "0.46 1/torr")
@@ -190,7 +195,7 @@ class SlabFreezeDrying(NamedTuple):
     drying_time: Time
 
 
-@formula(source="king1971", equation=r"\lambda\,(T_0 - T_f) = \Delta H_s\,b\,[p_i(T_f) - p_0],\qquad t = \frac{\Delta H_s\,\rho_d (X_0 - X) L^2}{2\lambda\,(T_0-T_f)}",
+@formula(source="king1971; iapws2011melting", fitted={"temperature_front": (150.0, 273.16)}, equation=r"\lambda\,(T_0 - T_f) = \Delta H_s\,b\,[p_i(T_f) - p_0],\qquad t = \frac{\Delta H_s\,\rho_d (X_0 - X) L^2}{2\lambda\,(T_0-T_f)}",
          typical={"surface_temperature": (300.0, 340.0), "pressure_chamber": (5.0, 60.0), "thermal_conductivity": (0.03, 0.15), "vapor_permeability": (1e-8, 5e-8),
                   "thickness": (2e-3, 1e-2), "dry_density": (80.0, 300.0), "moisture_dry_basis_inlet": (2.0, 9.0), "moisture_dry_basis_outlet": (0.05, 0.2)},
          output="freeze_drying_slab", title="Freeze drying of a layer of food")  # fmt: skip
@@ -211,6 +216,8 @@ def freeze_drying_slab(
 
     Coffee extract at 30 °C and 97 µm Hg with 0.035 W/(m K) and 3.5e-9 kg/(m s µm Hg): −29.4 °C and 301 µm Hg by King's chart.
 
+    The vapor pressure of ice is that of IAPWS, up to the triple point.
+
     >>> coffee = freeze_drying_slab("30 degC", "0.097 mmHg", 0.035, 3.5e-9 / 0.133322, "5 mm", 250.0, 2.0)
     >>> round(coffee.temperature_front - 273.15, 1), round(coffee.vapor_pressure / 0.133322)
     (-29.3, 306)
@@ -229,7 +236,7 @@ def freeze_drying_slab(
     return SlabFreezeDrying(T, ice_vapor_pressure(T), time)
 
 
-@formula(source="patel2010; searles2004", equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",
+@formula(source="patel2010; searles2004", fitted={"discharge_coefficient": (0.0, 1.0)}, equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",
          typical={"duct_diameter": (0.1, 0.6), "pressure_chamber": (3.0, 30.0), "temperature": (260.0, 300.0), "discharge_coefficient": (0.6, 1.0)},
          title="Choked flow in the duct of a freeze dryer")  # fmt: skip
 def choked_flow_rate(
@@ -241,6 +248,8 @@ def choked_flow_rate(
     0.75 for five diameters of a smooth duct, less with baffles.
 
     By hand: 10 Pa on 1 m² at 300 K without loss is 10·√(1.33/(461.5·300))·0.5826 = 18.1 g/s.
+
+    A coefficient of 1 is the duct without loss.
 
     >>> round(choked_flow_rate(10.0, (4 / 3.141592653589793)**0.5, 300.0, 1.0) * 1e3, 1)
     18.1

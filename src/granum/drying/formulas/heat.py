@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.constants import HOUR, STEFAN_BOLTZMANN
 from granum.core.kinds import (
     Area,
@@ -24,6 +24,8 @@ from granum.core.kinds import (
     VoidFraction,
 )  # fmt: skip
 from granum.drying.kinds import ElectricField, PowerDensity, ThermalEffusivity
+
+VISCOSITY = 2.1e-5  # Pa s, of air
 
 
 @formula(source="treybal1980, ch. 12; geankoplis2003, ch. 9", equation=r"h = 0.0204\,G^{0.8},\quad G\ \mathrm{in\ kg/(m^2 h)}",
@@ -54,7 +56,7 @@ def heat_transfer_coefficient_perpendicular(gas_mass_flux: MassFlux) -> HeatTran
     return 1.17 * (gas_mass_flux * HOUR) ** 0.37
 
 
-@formula(source="treybal1980, ch. 12", equation=r"h = 5.90\,\frac{G^{0.71}}{d_e^{0.29}},\quad \mathrm{SI}",
+@formula(source="treybal1980, ch. 12", fitted={"reynolds": (2600.0, 22000.0)}, equation=r"h = 5.90\,\frac{G^{0.71}}{d_e^{0.29}},\quad \mathrm{SI}",
          typical={"gas_mass_flux": (1.0, 8.0), "equivalent_diameter": (0.02, 0.2)}, output="heat_transfer_coefficient",
          title="Convection to a tray in a channel")  # fmt: skip
 def heat_transfer_coefficient_channel(gas_mass_flux: MassFlux, equivalent_diameter: Length) -> HeatTransferCoefficient:
@@ -62,9 +64,12 @@ def heat_transfer_coefficient_channel(gas_mass_flux: MassFlux, equivalent_diamet
 
     By hand: 5.90 · 2^0.71/0.1^0.29 = 5.90 · 1.636 · 1.950 = 18.8.
 
+    The Reynolds number is taken with the viscosity of air at about 90 °C.
+
     >>> round(heat_transfer_coefficient_channel(gas_mass_flux=2.0, equivalent_diameter=0.1), 1)
     18.8
     """
+    watch(reynolds=gas_mass_flux * equivalent_diameter / VISCOSITY)
     return 5.90 * gas_mass_flux**0.71 / equivalent_diameter**0.29
 
 

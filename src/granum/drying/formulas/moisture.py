@@ -149,7 +149,8 @@ class SorptionHeat(NamedTuple):
 
 
 @formula(
-    source="keey1978; iglesias1976",
+    source="keey1978; iglesias1976; iapwsif97",
+    fitted={"temperature": (273.15, 623.15)},
     equation=r"q_n = -\frac{R}{M_w}\left[\frac{\partial\ln a_w}{\partial(1/T)}\right]_X,\qquad q_{st} = q_n + L_v",
     typical={"moisture_dry_basis": (0.08, 0.2)},
     title="Isosteric heat of sorption",
@@ -159,6 +160,8 @@ def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw =
     """Heat to evaporate bound water: net part from the isotherm's shift with temperature, plus the latent heat.
 
     Zero net heat for an isotherm without temperature. A negative value says that the printed constants let isotherms cross.
+
+    The latent heat is that of water from 0 to 350 °C.
 
     >>> from granum.drying.isotherms.grains import ChungPfost
     >>> corn = ChungPfost(isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205)

@@ -16,7 +16,7 @@ SHORTEST = 0.1  # of the time without gas, where the gas would sweep the solid o
 
 
 @formula(
-    source="friedman1949; perry2008, ch. 12",
+    source="friedman1949; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08)},
     equation=r"\tau = \frac{0.23\,L}{S\,N^{0.9}D} \pm \frac{1.97\,B\,L\,G}{F},\quad B = 5\,d_p^{-1/2}",
     typical={"length": (3.0, 30.0), "diameter": (0.5, 3.0), "drum_slope": (0.01, 0.08), "rotation_speed": (0.1, 0.6),
              "particle_diameter": (3e-4, 5e-3), "gas_mass_flux": (0.0, 1.0), "solid_mass_flux": (0.5, 5.0), "against_gas": (0.1, 1.0)},
@@ -39,6 +39,8 @@ def residence_time_friedman_marshall(
 
     By hand: L/D 6, slope 0.05, 4 rpm: 0.23 · 6/(0.05 · 4^0.9) = 7.93 min.
 
+    Drums slope by up to 8 cm a meter (Perry).
+
     >>> round(residence_time_friedman_marshall("12 m", "2 m", 0.05, "4 rpm") / 60, 2)
     7.93
     """
@@ -49,7 +51,7 @@ def residence_time_friedman_marshall(
 
 
 @formula(
-    source="saeman1954",
+    source="saeman1954; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, pi)},
     equation=r"\tau = \frac{L}{f\,N\,D\,(S \mp m\,u)}",
     typical={"length": (3.0, 30.0), "diameter": (0.5, 3.0), "drum_slope": (0.02, 0.08), "rotation_speed": (0.1, 0.6), "gas_velocity": (0.0, 2.0)},
     output="residence_time",
@@ -71,6 +73,8 @@ def residence_time_saeman_mitchell(
 
     By hand: 12 m, 2 m, slope 0.05, 4 rpm = 0.0667 per second, f = 2: 12/(2 · 0.0667 · 2 · 0.05) = 900 s.
 
+    Drums slope by up to 8 cm a meter (Perry).
+
     >>> round(residence_time_saeman_mitchell("12 m", "2 m", 0.05, "4 rpm"), 6)
     900.0
     """
@@ -81,7 +85,7 @@ def residence_time_saeman_mitchell(
 @formula(
     source="friedman1949part2; treybal1980, ch. 12",
     equation=r"U a = K\,\frac{G^{n}}{D}",
-    fitted={"gas_mass_flux": (0.3, 7.0)},
+    fitted={"gas_mass_flux": (0.3, 7.0), "transfer_exponent": (0.46, 0.67)},
     typical={"gas_mass_flux": (0.5, 5.0), "diameter": (0.5, 3.0), "transfer_constant": (150.0, 350.0), "transfer_exponent": (0.46, 0.67)},
     title="Volumetric heat transfer in a rotary drum",
 )

@@ -22,10 +22,12 @@ def _langmuir_like_inverse(X: Any, m: Any, C: Any) -> Any:
     return 2.0 * X / (b + jnp.sqrt(jnp.maximum(b * b + 4.0 * (C - 1.0) * X * X, 1e-300)))
 
 
-@law("isotherm", name="isotherm_bet", source="brunauer1938", title="BET isotherm",
+@law("isotherm", name="isotherm_bet", source="brunauer1938; andrade2011", fitted={"water_activity": (0.05, 0.5)}, title="BET isotherm",
      equation=r"X = \frac{m\,C\,a}{(1-a)(1-a+C\,a)}")  # fmt: skip
 class Bet(AbstractIsotherm):
     """Brunauer, Emmett and Teller: a monolayer of bound water and layers of free water above it. Holds up to a water activity of 0.5.
+
+    The lower end of 0.05 is that of the review of Andrade and others, which ends at 0.45.
 
     >>> round(float(Bet(monolayer_moisture=0.05, monolayer_constant=10.0)(0.3)), 4)
     0.0579
@@ -71,7 +73,7 @@ class BetLayers(AbstractIsotherm):
         return activity_by_search(self, X, T, highest=0.999)
 
 
-@law("isotherm", name="isotherm_gab", source="vandenberg1981", title="GAB isotherm",
+@law("isotherm", name="isotherm_gab", source="vandenberg1981", fitted={"water_activity": (0.0, 0.95)}, title="GAB isotherm",
      equation=r"X = \frac{m\,C\,K a}{(1-Ka)(1-Ka+C\,Ka)},\quad m = m_0 e^{H_m/RT},\ C = C_0 e^{H_C/RT},\ K = K_0 e^{H_K/RT}")  # fmt: skip
 class Gab(AbstractIsotherm):
     """Guggenheim, Anderson and de Boer: BET with multilayer water bound differently from free water; to a water activity of 0.95.
@@ -112,12 +114,14 @@ class Gab(AbstractIsotherm):
         return jnp.minimum(_langmuir_like_inverse(X, m, C) / K, 1.0)
 
 
-@law("isotherm", name="isotherm_hailwood_horrobin", source="hailwood1946; glass2010, eq. 4-5", title="Hailwood–Horrobin isotherm of wood",
+@law("isotherm", name="isotherm_hailwood_horrobin", source="hailwood1946; glass2010, eq. 4-5", fitted={"water_activity": (0.05, 0.95), "temperature": (272.05, 405.35)}, title="Hailwood–Horrobin isotherm of wood",
      equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]")  # fmt: skip
 class HailwoodHorrobin(AbstractIsotherm):
     """Equilibrium moisture of wood, two hydrates and dissolved water, with the coefficients of the Wood Handbook over temperature.
 
     The Handbook's table gives 9.2 % at 21.1 °C and 50 %, 16.0 % at 80 %.
+
+    The table runs from 5 to 95 % and from −1.1 to 132.2 °C.
 
     >>> wood = HailwoodHorrobin()
     >>> round(float(wood(0.5, 294.25)), 3), round(float(wood(0.8, 294.25)), 3)

@@ -19,9 +19,18 @@ class _Called(AbstractIsotherm):
         return self.moisture(water_activity, temperature)
 
 
-@law("isotherm", name="isotherm_oswin", source="oswin1946", title="Oswin isotherm", equation=r"X = (A + A_1 t)\left(\frac{a}{1-a}\right)^B")
+@law(
+    "isotherm",
+    name="isotherm_oswin",
+    source="oswin1946; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Oswin isotherm",
+    equation=r"X = (A + A_1 t)\left(\frac{a}{1-a}\right)^B",
+)
 class Oswin(_Called):
     """Oswin's power of a/(1 − a), with the coefficient linear in °C; starch, meat, vegetables.
+
+    Its curve is that of ``isotherm_oswin_modified``: the data behind the standard lie between 0.2 and 0.95.
 
     >>> round(float(Oswin(isotherm_coefficient=0.1, isotherm_exponent=0.5)(0.8)), 3)
     0.2
@@ -44,10 +53,12 @@ class Oswin(_Called):
         return ratio / (1.0 + ratio)
 
 
-@law("isotherm", name="isotherm_lewicki_two", source="lewicki1998", title="Lewicki isotherm, two parameters",
+@law("isotherm", name="isotherm_lewicki_two", source="lewicki1998; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Lewicki isotherm, two parameters",
      equation=r"X = A\left(\frac1a-1\right)^{B-1}")  # fmt: skip
 class LewickiTwo(_Called):
     """Lewicki's two-parameter form: the curve of Oswin with exponent 1 − B.
+
+    The range is that of ``isotherm_oswin_modified``.
 
     >>> round(float(LewickiTwo(isotherm_coefficient=0.1, isotherm_exponent=0.5)(0.8)), 3)
     0.2
@@ -86,7 +97,14 @@ class LewickiThree(_Called):
         return activity_by_search(self, X, T)
 
 
-@law("isotherm", name="isotherm_halsey", source="halsey1948", title="Halsey isotherm", equation=r"a = \exp(-A\,X^{-B})")
+@law(
+    "isotherm",
+    name="isotherm_halsey",
+    source="halsey1948; iglesias1976model",
+    fitted={"water_activity": (0.1, 0.8)},
+    title="Halsey isotherm",
+    equation=r"a = \exp(-A\,X^{-B})",
+)
 class Halsey(_Called):
     """Halsey's condensation at a distance from the surface; starchy foods, 0.1 to 0.8.
 
@@ -109,6 +127,7 @@ class Halsey(_Called):
     "isotherm",
     name="isotherm_ferro_fontan",
     source="ferrofontan1982",
+    fitted={"water_activity": (0.0, 0.95)},
     title="Ferro-Fontán isotherm",
     equation=r"\ln\frac{\gamma}{a} = b\,X^{-r}",
 )
@@ -133,9 +152,18 @@ class FerroFontan(_Called):
         return jnp.minimum(a, 1.0)
 
 
-@law("isotherm", name="isotherm_henderson", source="henderson1952", title="Henderson isotherm", equation=r"1 - a = \exp(-A\,T\,X^{B})")
+@law(
+    "isotherm",
+    name="isotherm_henderson",
+    source="henderson1952; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Henderson isotherm",
+    equation=r"1 - a = \exp(-A\,T\,X^{B})",
+)
 class Henderson(_Called):
     """Henderson's form with the absolute temperature; X a mass ratio, T in kelvin.
+
+    Its curve is that of ``isotherm_henderson_modified``: the data behind the standard lie between 0.2 and 0.95.
 
     >>> round(float(Henderson(isotherm_coefficient=0.2, isotherm_exponent=2.0).activity(0.1, 300.0)), 4)
     0.4512
@@ -152,7 +180,14 @@ class Henderson(_Called):
         return -jnp.expm1(-self.isotherm_coefficient * jnp.asarray(T) * jnp.maximum(X, 1e-30) ** self.isotherm_exponent)
 
 
-@law("isotherm", name="isotherm_smith", source="smith1947", title="Smith isotherm", equation=r"X = A - B\,\ln(1-a)")
+@law(
+    "isotherm",
+    name="isotherm_smith",
+    source="smith1947",
+    fitted={"water_activity": (0.3, 0.95)},
+    title="Smith isotherm",
+    equation=r"X = A - B\,\ln(1-a)",
+)
 class Smith(_Called):
     """Smith's logarithmic form for high polymers, from 0.3 to 0.9 or 0.95.
 
@@ -244,7 +279,14 @@ class IglesiasChirife(_Called):
         return jnp.clip(a, 0.0, 1.0)
 
 
-@law("isotherm", name="isotherm_caurie", source="caurie1970", title="Caurie isotherm", equation=r"\ln X = A + B\,a")
+@law(
+    "isotherm",
+    name="isotherm_caurie",
+    source="caurie1970",
+    fitted={"water_activity": (0.0, 0.85)},
+    title="Caurie isotherm",
+    equation=r"\ln X = A + B\,a",
+)
 class Caurie(_Called):
     """Caurie's exponential, from no water to 0.85.
 
@@ -263,7 +305,14 @@ class Caurie(_Called):
         return jnp.clip((jnp.log(jnp.maximum(X, 1e-30)) - self.isotherm_coefficient) / self.isotherm_coefficient_second, 0.0, 1.0)
 
 
-@law("isotherm", name="isotherm_kuhn", source="kuhn1964", title="Kuhn isotherm", equation=r"X = \frac{A}{-\ln a} + B")
+@law(
+    "isotherm",
+    name="isotherm_kuhn",
+    source="kuhn1964",
+    fitted={"water_activity": (0.0, 0.5)},
+    title="Kuhn isotherm",
+    equation=r"X = \frac{A}{-\ln a} + B",
+)
 class Kuhn(_Called):
     """Kuhn's potential form, below 0.5. Written with −ln a so that A is positive.
 
@@ -282,9 +331,18 @@ class Kuhn(_Called):
         return jnp.exp(-self.isotherm_coefficient / jnp.maximum(X - self.isotherm_coefficient_second, 1e-12))
 
 
-@law("isotherm", name="isotherm_bradley", source="bradley1936", title="Bradley isotherm", equation=r"-\ln a = K_2 K_1^{X}")
+@law(
+    "isotherm",
+    name="isotherm_bradley",
+    source="bradley1936; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Bradley isotherm",
+    equation=r"-\ln a = K_2 K_1^{X}",
+)
 class Bradley(_Called):
     """Bradley's polarized layers: at one temperature the curve of Chung and Pfost.
+
+    The range is that of ``isotherm_chung_pfost``.
 
     >>> round(float(Bradley(isotherm_base=1e-5, isotherm_coefficient=3.0).activity(0.1, 298.15)), 4)
     0.3873
@@ -301,9 +359,18 @@ class Bradley(_Called):
         return jnp.exp(-self.isotherm_coefficient * self.isotherm_base ** jnp.asarray(X))
 
 
-@law("isotherm", name="isotherm_chen", source="chen1971", title="Chen isotherm", equation=r"\ln a = K - A\,e^{-B X}")
+@law(
+    "isotherm",
+    name="isotherm_chen",
+    source="chen1971; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Chen isotherm",
+    equation=r"\ln a = K - A\,e^{-B X}",
+)
 class Chen(_Called):
     """Chen's form; with K = 0, for products with little bound water, it is the curve of Chung and Pfost.
+
+    The range is that of ``isotherm_chung_pfost``.
 
     >>> round(float(Chen(isotherm_coefficient=3.0, isotherm_exponent=11.5129).activity(0.1, 298.15)), 3)
     0.387

@@ -105,12 +105,15 @@ class Weibull(_Called):
 @law(
     "thin_layer",
     name="thin_layer_henderson_pabis",
-    source="henderson1961",
+    source="henderson1961; crank1975, eq. 4.18",
+    fitted={"thin_layer": (0.0, 0.6)},
     title="Thin layer, Henderson–Pabis",
     equation=r"MR = a\,e^{-kt}",
 )
 class HendersonPabis(_Called):
     """First term of the diffusion series with a free factor; it need not start at 1.
+
+    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less than a hundredth of it.
 
     >>> round(float(HendersonPabis(model_factor=1.0, rate_constant=1e-3)(1000.0)), 4)
     0.3679
@@ -129,9 +132,18 @@ class HendersonPabis(_Called):
         return {"model_factor": 1.0, "rate_constant": k}
 
 
-@law("thin_layer", name="thin_layer_logarithmic", source="yagcioglu1999", title="Thin layer, logarithmic", equation=r"MR = a\,e^{-kt} + c")
+@law(
+    "thin_layer",
+    name="thin_layer_logarithmic",
+    source="yagcioglu1999; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, logarithmic",
+    equation=r"MR = a\,e^{-kt} + c",
+)
 class Logarithmic(_Called):
     """Henderson and Pabis with an offset, which often makes good for a wrong equilibrium moisture.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Logarithmic(model_factor=1.0, rate_constant=1e-3, model_offset=0.0)(1000.0)), 4)
     0.3679
@@ -154,12 +166,15 @@ class Logarithmic(_Called):
 @law(
     "thin_layer",
     name="thin_layer_two_term",
-    source="henderson1974",
+    source="henderson1974; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, two-term",
     equation=r"MR = a\,e^{-k_1 t} + b\,e^{-k_2 t}",
 )
 class TwoTerm(_Called):
     """Two exponentials with free factors.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(TwoTerm(0.5, 1e-3, 0.5, 1e-3)(1000.0)), 4)
     0.3679
@@ -181,10 +196,12 @@ class TwoTerm(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "model_factor_second": 0.4, "rate_constant_second": 2.5 * k}
 
 
-@law("thin_layer", name="thin_layer_two_term_exponential", source="sharafeldeen1980", title="Thin layer, two-term exponential",
+@law("thin_layer", name="thin_layer_two_term_exponential", source="sharafeldeen1980; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, two-term exponential",
      equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kat}")  # fmt: skip
 class TwoTermExponential(_Called):
     """Two exponentials that share one factor and start at 1.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(TwoTermExponential(1.0, 1e-3)(1000.0)), 4)
     0.3679
@@ -204,9 +221,18 @@ class TwoTermExponential(_Called):
         return {"model_factor": 1.6, "rate_constant": 1.2 * k}
 
 
-@law("thin_layer", name="thin_layer_verma", source="verma1985", title="Thin layer, Verma", equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-gt}")
+@law(
+    "thin_layer",
+    name="thin_layer_verma",
+    source="verma1985; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Verma",
+    equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-gt}",
+)
 class Verma(_Called):
     """Two exponentials that start at 1.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Verma(0.5, 1e-3, 1e-3)(1000.0)), 4)
     0.3679
@@ -227,10 +253,12 @@ class Verma(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_constant_second": 2.5 * k}
 
 
-@law("thin_layer", name="thin_layer_diffusion_approach", source="yaldiz2001", title="Thin layer, diffusion approach",
+@law("thin_layer", name="thin_layer_diffusion_approach", source="yaldiz2001; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, diffusion approach",
      equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kbt}")  # fmt: skip
 class DiffusionApproach(_Called):
     """Verma's curve with g written as k b.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(DiffusionApproach(0.5, 1e-3, 1.0)(1000.0)), 4)
     0.3679
@@ -251,10 +279,12 @@ class DiffusionApproach(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_ratio": 3.5}
 
 
-@law("thin_layer", name="thin_layer_henderson_pabis_modified", source="karathanos1999", title="Thin layer, modified Henderson–Pabis",
+@law("thin_layer", name="thin_layer_henderson_pabis_modified", source="karathanos1999; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, modified Henderson–Pabis",
      equation=r"MR = a\,e^{-kt} + b\,e^{-gt} + c\,e^{-ht}")  # fmt: skip
 class HendersonPabisModified(_Called):
     """Three exponentials; six parameters that few data can tell apart.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(HendersonPabisModified(0.4, 1e-3, 0.3, 1e-3, 0.3, 1e-3)(1000.0)), 4)
     0.3679

@@ -21,10 +21,17 @@ class _Called(AbstractThinLayer):
 
 
 @law(
-    "thin_layer", name="thin_layer_midilli", source="midilli2002", title="Thin layer, Midilli–Kucuk", equation=r"MR = a\,e^{-k t^n} + b\,t"
+    "thin_layer",
+    name="thin_layer_midilli",
+    source="midilli2002; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Midilli–Kucuk",
+    equation=r"MR = a\,e^{-k t^n} + b\,t",
 )
 class Midilli(_Called):
     """Page with a free factor and a straight line.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Midilli(1.0, 1e-3, 1.0, 0.0)(1000.0)), 4)
     0.3679
@@ -48,13 +55,16 @@ class Midilli(_Called):
 @law(
     "thin_layer",
     name="thin_layer_weibull_four",
-    source="babalis2006",
+    source="babalis2006; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, four-parameter Weibull",
     equation=r"MR = a - b\,e^{-k t^n}",
     typical={"model_factor": (-1.1, -0.9)},
 )
 class WeibullFour(_Called):
     """Weibull's curve between two free levels; b is negative for drying.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(WeibullFour(0.0, -1.0, 1e-3, 1.0)(1000.0)), 4)
     0.3679
@@ -75,9 +85,18 @@ class WeibullFour(_Called):
         return {"model_offset": 0.01, "model_factor": -1.0, "rate_constant": k, "time_exponent": 1.0}
 
 
-@law("thin_layer", name="thin_layer_demir", source="demir2007", title="Thin layer, Demir", equation=r"MR = a\,e^{-(kt)^n} + b")
+@law(
+    "thin_layer",
+    name="thin_layer_demir",
+    source="demir2007; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Demir",
+    equation=r"MR = a\,e^{-(kt)^n} + b",
+)
 class Demir(_Called):
     """Modified Page between two free levels: the curve of the four-parameter Weibull.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Demir(1.0, 1e-3, 1.0, 0.0)(1000.0)), 4)
     0.3679
@@ -98,9 +117,18 @@ class Demir(_Called):
         return {"model_factor": 1.0, "rate_constant": k, "time_exponent": 1.0, "model_offset": 0.01}
 
 
-@law("thin_layer", name="thin_layer_hii", source="hii2009", title="Thin layer, Hii", equation=r"MR = a\,e^{-k t^n} + c\,e^{-g t^n}")
+@law(
+    "thin_layer",
+    name="thin_layer_hii",
+    source="hii2009; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Hii",
+    equation=r"MR = a\,e^{-k t^n} + c\,e^{-g t^n}",
+)
 class Hii(_Called):
     """Two stretched exponentials of one exponent.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Hii(0.5, 1e-3, 1.0, 0.5, 1e-3)(1000.0)), 4)
     0.3679
@@ -129,9 +157,18 @@ class Hii(_Called):
         }
 
 
-@law("thin_layer", name="thin_layer_wang_singh", source="wang1978", title="Thin layer, Wang–Singh", equation=r"MR = 1 + a t + b t^2")
+@law(
+    "thin_layer",
+    name="thin_layer_wang_singh",
+    source="wang1978; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Wang–Singh",
+    equation=r"MR = 1 + a t + b t^2",
+)
 class WangSingh(_Called):
     """Parabola that starts at 1; holds only inside the data, and turns up after its lowest point.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> float(WangSingh(-1e-3, 2.5e-7)(1000.0))
     0.25
@@ -152,13 +189,16 @@ class WangSingh(_Called):
 @law(
     "thin_layer",
     name="thin_layer_parabolic",
-    source="sharma2004",
+    source="sharma2004; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
     title="Thin layer, parabolic",
     equation=r"MR = a + b t + c t^2",
     typical={"model_offset": (0.9, 1.1)},
 )
 class Parabolic(_Called):
     """Parabola with a free start.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> float(Parabolic(1.0, -1e-3, 2.5e-7)(1000.0))
     0.25
@@ -177,9 +217,18 @@ class Parabolic(_Called):
         return {"model_offset": 1.0, "time_slope": -0.7 * k, "time_curvature": 0.12 * k * k}
 
 
-@law("thin_layer", name="thin_layer_peleg", source="peleg1988", title="Thin layer, Peleg", equation=r"MR = 1 - \frac{t}{a + b t}")
+@law(
+    "thin_layer",
+    name="thin_layer_peleg",
+    source="peleg1988; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Peleg",
+    equation=r"MR = 1 - \frac{t}{a + b t}",
+)
 class PelegRatio(_Called):
     """Peleg's hyperbola: a is the inverse of the first rate, 1/b the largest change.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> float(PelegRatio(1000.0, 1.0)(1000.0))
     0.5
@@ -198,9 +247,18 @@ class PelegRatio(_Called):
         return {"time_scale": 0.7 / k, "capacity_constant": 0.9}
 
 
-@law("thin_layer", name="thin_layer_silva", source="silva2013", title="Thin layer, Silva", equation=r"MR = e^{-a t - b\sqrt t}")
+@law(
+    "thin_layer",
+    name="thin_layer_silva",
+    source="silva2013; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Silva",
+    equation=r"MR = e^{-a t - b\sqrt t}",
+)
 class Silva(_Called):
     """First order with a square-root start, as short-time diffusion has.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Silva(1e-3, 0.0)(1000.0)), 4)
     0.3679
@@ -221,12 +279,15 @@ class Silva(_Called):
 @law(
     "thin_layer",
     name="thin_layer_fick_simplified",
-    source="diamente1991",
+    source="diamente1991; crank1975, eq. 4.18",
+    fitted={"thin_layer": (0.0, 0.6)},
     title="Thin layer, simplified Fick",
     equation=r"MR = a\,e^{-c\,t/L^2}",
 )
 class FickSimplified(_Called):
     """First term of the diffusion series on a thickness: the curve of Henderson and Pabis.
+
+    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less than a hundredth of it.
 
     >>> round(float(FickSimplified(1.0, 1e-9, 1e-3)(1000.0)), 4)
     0.3679
@@ -271,9 +332,18 @@ class Thompson(_Called):
         return {"thompson_linear": -0.9 / k, "thompson_quadratic": 0.1 / k}
 
 
-@law("thin_layer", name="thin_layer_geometric", source="chandra1995", title="Thin layer, geometric", equation=r"MR = a\,t^{-n}")
+@law(
+    "thin_layer",
+    name="thin_layer_geometric",
+    source="chandra1995; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, geometric",
+    equation=r"MR = a\,t^{-n}",
+)
 class Geometric(_Called):
     """Power of time; infinite at the start, for late times only.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> float(Geometric(10.0, 0.5)(100.0))
     1.0
@@ -293,10 +363,17 @@ class Geometric(_Called):
 
 
 @law(
-    "thin_layer", name="thin_layer_aghbashlo", source="aghbashlo2009", title="Thin layer, Aghbashlo", equation=r"MR = e^{-k_1 t/(1+k_2 t)}"
+    "thin_layer",
+    name="thin_layer_aghbashlo",
+    source="aghbashlo2009; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, Aghbashlo",
+    equation=r"MR = e^{-k_1 t/(1+k_2 t)}",
 )
 class Aghbashlo(_Called):
     """First order with a rate that changes in time.
+
+    A moisture ratio lies between 0 and 1 (Brooker and others): a curve beyond has left what it describes.
 
     >>> round(float(Aghbashlo(1e-3, 0.0)(1000.0)), 4)
     0.3679

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.constants import BOLTZMANN, STANDARD_GRAVITY
 from granum.core.kinds import (
     Concentration,
@@ -108,7 +108,7 @@ def filter_coefficient(
 
 
 @formula(
-    source="tufenkji2004",
+    source="tufenkji2004", fitted={"particle_diameter": (1e-8, 1e-5)},
     equation=r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + 0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}",
     output="collector_efficiency",
     typical={"particle_diameter": (1e-7, 5e-6), "collector_diameter": (2e-4, 1e-3), "superficial_velocity": (1e-4, 3e-3),
@@ -130,6 +130,8 @@ def collector_efficiency_tufenkji(
 
     A buoyant particle gets no gravity term.
 
+    Trajectories were computed for particles of 0.01 to 10 µm.
+
     >>> round(collector_efficiency_tufenkji("1 um", "0.6 mm", "2 mm/s", 0.4, 1050, 998, 1e-3), 5)
     0.00053
     """
@@ -146,7 +148,8 @@ def collector_efficiency_tufenkji(
 
 
 @formula(
-    source="carman1938",
+    source="carman1938; carman1937",
+    fitted={"reynolds_bed": (0.0, 10.0)},
     equation=r"\frac{H}{L} = \frac{36\,h_K\,\eta\,u\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 d_c^2\,\varepsilon^3}",
     output="head_loss",
     typical={
@@ -167,10 +170,13 @@ def head_loss_clean_bed(
 ) -> Distance:
     """Head loss of a clean bed of sand in laminar flow; the diameter is the surface–volume one.
 
+    Laminar up to a Reynolds number of the bed of 10, as for ``pressure_gradient_kozeny_carman``.
+
     >>> round(head_loss_clean_bed(1.0, "0.6 mm", "2 mm/s", 0.4, 1e-3, 1000), 3)
     0.574
     """
     e = void_fraction
+    watch(reynolds_bed=liquid_density * superficial_velocity * collector_diameter / (dynamic_viscosity * (1.0 - e)))
     return (
         36.0 * kozeny_coefficient * dynamic_viscosity * superficial_velocity * (1.0 - e) ** 2 * bed_depth
         / (liquid_density * STANDARD_GRAVITY * collector_diameter**2 * e**3)

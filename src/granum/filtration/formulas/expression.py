@@ -53,7 +53,7 @@ def consolidation_ratio_terzaghi(consolidation_time: Ratio) -> Fraction:
     return _terzaghi(consolidation_time)
 
 
-@formula(source="shirato1974", equation=r"U = (1-B)\left[1 - e^{-\pi^2 T_c/4}\right] + B\left[1 - e^{-\eta t}\right]",
+@formula(source="shirato1974", fitted={"consolidation_time": (0.1, jnp.inf)}, equation=r"U = (1-B)\left[1 - e^{-\pi^2 T_c/4}\right] + B\left[1 - e^{-\eta t}\right]",
          typical={**_PRESS, "consolidation_time": (0.2, 2.0), "creep_share": (0.0, 0.3)})  # fmt: skip
 def consolidation_ratio_shirato(consolidation_time: Ratio, time: Time, creep_share: Fraction, creep_rate: Frequency) -> Fraction:
     """Share of the possible consolidation reached by squeezing, by Shirato: Terzaghi and Voigt, the flow-off and the creep of the solid.

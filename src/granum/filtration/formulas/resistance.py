@@ -44,6 +44,7 @@ def cake_permeability(cake_resistance: CakeResistance, void_fraction: VoidFracti
 
 @formula(
     source="mccabe2005, ch. 29",
+    fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\left(\frac{\Delta p}{p_0}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
 )
@@ -64,7 +65,8 @@ def cake_resistance_power_law(
 
 
 @formula(
-    source="tiller1953",
+    source="tiller1953; mccabe2005, ch. 29",
+    fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\,\max\left(1, \frac{\Delta p}{p_s}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
     family="cake_resistance",
@@ -73,6 +75,8 @@ def cake_resistance_threshold(
     pressure_drop: PressureDrop, cake_resistance_reference: CakeResistance, compressibility: Ratio, threshold_pressure: PressureDrop
 ) -> CakeResistance:
     """Mean specific resistance of a cake that yields only above a threshold pressure: constant below, a power above.
+
+    The range is that of ``cake_resistance_power_law``.
 
     >>> round(cake_resistance_threshold(1e5, 1e10, 0.5, threshold_pressure=2.5e4) / 1e10, 6)
     2.0
