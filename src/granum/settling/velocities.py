@@ -19,7 +19,7 @@ from granum.settling.quantities import SpecificVolume
 
 @law(
     "settling_velocity", name="vesilind", source="vesilind1968", equation=r"v = v_0\,e^{-k C}", title="Vesilind settling velocity",
-    typical={"solids_concentration": (0.5, 12.0)},
+    fitted={"solids_concentration": (1.5, 12.0)}, typical={"solids_concentration": (2.0, 12.0)},
 )  # fmt: skip
 class Vesilind(eqx.Module):
     """Settling velocity falling exponentially with the concentration, for activated sludge.

@@ -124,7 +124,8 @@ class Distributor(NamedTuple):
 
 @formula(source="kunii1991, ch. 4",
          equation=r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_g},\ N_{or} = \frac{4U}{\pi d_{or}^2 u_{or}}",
-         typical={"pressure_drop": (2e3, 2e4), "orifice_diameter": (1e-3, 5e-3), "superficial_velocity": (0.2, 1.0), "fluid_density": (0.4, 5.0)})  # fmt: skip
+         fitted={"distributor_ratio": (0.2, 0.4), "open_area_fraction": (0.0, 0.1)},
+         typical={"pressure_drop": (2e3, 2e4), "orifice_diameter": (1e-3, 5e-3), "superficial_velocity": (0.2, 1.0), "distributor_ratio": (0.2, 0.4), "fluid_density": (0.4, 5.0)})  # fmt: skip
 def distributor_design(
     pressure_drop: PressureDrop,
     superficial_velocity: Speed,
