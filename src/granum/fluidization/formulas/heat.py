@@ -29,12 +29,14 @@ from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
 GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity": (700.0, 1200.0)}
 
 
-@formula(source="zabrodsky1966", equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
-         output="heat_transfer_coefficient", typical=GAS)  # fmt: skip
+@formula(source="zabrodsky1966; kunii1991, ch. 3", equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
+         output="heat_transfer_coefficient", fitted={"particle_diameter": (4e-5, 5e-4), "particle_density": (1400.0, 4000.0)}, typical={**GAS, "particle_diameter": (1e-4, 5e-4), "particle_density": (1500.0, 4000.0)})  # fmt: skip
 def heat_transfer_coefficient_zabrodsky(
     particle_diameter: Length, particle_density: Density, thermal_conductivity: ThermalConductivity
 ) -> HeatTransferCoefficient:
     """Greatest heat transfer coefficient between a bubbling bed and an immersed surface by Zabrodsky, for group B.
+
+    Group B: sandlike powders of 40 to 500 µm and 1400 to 4000 kg/m³ (Kunii and Levenspiel).
 
     >>> 250 < heat_transfer_coefficient_zabrodsky(particle_diameter="300 um", particle_density=2500, thermal_conductivity=0.026) < 450
     True
