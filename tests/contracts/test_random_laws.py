@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 from typing import Any
 
@@ -44,7 +45,9 @@ def test_a_law_gives_values_within_the_bounds_of_its_kind_or_none(key: str) -> N
 @pytest.mark.parametrize("key", LAWS)
 def test_ordinary_options_give_a_law_that_has_values(key: str) -> None:
     law, rng, count = LAWS[key], np.random.default_rng(0), min(SETS, 200)
-    options, given = ({p.name: ordinary(p, rng, count) for p in drawn(group)} for group in (law.card.parameters, law.card.arguments))
+    static = {f.name for f in dataclasses.fields(law) if f.metadata.get("static")}  # one value for a whole program
+    free = [p for p in law.card.parameters if p.name not in static]
+    options, given = ({p.name: ordinary(p, rng, count) for p in drawn(group)} for group in (free, law.card.arguments))
     raw = jax.vmap(lambda o, g: law(**o)(**g))(options, given)
     for p, value in bounds.figures(law.card.outputs, raw):
         assert np.mean(bounds.kept_inside(p, value) & np.isfinite(value)) > VALUES, p.name

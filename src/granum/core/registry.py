@@ -108,12 +108,15 @@ def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any]
 
 @cache
 def abilities(family_name: str) -> tuple[str, ...]:
-    """Methods besides the call that every declared law of a family has: what a law of one's own needs in order to stand in for them."""
+    """Methods besides the call that every declared law of a family has: what a law of one's own needs in order to stand in for them.
+
+    What ``@law`` adds itself does not count.
+    """
     members = family(family_name).values()
     shared = [
         {n for n, thing in inspect.getmembers(m, callable) if not n.startswith("_")} if isinstance(m, type) else set() for m in members
     ]
-    return tuple(sorted(set.intersection(*shared))) if shared else ()
+    return tuple(sorted(set.intersection(*shared) - {"called", "evaluate"})) if shared else ()
 
 
 def public_names(domain: str) -> dict[str, Any]:

@@ -13,12 +13,14 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from granum.core import law
-from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.kinds import Number
+from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE, ZERO_CELSIUS
+from granum.core.kinds import MoleFraction, Pressure, Temperature
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
 from granum.numerics.quick_roots import newton_root
 
 NEARLY_LINEAR = 8  # Newton steps at most on functions that are nearly linear
+LEAST_PRESSURE, MOST_PRESSURE = 1e3, 1e7
+COLDEST, HOTTEST, IDEAL_PRESSURE = 150.0, 1500.0, 2.5e5  # of air and water as ideal gases
 SLACK = 1e-9  # brackets are widened by this fraction so that rounding cannot hide a root that lies at an end
 
 
@@ -31,8 +33,13 @@ class AbstractPair(eqx.Module):
     lowest_temperature: ClassVar[float]
     highest_temperature: ClassVar[float]
     highest_condensation: ClassVar[float] = float("inf")  # no liquid above, so that a wet bulb there is an extrapolation
-    highest_pressure: ClassVar[float] = 1e7  # beyond it the substances are no longer what the pair takes them for
+    highest_pressure: ClassVar[float] = MOST_PRESSURE  # beyond it the substances are no longer what the pair takes them for
     heavy_vapor: ClassVar[bool] = False  # whether evaporation can shrink the gas, so that two states share a volume
+
+    def __call__(self, temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> MoleFraction:
+        """Mole fraction of vapor in saturated gas; none above the boiling point."""
+        T, P = jnp.asarray(temperature, dtype=float), jnp.asarray(pressure, dtype=float)
+        return self.saturated_fraction(T, P, self.is_frozen(T))
 
     @abstractmethod
     def lewis_factor(self) -> Any:
@@ -167,6 +174,7 @@ def ice_vapor_pressure(T: Any) -> Any:
     name="air_water",
     source="wagner2002; lemmon2000; iapwsif97, eq. 30; iapws2011melting",
     title="Air and water, ideal gases",
+    fitted={"temperature": (COLDEST, HOTTEST), "pressure": (LEAST_PRESSURE, IDEAL_PRESSURE)},
     equation=r"h = h_a(T) + w\,h_v(T), \qquad h_v(0\,°\mathrm{C}) = 2500.9\,\mathrm{kJ/kg}",
 )
 class AirWater(AbstractIdealPair):
@@ -182,12 +190,9 @@ class AirWater(AbstractIdealPair):
     gas_molar_mass: ClassVar[float] = 0.028966
     vapor_molar_mass: ClassVar[float] = 0.018015268
     freezing_temperature: ClassVar[float] = TRIPLE_POINT
-    lowest_temperature: ClassVar[float] = 150.0
-    highest_temperature: ClassVar[float] = 1500.0
-    highest_pressure: ClassVar[float] = 2.5e5
-
-    def __call__(self) -> Number:
-        return 1.0
+    lowest_temperature: ClassVar[float] = COLDEST
+    highest_temperature: ClassVar[float] = HOTTEST
+    highest_pressure: ClassVar[float] = IDEAL_PRESSURE
 
     def lewis_factor(self) -> Any:
         return None

@@ -9,8 +9,17 @@ import jax.numpy as jnp
 
 import granum.humid_gas.virials as vi
 from granum.core import law
-from granum.core.kinds import Number
-from granum.humid_gas.pairs import AIR_WATER, ICE_ENTHALPY, TRIPLE_POINT, AbstractPair, AirWater, ice_vapor_pressure, polynomial
+from granum.humid_gas.pairs import (
+    AIR_WATER,
+    ICE_ENTHALPY,
+    LEAST_PRESSURE,
+    MOST_PRESSURE,
+    TRIPLE_POINT,
+    AbstractPair,
+    AirWater,
+    ice_vapor_pressure,
+    polynomial,
+)
 from granum.materials.formulas.water import water_boiling_temperature, water_vapor_pressure
 from granum.numerics.quick_roots import newton_root
 
@@ -26,6 +35,7 @@ LIQUID_MOLAR_VOLUME = 1.85e-5  # m³/mol, water about 60 °C: enough for a start
     name="air_water_real",
     source="herrmann2009; harvey2007; nelson2002; wagner2002; lemmon2000",
     title="Air and water, real gas (RP-1485)",
+    fitted={"temperature": (183.15, 623.15), "pressure": (LEAST_PRESSURE, MOST_PRESSURE)},
     equation=r"\frac{p\,\bar v}{RT} = 1 + \frac{B_m}{\bar v} + \frac{C_m}{\bar v^2},\qquad y_s = f\,p_s/p",
 )
 class AirWaterReal(AbstractPair):
@@ -40,9 +50,6 @@ class AirWaterReal(AbstractPair):
     freezing_temperature: ClassVar[float] = TRIPLE_POINT
     lowest_temperature: ClassVar[float] = 183.15
     highest_temperature: ClassVar[float] = 900.0
-
-    def __call__(self) -> Number:
-        return 1.0
 
     def lewis_factor(self) -> Any:
         return None

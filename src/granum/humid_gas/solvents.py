@@ -14,8 +14,8 @@ from granum.core import law
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import ApplicabilityError
 from granum.core.i18n import _
-from granum.core.kinds import Number, PositiveNumber
-from granum.humid_gas.pairs import AbstractIdealPair, integrated, polynomial
+from granum.core.kinds import PositiveNumber
+from granum.humid_gas.pairs import LEAST_PRESSURE, MOST_PRESSURE, AbstractIdealPair, integrated, polynomial
 from granum.materials import gas_vapor
 from granum.materials.library import Library, session
 from granum.numerics import find_root
@@ -139,6 +139,7 @@ class AbstractFluidPair(AbstractIdealPair):
 
 
 @law("gas_vapor_pair", name="gas_and_vapor", source="green2008, sec. 2; fuller1966; bedingfield1950", title="Gas and vapor of the property library",
+     fitted={"pressure": (LEAST_PRESSURE, MOST_PRESSURE)},
      equation=r"\frac{h}{k_Y c} = \mathrm{Le}^{n}")  # fmt: skip
 class GasAndVapor(AbstractFluidPair):
     """Any carrier gas and solvent of the property library as ideal gases, with the Lewis factor that psychrometers show.
@@ -151,9 +152,6 @@ class GasAndVapor(AbstractFluidPair):
     gas: str = eqx.field(static=True, default="nitrogen")
     vapor: str = eqx.field(static=True, default="ethanol")
     lewis_exponent: PositiveNumber = eqx.field(static=True, default=PSYCHROMETER)
-
-    def __call__(self) -> Number:
-        return self.lewis_factor()
 
 
 class PairOfMixture(AbstractFluidPair):
@@ -168,8 +166,11 @@ class PairOfMixture(AbstractFluidPair):
         return self.materials
 
 
-def _named(carrier: str, solvent: str, name: str, title: str) -> type:
-    @law("gas_vapor_pair", name=name, source="green2008, sec. 2; fuller1966; bedingfield1950", title=title)
+def _named(carrier: str, solvent: str, name: str, title: str, low: float, high: float) -> type:
+    """``low`` and ``high``: temperatures between which the vapor pressure of the solvent is known, K."""
+
+    @law("gas_vapor_pair", name=name, source="green2008, sec. 2; fuller1966; bedingfield1950", title=title,
+         fitted={"temperature": (low, high), "pressure": (LEAST_PRESSURE, MOST_PRESSURE)})  # fmt: skip
     class NamedPair(AbstractFluidPair):
         """A carrier gas and a solvent vapor of the property library as ideal gases."""
 
@@ -177,20 +178,17 @@ def _named(carrier: str, solvent: str, name: str, title: str) -> type:
         vapor: ClassVar[str] = solvent
         lewis_exponent: PositiveNumber = eqx.field(static=True, default=PSYCHROMETER)
 
-        def __call__(self) -> Number:
-            return self.lewis_factor()
-
     return NamedPair
 
 
-NitrogenWater = _named("nitrogen", "water", "nitrogen_water", "Nitrogen and water")
-NitrogenEthanol = _named("nitrogen", "ethanol", "nitrogen_ethanol", "Nitrogen and ethanol")
-NitrogenMethanol = _named("nitrogen", "methanol", "nitrogen_methanol", "Nitrogen and methanol")
-NitrogenIsopropanol = _named("nitrogen", "2-propanol", "nitrogen_isopropanol", "Nitrogen and isopropanol")
-NitrogenAcetone = _named("nitrogen", "acetone", "nitrogen_acetone", "Nitrogen and acetone")
-NitrogenToluene = _named("nitrogen", "toluene", "nitrogen_toluene", "Nitrogen and toluene")
-NitrogenEthylAcetate = _named("nitrogen", "ethyl acetate", "nitrogen_ethyl_acetate", "Nitrogen and ethyl acetate")
-AirEthanol = _named("dry air", "ethanol", "air_ethanol", "Air and ethanol")
-AirMethanol = _named("dry air", "methanol", "air_methanol", "Air and methanol")
-AirAcetone = _named("dry air", "acetone", "air_acetone", "Air and acetone")
-AirToluene = _named("dry air", "toluene", "air_toluene", "Air and toluene")
+NitrogenWater = _named("nitrogen", "water", "nitrogen_water", "Nitrogen and water", 273.15, 647.096)
+NitrogenEthanol = _named("nitrogen", "ethanol", "nitrogen_ethanol", "Nitrogen and ethanol", 180.0, 514.0)
+NitrogenMethanol = _named("nitrogen", "methanol", "nitrogen_methanol", "Nitrogen and methanol", 180.0, 513.38)
+NitrogenIsopropanol = _named("nitrogen", "2-propanol", "nitrogen_isopropanol", "Nitrogen and isopropanol", 185.25, 508.25)
+NitrogenAcetone = _named("nitrogen", "acetone", "nitrogen_acetone", "Nitrogen and acetone", 180.0, 508.2)
+NitrogenToluene = _named("nitrogen", "toluene", "nitrogen_toluene", "Nitrogen and toluene", 180.0, 591.75)
+NitrogenEthylAcetate = _named("nitrogen", "ethyl acetate", "nitrogen_ethyl_acetate", "Nitrogen and ethyl acetate", 189.65, 523.2)
+AirEthanol = _named("dry air", "ethanol", "air_ethanol", "Air and ethanol", 180.0, 514.0)
+AirMethanol = _named("dry air", "methanol", "air_methanol", "Air and methanol", 180.0, 513.38)
+AirAcetone = _named("dry air", "acetone", "air_acetone", "Air and acetone", 180.0, 508.2)
+AirToluene = _named("dry air", "toluene", "air_toluene", "Air and toluene", 180.0, 591.75)

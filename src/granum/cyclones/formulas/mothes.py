@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.kinds import Density, Diffusivity, DynamicViscosity, Fraction, Length, Ratio, VolumeFlow
 from granum.cyclones.formulas.efficiency import TYPICAL, heavier
 from granum.cyclones.geometry import Dimensions, takes_lengths
@@ -34,6 +34,7 @@ def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
 
 @formula(source="mothes1988; meissner1978", family="cyclone_efficiency",
          equation=r"\eta = 1 - \frac{m - a}{b}\,e^{-A(S - a_e/2)},\quad m = \frac{a+d}{2} + \sqrt{\left(\frac{a-d}{2}\right)^2 + bc}",
+         fitted={"velocity": (5.0, 20.0)},
          typical={**TYPICAL, "diffusivity": (0.01, 0.015), "wall_friction": (0.006, 0.009)})  # fmt: skip
 @takes_lengths
 def cyclone_efficiency_mothes_loffler(
@@ -78,4 +79,5 @@ def cyclone_efficiency_mothes_loffler(
     half = jnp.sqrt(((a - d) / 2.0) ** 2 + b * c)
     # m - a, written so that nothing cancels for coarse dust: (m - a)(m - d) = bc
     core = c / (half + (a - d) / 2.0)  # concentration of the core over that of the outer vortex at its top
+    watch(velocity=Q / (inlet_height * _width))
     return 1.0 - core * jnp.exp(-settling * jnp.maximum(S - inlet_height / 2.0, 0.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
@@ -48,23 +49,25 @@ def _carried(e: Any) -> Any:
 
 
 @formula(source="richardson1954", equation=r"\varepsilon = (U/U_t)^{1/n}", output="bed_void_fraction",
-         typical={"superficial_velocity": (0.01, 0.05), "terminal_velocity": (0.1, 0.3), "settling_exponent": (2.4, 4.7)})  # fmt: skip
+         fitted={"bed_void_fraction": (0.4, 1.0)},
+         typical={"superficial_velocity": (0.03, 0.05), "terminal_velocity": (0.1, 0.3), "settling_exponent": (2.4, 4.7)})  # fmt: skip
 def bed_void_fraction_richardson_zaki(
     superficial_velocity: Speed, terminal_velocity: Speed, settling_exponent: Annotated[PositiveNumber, Within(1.0, 10.0)]
 ) -> Fraction:
     """Void fraction of a bed fluidized by a liquid, by Richardson and Zaki; 1 and a flag above the terminal velocity.
 
-    The exponent comes from ``settling_exponent_richardson_zaki`` or another of its family.
+    The exponent comes from ``settling_exponent_richardson_zaki`` or another of its family. Like their law of settling it holds up to a solids
+    fraction of 0.6.
 
-    >>> round(bed_void_fraction_richardson_zaki(superficial_velocity=0.01, terminal_velocity=0.1, settling_exponent=2.4), 4)
-    0.3831
+    >>> round(bed_void_fraction_richardson_zaki(superficial_velocity=0.05, terminal_velocity=0.1, settling_exponent=2.4), 4)
+    0.7492
     """
     return _carried((superficial_velocity / terminal_velocity) ** (1.0 / settling_exponent))
 
 
 @formula(source="riba1977",
          equation=r"\varepsilon = 1.58\,\mathrm{Re}^{0.33}\,\mathrm{Ga}^{-0.21}\left(\frac{\rho_p-\rho_f}{\rho_f}\right)^{-0.22}",
-         output="bed_void_fraction", typical=LIQUID)  # fmt: skip
+         output="bed_void_fraction", fitted={"bed_void_fraction": (-inf, 0.85)}, typical=LIQUID)  # fmt: skip
 def bed_void_fraction_riba(
     superficial_velocity: Speed,
     particle_diameter: Length,

@@ -29,12 +29,14 @@ from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
 GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity": (700.0, 1200.0)}
 
 
-@formula(source="zabrodsky1966", equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
-         output="heat_transfer_coefficient", typical=GAS)  # fmt: skip
+@formula(source="zabrodsky1966; kunii1991, ch. 3", equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
+         output="heat_transfer_coefficient", fitted={"particle_diameter": (4e-5, 5e-4), "particle_density": (1400.0, 4000.0)}, typical={**GAS, "particle_diameter": (1e-4, 5e-4), "particle_density": (1500.0, 4000.0)})  # fmt: skip
 def heat_transfer_coefficient_zabrodsky(
     particle_diameter: Length, particle_density: Density, thermal_conductivity: ThermalConductivity
 ) -> HeatTransferCoefficient:
     """Greatest heat transfer coefficient between a bubbling bed and an immersed surface by Zabrodsky, for group B.
+
+    Group B: sandlike powders of 40 to 500 µm and 1400 to 4000 kg/m³ (Kunii and Levenspiel).
 
     >>> 250 < heat_transfer_coefficient_zabrodsky(particle_diameter="300 um", particle_density=2500, thermal_conductivity=0.026) < 450
     True
@@ -124,7 +126,8 @@ class Distributor(NamedTuple):
 
 @formula(source="kunii1991, ch. 4",
          equation=r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_g},\ N_{or} = \frac{4U}{\pi d_{or}^2 u_{or}}",
-         typical={"pressure_drop": (2e3, 2e4), "orifice_diameter": (1e-3, 5e-3), "superficial_velocity": (0.2, 1.0), "fluid_density": (0.4, 5.0)})  # fmt: skip
+         fitted={"distributor_ratio": (0.2, 0.4), "open_area_fraction": (0.0, 0.1)},
+         typical={"pressure_drop": (2e3, 2e4), "orifice_diameter": (1e-3, 5e-3), "superficial_velocity": (0.2, 1.0), "distributor_ratio": (0.2, 0.4), "fluid_density": (0.4, 5.0)})  # fmt: skip
 def distributor_design(
     pressure_drop: PressureDrop,
     superficial_velocity: Speed,

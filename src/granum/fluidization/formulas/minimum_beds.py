@@ -10,9 +10,9 @@ from granum.fluidization.formulas.buoyancy import FINE, TYPICAL, archimedes, exc
 USUAL_VOID_FRACTION = 0.4
 
 
-@formula(source="ergun1952; kunii1991, ch. 3, eq. 18",
+@formula(source="ergun1952; kunii1991, ch. 3, eq. 18; bird2002, section 6.4",
          equation=r"\frac{1.75}{\varepsilon^3\psi}\mathrm{Re}^2 + \frac{150(1-\varepsilon)}{\varepsilon^3\psi^2}\mathrm{Re} = \mathrm{Ar}",
-         typical=TYPICAL)  # fmt: skip
+         fitted={"reynolds_bed": (0.0, 2300.0)}, typical=TYPICAL)  # fmt: skip
 def minimum_fluidization_velocity_ergun(
     particle_diameter: Length,
     particle_density: Density,
@@ -25,7 +25,8 @@ def minimum_fluidization_velocity_ergun(
     """Minimum fluidization velocity at which Ergun's pressure drop carries the bed, from void fraction and sphericity.
 
     The void fraction is that at minimum fluidization, to whose cube the velocity of fine particles goes. Differs from the print: one set of
-    notes squares the density, and in its pressure drop swaps ε and 1 - ε.
+    notes squares the density, and in its pressure drop swaps ε and 1 - ε. Ergun's data end at ρUψd/η/(1 - ε) = 2300; towards creeping flow
+    his equation becomes that of Blake and Kozeny.
 
     Kunii and Levenspiel's sharp sand, 4.0 cm/s:
 
@@ -36,6 +37,7 @@ def minimum_fluidization_velocity_ergun(
     d, rho, eta, e, psi = particle_diameter, fluid_density, dynamic_viscosity, void_fraction, sphericity
     square, line = 1.75 / (e**3 * psi), 150.0 * (1.0 - e) / (e**3 * psi**2)
     Re = larger_root(line / (2.0 * square), archimedes(d, particle_density, rho, eta, gravity) / square)
+    watch(reynolds_bed=Re * psi / (1.0 - e))
     return Re * eta / (rho * d)
 
 

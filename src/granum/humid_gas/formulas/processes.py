@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -20,7 +21,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     Temperature,
 )  # fmt: skip
-from granum.humid_gas.formulas.state import GasVaporPair, within_pair
+from granum.humid_gas.formulas.state import RANGE, GasVaporPair, within_pair
 from granum.humid_gas.pairs import AIR_WATER
 
 _SOURCE = "ashrae2017, ch. 1; keey1978"
@@ -73,6 +74,7 @@ def after(pair: Any, w: Any, h: Any, P: Any) -> Process:
 @formula(
     source=_SOURCE,
     equation=r"w = \frac{G_1 w_1 + G_2 w_2}{G_1+G_2},\quad h = \frac{G_1 h_1 + G_2 h_2}{G_1+G_2}",
+    fitted=RANGE,
     typical={"humidity_ratio_first": (0.005, 0.01), "humidity_ratio_second": (0.01, 0.02), "enthalpy_first": (4e4, 5e4),
              "enthalpy_second": (8e4, 1e5)},
     title="Mixing of two humid gases",
@@ -103,6 +105,7 @@ def mixing(
 
 
 @formula(source=_SOURCE, equation=r"\dot Q = G\,(h_2 - h_1),\qquad w_2 = w_1", title="Heating of a humid gas", output="humid_process",
+         fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
          typical={**_WARM, "temperature": (285.0, 300.0), "temperature_outlet": (320.0, 400.0)})  # fmt: skip
 def heating(
     temperature: Temperature,
@@ -126,6 +129,7 @@ def heating(
 
 
 @formula(source=_SOURCE, equation=r"h_2 = h_1 + \dot Q/G,\qquad w_2 = w_1", title="Heating of a humid gas by a duty", output="humid_process",
+         fitted=RANGE,
          typical={**_WARM, "heat_duty": (1e4, 5e4)})  # fmt: skip
 def heating_by_duty(
     temperature: Temperature,
@@ -146,6 +150,7 @@ def heating_by_duty(
 
 @formula(source=_SOURCE, equation=r"\dot Q = G\left[h_2 - h_1 + (w_1-w_2) h_l(T_2)\right],\quad w_2 = \min(w_1, w_s(T_2))",
          title="Cooling with condensation", output="humid_process",
+         fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
          typical={**_WARM, "temperature_outlet": (276.0, 282.0)})  # fmt: skip
 def cooling(
     temperature: Temperature,
@@ -172,7 +177,8 @@ def cooling(
 
 
 @formula(source="ashrae2017, ch. 1; mcquiston2005", equation=r"w_2 = \mathrm{BF}\,w_1 + (1-\mathrm{BF})\,\min(w_1, w_s(T_b))",
-         title="Dehumidifying coil with bypass", output="humid_process", typical={**_WARM, "coil_temperature": (276.0, 282.0)})  # fmt: skip
+         title="Dehumidifying coil with bypass", output="humid_process",
+         fitted={**RANGE, "coil_temperature": RANGE["temperature"]}, typical={**_WARM, "coil_temperature": (276.0, 282.0)})  # fmt: skip
 def dehumidifying(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -202,7 +208,7 @@ def dehumidifying(
 
 
 @formula(source=_SOURCE, equation=r"w_2 = w_1 + \dot m_i/G,\quad h_2 = h_1 + h_i\,\dot m_i/G", title="Injection of water or steam",
-         output="humid_process", typical=_WARM)  # fmt: skip
+         output="humid_process", fitted=RANGE, typical=_WARM)  # fmt: skip
 def injection(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -226,6 +232,7 @@ def injection(
 
 
 @formula(source=_SOURCE, equation=r"h_2 = h_1 + (w_2 - w_1)\,h_l(T_{as})", title="Adiabatic drying", output="humid_process",
+         fitted=RANGE,
          typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014)})  # fmt: skip
 def adiabatic_drying(
     temperature: Temperature,
@@ -248,6 +255,7 @@ def adiabatic_drying(
 
 
 @formula(source=_SOURCE, equation=r"h_2 = h_1 + \Delta\,(w_2 - w_1)", title="Real drying", output="humid_process",
+         fitted=RANGE,
          typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014), "drying_slope": (-4e5, -2e5)})  # fmt: skip
 def real_drying(
     temperature: Temperature,
@@ -311,6 +319,7 @@ class CombustionGas(NamedTuple):
     source="keey1978",
     equation=r"m_{a} = n\,\frac{x_C/12.011 + x_H/4.032 + x_S/32.06 - x_O/31.998}{0.2095}\,28.966,\quad "
     r"h = \frac{m_a h_a + \mathrm{PCI} + L_0\,(9x_H + x_W)}{m_g}",
+    fitted={"excess_air_ratio": (4.0, inf)},
     typical={"temperature": (285.0, 300.0), "fuel_fraction_hydrogen": (0.1, 0.2), "fuel_fraction_carbon": (0.7, 0.75),
              "humidity_ratio": (0.004, 0.01), "excess_air_ratio": (4.0, 10.0), "fuel_fraction_oxygen": (0.0, 0.02),
              "fuel_fraction_sulfur": (0.0, 0.01), "fuel_fraction_water": (0.0, 0.01), "heat_loss_share": (0.01, 0.05), "lower_heating_value": (4e7, 5e7)},
@@ -364,6 +373,7 @@ def combustion_gas(
 @formula(
     source="keey1978",
     equation=r"\Delta = h_l(T_{s1}) - q_s - q_{loss} + q_{add}",
+    fitted={"temperature_solid": (273.15, 623.15)},
     typical={"temperature_solid": (285.0, 300.0), "specific_energy_solid": (5e4, 2e5), "specific_energy_loss": (5e4, 2e5),
              "specific_energy_added": (1e4, 5e4)},
     title="Drying slope from losses",
@@ -376,7 +386,8 @@ def drying_slope(
 ) -> SpecificEnergy:
     """Change of the gas's enthalpy per kilogram of water taken up: what the water brings less what solid and surroundings take.
 
-    All per kilogram of evaporated water: heat to warm the solid, heat lost, heat added inside the dryer.
+    All per kilogram of evaporated water: heat to warm the solid, heat lost, heat added inside the dryer. Water is liquid: from 0 to 350 °C,
+    where the fit of its enthalpy ends.
 
     >>> round(drying_slope(temperature_solid="20 degC", specific_energy_solid="150 kJ/kg", specific_energy_loss="200 kJ/kg") / 1e3)
     -266

@@ -28,14 +28,13 @@ from granum.core.kinds import (
     Temperature,
 )  # fmt: skip
 from granum.humid_gas.inputs import Solver
-from granum.humid_gas.pairs import AIR_WATER
+from granum.humid_gas.pairs import AIR_WATER, LEAST_PRESSURE, MOST_PRESSURE
 
 GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
 NO_DEW_POINT = "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given instead."
 IDEAL = "Both gases are taken as ideal there: give the pair air_water_real, which is the real mixture."
 NO_SATURATION = "Above the boiling point no gas is saturated and percentage humidity has no meaning: give the humidity ratio."
 RANGE = {"temperature": (213.0, 623.2)}  # that of the pressure is the pair's
-LEAST_PRESSURE, MOST_PRESSURE = 1e3, 1e7
 
 
 class HumidGasState(NamedTuple):

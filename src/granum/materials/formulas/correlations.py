@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import Number, Series, Temperature
 
@@ -69,20 +69,28 @@ def correlation_dippr102(temperature: Temperature, coefficients: Coefficients) -
     return c[0] * T ** c[1] / (1.0 + c[2] / T + c[3] / T**2)
 
 
-@formula(source="green2008, table 2-32", equation=r"y = c_1\, c_2^{-\left[1 + (1 - T/c_3)^{c_4}\right]}", title="Rackett form (DIPPR 105)")
+@formula(
+    source="green2008, table 2-32",
+    equation=r"y = c_1\, c_2^{-\left[1 + (1 - T/c_3)^{c_4}\right]}",
+    title="Rackett form (DIPPR 105)",
+    fitted={"reduced_temperature": (0.0, 1.0)},
+)
 def correlation_rackett(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Rackett form used for the density of saturated liquids; c3 is the critical temperature.
+
+    Up to the critical temperature.
 
     >>> round(correlation_rackett(temperature=298.15, coefficients=[1628.8, 0.27469, 514.0, 0.23178]) * 46.068 / 1e3, -1)
     790.0
     """
     c = jnp.asarray(coefficients)
     y = jnp.maximum(1.0 - temperature / c[2], 1e-9)
+    watch(reduced_temperature=temperature / c[2])
     return c[0] / c[1] ** (1.0 + y ** c[3])
 
 
 @formula(source="green2008, table 2-150", equation=r"y = c_2\,(1 - T_r)^{c_3 + c_4 T_r + c_5 T_r^2 + \dots},\quad T_r = T/c_1",
-         title="Watson form (DIPPR 106)")  # fmt: skip
+         title="Watson form (DIPPR 106)", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
 def correlation_watson(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Watson form used for heats of vaporization and surface tensions; c1 is the critical temperature, where the value becomes zero.
 
@@ -91,6 +99,7 @@ def correlation_watson(temperature: Temperature, coefficients: Coefficients) -> 
     """
     c = jnp.asarray(coefficients)
     Tr = temperature / c[0]
+    watch(reduced_temperature=Tr)
     return c[1] * jnp.maximum(1.0 - Tr, 1e-9) ** _horner(c[2:], Tr)
 
 
@@ -111,7 +120,7 @@ def correlation_aly_lee(temperature: Temperature, coefficients: Coefficients) ->
 @formula(source="green2008, table 2-153",
          equation=r"y = \frac{c_2^2}{\tau} + c_3 - 2c_2c_4\tau - c_2c_5\tau^2 - \frac{c_4^2\tau^3}{3} - \frac{c_4c_5\tau^4}{2} - \frac{c_5^2\tau^5}{5},"
                   r"\quad \tau = 1 - T/c_1",
-         title="Zábranský form (DIPPR 114)")  # fmt: skip
+         title="Zábranský form (DIPPR 114)", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
 def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Form for the heat capacity of liquids up to the critical temperature c1.
 
@@ -121,11 +130,12 @@ def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -
     """
     Tc, A, B, C, D = (jnp.asarray(coefficients)[i] for i in range(5))
     t = jnp.maximum(1.0 - temperature / Tc, 1e-9)
+    watch(reduced_temperature=temperature / Tc)
     return A**2 / t + B - 2 * A * C * t - A * D * t**2 - C**2 * t**3 / 3 - C * D * t**4 / 2 - D**2 * t**5 / 5
 
 
 @formula(source="vdi2010, sec. D3.1, table 3", equation=r"y = c_6\exp\frac{c_1\tau + c_2\tau^{1.5} + c_3\tau^{2.5} + c_4\tau^5}{1-\tau},\quad \tau = 1 - T/c_5",
-         title="Wagner form")  # fmt: skip
+         title="Wagner form", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
 def correlation_wagner(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Wagner's form for the vapor pressure up to the critical point c5, c6.
 
@@ -137,6 +147,7 @@ def correlation_wagner(temperature: Temperature, coefficients: Coefficients) -> 
     """
     A, B, C, D, Tc, pc = (jnp.asarray(coefficients)[i] for i in range(6))
     t = jnp.clip(1.0 - temperature / Tc, 1e-12, 1.0 - 1e-3)
+    watch(reduced_temperature=temperature / Tc)
     return pc * jnp.exp((A * t + B * t**1.5 + C * t**2.5 + D * t**5) / (1.0 - t))
 
 
@@ -195,16 +206,22 @@ def correlation_vant_hoff(temperature: Temperature, coefficients: Coefficients) 
 
 
 @formula(
-    source="mulero2012, eq. 2", equation=r"y = \sum_i \sigma_i\,(1 - T/T_c)^{n_i}", title="Surface tension form of Mulero and Cachadiña"
+    source="mulero2012, eq. 2",
+    equation=r"y = \sum_i \sigma_i\,(1 - T/T_c)^{n_i}",
+    title="Surface tension form of Mulero and Cachadiña",
+    fitted={"reduced_temperature": (0.0, 1.0)},
 )
 def correlation_mulero(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Sum of powers for the surface tension of pure liquids; coefficients Tc, σ0, n0, σ1, n1 and so on.
+
+    Up to the critical temperature.
 
     >>> round(correlation_mulero(temperature=298.15, coefficients=[513.9, 0.05, 0.952]) * 1e3, 0)
     22.0
     """
     c = jnp.asarray(coefficients)
     t = jnp.maximum(1.0 - temperature / c[0], 1e-9)
+    watch(reduced_temperature=temperature / c[0])
     return sum(c[i] * t ** c[i + 1] for i in range(1, c.shape[0] - 1, 2))
 
 

@@ -116,6 +116,7 @@ class FallByRegime(NamedTuple):
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
     equation=r"\mathrm{Re} = \frac{X}{24}\ (X\le 4.8),\ \left(\frac{X}{18.5}\right)^{1/1.4},\ \sqrt{\frac{X}{0.44}}\ (X\ge 110\,000)",
+    fitted={"reynolds_number": (0.0, 2e5)},
 )
 def terminal_velocity_by_regime(
     particle_diameter: Length,
@@ -126,8 +127,9 @@ def terminal_velocity_by_regime(
 ) -> FallByRegime:
     """Terminal velocity by Stokes, Allen or Newton, whichever the criterion X selects; positive downwards.
 
-    The hand method of the courses. It jumps by a factor 1.9 at X = 4.8, where Allen's law is far too low in drag.
-    Differs from the print: the course gives Newton's velocity as √(3 g (ρ_p/ρ_f − 1) d); 3 stands for 4/(3·0.44) = 3.03.
+    The hand method of the courses. It jumps by a factor 1.9 at X = 4.8, where Allen's law is far too low in drag. Differs from the print:
+    the course gives Newton's velocity as √(3 g (ρ_p/ρ_f − 1) d); 3 stands for 4/(3·0.44) = 3.03. Newton's law ends at a Reynolds number of
+    200 000, where the drag of a sphere falls.
 
     >>> found = terminal_velocity_by_regime(particle_diameter="50 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
     >>> round(1000 * found.terminal_velocity, 3), round(found.velocity_criterion, 2)
@@ -154,6 +156,7 @@ class SizeByRegime(NamedTuple):
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
     equation=r"\mathrm{Re} = \sqrt{24Y}\ (Y\le 1.66\cdot10^{-3}),\ (18.5Y)^{1/1.6},\ 0.44Y\ (Y\ge 1136)",
+    fitted={"reynolds_number": (0.0, 2e5)},
 )
 def terminal_diameter_by_regime(
     velocity: Speed,
@@ -163,6 +166,8 @@ def terminal_diameter_by_regime(
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> SizeByRegime:
     """Diameter of the particle with a given terminal speed by Stokes, Allen or Newton, whichever the criterion Y selects.
+
+    Newton's law ends at a Reynolds number of 200 000, where the drag of a sphere falls.
 
     >>> found = terminal_diameter_by_regime(velocity="2.247 mm/s", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP")
     >>> round(1e6 * found.terminal_diameter, 1), round(found.diameter_criterion, 6)

@@ -240,6 +240,7 @@ def hindrance_batchelor(solids_volume_fraction: Solids, reynolds: PositiveNumber
     name="richardson_zaki",
     source="richardson1954",
     equation=r"\frac{v}{v_t} = k\,(1 - \varphi)^{n}",
+    fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 class RichardsonZaki(eqx.Module):
     """Hindrance law k(1 − φ)ⁿ with a fixed exponent, or with Richardson and Zaki's exponent when none is given.

@@ -42,7 +42,7 @@ def _slopes(x: Any, y: Any) -> Any:
     return jnp.append(inner, 2.0 * rises[-1] - inner[-1])
 
 
-@formula(source="allen1997", title="Size distribution by pipette", typical=_CLAY,
+@formula(source="allen1997; iso13317-2", title="Size distribution by pipette", fitted={"particle_diameter": (1e-6, 1e-4)}, typical=_CLAY,
          equation=r"d = \sqrt{\frac{18\eta\,h}{(\rho_p-\rho_f)g\,t}},\quad Q(d) = \frac{C(t)}{C_0}")  # fmt: skip
 def size_distribution_pipette(
     time: Annotated[Time, Series("readings")],
@@ -55,6 +55,8 @@ def size_distribution_pipette(
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> SedimentationSizes:
     """Cumulative curve by mass from samples drawn at one depth of a settling suspension (Andreasen): what is finer still hangs there.
+
+    Used for sizes from 1 to 100 µm (ISO 13317-2).
 
     >>> sizes = size_distribution_pipette(time="10 40 min", solids_concentration="6 2 g/L", initial_concentration="10 g/L", depth="20 cm",
     ...                                   particle_density=2700, fluid_density=1000, dynamic_viscosity="1 cP")
@@ -70,7 +72,7 @@ def size_distribution_pipette(
     )
 
 
-@formula(source="allen1997", title="Size distribution by sedimentation balance", typical=_CLAY,
+@formula(source="allen1997; iso13317-4", title="Size distribution by sedimentation balance", fitted={"particle_diameter": (1e-6, 1e-4)}, typical=_CLAY,
          equation=r"d = \sqrt{\frac{18\eta\,h}{(\rho_p-\rho_f)g\,t}},\quad 1 - Q(d) = m - t\frac{\mathrm dm}{\mathrm dt}")  # fmt: skip
 def size_distribution_balance(
     time: Annotated[Time, Series("readings")],
@@ -83,7 +85,8 @@ def size_distribution_balance(
 ) -> SedimentationSizes:
     """Cumulative curve by mass from the share of a homogeneous suspension that lies on the pan at each time, by Odén's tangents.
 
-    The tangent at a reading is that of the parabola through it and its neighbors, the start at zero counting as one.
+    The tangent at a reading is that of the parabola through it and its neighbors, the start at zero counting as one. Used for sizes from 1
+    to 100 µm (ISO 13317-4).
 
     >>> sizes = size_distribution_balance(time="1 2 4 min", deposited_fraction="20 40 70 %", depth="20 cm", particle_density=2700,
     ...                                   fluid_density=1000, dynamic_viscosity="1 cP")

@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible
+from granum.core import formula, impossible, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -227,6 +227,7 @@ class DilutedSuspension(NamedTuple):
     source="degremont2007, sedimentation; stokes1851",
     equation=r"\nu_a = \nu\frac{D + 1/\rho_p}{D - D_{lim}},\ \rho_a = \frac{D\rho_f + 1}{D + 1/\rho_p},\quad"
     r"v = \frac{g d_p^2 (\rho_p - \rho_f)(D - D_{lim})}{18\,\nu\,(\rho_f + 1/D)(D + 1/\rho_p)}",
+    fitted={"reynolds": (0.0, 1.0)},
     typical={"dilution_limit": (1e-4, 4e-4), "liquid_volume_per_solid_mass": (1e-3, 1e-2)},
 )
 def diluted_suspension(
@@ -240,9 +241,10 @@ def diluted_suspension(
 ) -> DilutedSuspension:
     """Apparent density and kinematic viscosity of a suspension from its dilution, and the creeping velocity in them.
 
-    Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where compression starts).
-    At the limit the viscosity is infinite and the velocity zero; below it there is no value.
-    Differs from the print: the course writes the last bracket as D + (1 + ρ_p) where D + 1/ρ_p follows from its own ν_a and ρ_a.
+    Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where compression starts). At the
+    limit the viscosity is infinite and the velocity zero; below it there is no value. Differs from the print: the course writes the last
+    bracket as D + (1 + ρ_p) where D + 1/ρ_p follows from its own ν_a and ρ_a. For creeping flow, in the course
+    Reynolds numbers below 1.
 
     >>> found = diluted_suspension(particle_diameter="20 um", particle_density=2650, fluid_density=1000, kinematic_viscosity=1e-6,
     ...                            liquid_volume_per_solid_mass=2e-3, dilution_limit=2e-4)
@@ -256,4 +258,5 @@ def diluted_suspension(
     impossible(~open_, D, "liquid_volume_per_solid_mass", dilution_limit, jnp.inf, PACKED)
     viscosity = jnp.where(open_, kinematic_viscosity * (D + 1.0 / rho_p) / jnp.where(open_, room, 1.0), jnp.nan)
     velocity = gravity * particle_diameter**2 * (rho_p - density) / (18.0 * viscosity * density)
+    watch(reynolds=abs(velocity) * particle_diameter / viscosity)
     return DilutedSuspension(density, viscosity, velocity)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible
+from granum.core import formula, impossible, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -193,11 +193,19 @@ def noncircularity_rectangle(side_ratio: Annotated[Ratio, Within(0.0, 1.0)]) -> 
     return 1.5 * (1.0 - 1.3553 * a + 1.9467 * a**2 - 1.7012 * a**3 + 0.9564 * a**4 - 0.2537 * a**5)
 
 
-@formula(source="klinkenberg1941", equation=r"B_g = B\left(1 + \frac{b}{p}\right)", typical={"klinkenberg_pressure": (1e3, 1e5)})
+@formula(
+    source="klinkenberg1941; ziarani2012",
+    equation=r"B_g = B\left(1 + \frac{b}{p}\right)",
+    fitted={"klinkenberg_ratio": (0.0, 0.4)},
+    typical={"klinkenberg_pressure": (1e3, 1e5)},
+)
 def permeability_klinkenberg(permeability: Permeability, pressure: PressureDrop, klinkenberg_pressure: PressureDrop) -> Permeability:
     """Apparent permeability to a gas with slip on the pore walls, at the mean pressure.
 
-    >>> permeability_klinkenberg(permeability=1e-15, pressure=1e5, klinkenberg_pressure=5e4)
-    1.5...e-15
+    For mean free paths up to a tenth of the pore radius (Ziarani and Aguilera), where b/p is 0.4.
+
+    >>> permeability_klinkenberg(permeability=1e-15, pressure=1e5, klinkenberg_pressure=2e4)
+    1.2...e-15
     """
+    watch(klinkenberg_ratio=klinkenberg_pressure / pressure)
     return permeability * (1.0 + klinkenberg_pressure / pressure)

@@ -37,6 +37,7 @@ class KozenyBundle(NamedTuple):
     source="kozeny1927; carman1937",
     equation=r"d_p = \frac{4\varepsilon}{a_g(1-\varepsilon)},\ N_p = \frac{a_g^2(1-\varepsilon)^2D^2}{16\,\varepsilon T},\ U_p = \frac{T U}{\varepsilon},"
     r"\ h_K = 2\gamma T^2",
+    fitted={"kozeny_coefficient": (3.0, 6.0)},
     typical={"noncircularity": (0.83, 1.5), "tortuosity": (1.2, 2.0)},
 )
 def kozeny_bundle(
@@ -50,6 +51,7 @@ def kozeny_bundle(
     """Kozeny's bundle in a round column: pore diameter, number of pores, velocity in them, and the coefficient h_K.
 
     The specific surface is that of the grains, per volume of solid; the pores are inclined, their length T times that of the column.
+    Measured coefficients are 4.5 ± 1.5.
 
     >>> found = kozeny_bundle(void_fraction=0.4, specific_surface=6e4, diameter=0.05, superficial_velocity=1e-3)
     >>> round(1e6 * found.pore_diameter, 2), round(1000 * found.pore_velocity, 2), found.kozeny_coefficient
@@ -64,6 +66,7 @@ def kozeny_bundle(
 @formula(
     source="kozeny1927; carman1937",
     equation=r"B = \frac{\varepsilon^3}{h_K a_g^2(1-\varepsilon)^2}",
+    fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
     typical={"void_fraction": (0.3, 0.6)},
 )
 def permeability_kozeny_carman(
@@ -82,6 +85,7 @@ def permeability_kozeny_carman(
 @formula(
     source="carman1937; kozeny1927",
     equation=r"B = \frac{(\psi d_p)^2\varepsilon^3}{36\,h_K(1-\varepsilon)^2}",
+    fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
     typical={"void_fraction": (0.3, 0.6)},
 )
 def permeability_carman(
@@ -89,7 +93,8 @@ def permeability_carman(
 ) -> Permeability:
     """Permeability of a bed of grains from their diameter: 36 h_K is 180 with the usual coefficient.
 
-    The diameter is that of the sphere of equal volume; sphericity times it is the surface–volume diameter 6/a_g.
+    The diameter is that of the sphere of equal volume; sphericity times it is the surface–volume diameter 6/a_g. For equal isometric grains
+    with a porosity from 0.3 to 0.6.
 
     >>> permeability_carman(particle_diameter="100 um", void_fraction=0.4)
     9.876...e-12
@@ -99,12 +104,15 @@ def permeability_carman(
 
 
 @formula(
-    source="blake1922; ergun1952",
+    source="blake1922; ergun1952; bird2002, section 6.4",
     equation=r"B = \frac{(\psi d_p)^2\varepsilon^3}{150(1-\varepsilon)^2}",
+    fitted={"void_fraction": (0.0, 0.5)},
     typical={"void_fraction": (0.3, 0.5)},
 )
 def permeability_blake_kozeny(particle_diameter: Length, void_fraction: VoidFraction, sphericity: Sphericity = 1.0) -> Permeability:
     """Permeability of a bed of grains by Blake and Kozeny, the creeping part of Ergun's equation.
+
+    Good for void fractions below 0.5 (Bird, Stewart and Lightfoot).
 
     >>> permeability_blake_kozeny(particle_diameter="100 um", void_fraction=0.4)
     1.185...e-11
@@ -174,11 +182,17 @@ def permeability_davies(fiber_diameter: Length, void_fraction: VoidFraction) -> 
     return fiber_diameter**2 / (64.0 * solid**1.5 * (1.0 + 56.0 * solid**3))
 
 
-@formula(source="carman1937; kozeny1927", equation=r"a_g = \sqrt{\frac{\varepsilon^3}{h_K B(1-\varepsilon)^2}}")
+@formula(
+    source="carman1937; kozeny1927",
+    equation=r"a_g = \sqrt{\frac{\varepsilon^3}{h_K B(1-\varepsilon)^2}}",
+    fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
+)
 def specific_surface_kozeny_carman(
     permeability: Permeability, void_fraction: VoidFraction, kozeny_coefficient: PositiveNumber = 5.0
 ) -> SpecificSurface:
     """Specific surface of the grains, per volume of solid, from a measured permeability.
+
+    For equal isometric grains with a porosity from 0.3 to 0.6.
 
     >>> round(specific_surface_kozeny_carman(permeability=9.876543209876543e-12, void_fraction=0.4))
     60000
@@ -186,11 +200,17 @@ def specific_surface_kozeny_carman(
     return jnp.sqrt(void_fraction**3 / (kozeny_coefficient * permeability)) / (1.0 - void_fraction)
 
 
-@formula(source="carman1937; kozeny1927", equation=r"d_p = \frac{6}{\psi}\sqrt{\frac{h_K B(1-\varepsilon)^2}{\varepsilon^3}}")
+@formula(
+    source="carman1937; kozeny1927",
+    equation=r"d_p = \frac{6}{\psi}\sqrt{\frac{h_K B(1-\varepsilon)^2}{\varepsilon^3}}",
+    fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
+)
 def particle_diameter_kozeny_carman(
     permeability: Permeability, void_fraction: VoidFraction, sphericity: Sphericity = 1.0, kozeny_coefficient: PositiveNumber = 5.0
 ) -> Length:
     """Volume-equivalent diameter of the grains from a measured permeability.
+
+    For equal isometric grains with a porosity from 0.3 to 0.6.
 
     >>> round(1e6 * particle_diameter_kozeny_carman(permeability=9.876543209876543e-12, void_fraction=0.4), 6)
     100.0
@@ -198,11 +218,17 @@ def particle_diameter_kozeny_carman(
     return 6.0 * jnp.sqrt(kozeny_coefficient * permeability / void_fraction**3) * (1.0 - void_fraction) / sphericity
 
 
-@formula(source="carman1937; kozeny1927", equation=r"\frac{\varepsilon^3}{(1-\varepsilon)^2} = h_K a_g^2 B")
+@formula(
+    source="carman1937; kozeny1927",
+    equation=r"\frac{\varepsilon^3}{(1-\varepsilon)^2} = h_K a_g^2 B",
+    fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
+)
 def void_fraction_kozeny_carman(
     permeability: Permeability, specific_surface: SpecificSurface, kozeny_coefficient: PositiveNumber = 5.0
 ) -> VoidFraction:
     """Porosity of a bed from its permeability and the specific surface of its grains.
+
+    For equal isometric grains with a porosity from 0.3 to 0.6.
 
     >>> round(void_fraction_kozeny_carman(permeability=9.876543209876543e-12, specific_surface=6e4), 6)
     0.4

@@ -87,7 +87,11 @@ def removal_efficiency_classes(
     return jnp.sum(shares(class_fractions) * jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), axis=-1)
 
 
-@formula(source="camp1946; metcalf2003, eq. 5-36", equation=r"v_H = \sqrt{\frac{8 k (\rho_p/\rho_l - 1) g d_p}{f}}")
+@formula(
+    source="camp1946; metcalf2003, eq. 5-36",
+    equation=r"v_H = \sqrt{\frac{8 k (\rho_p/\rho_l - 1) g d_p}{f}}",
+    fitted={"scour_constant": (0.04, 0.06), "scour_friction_factor": (0.02, 0.03)},
+)
 def scour_velocity_camp(
     particle_diameter: Length,
     particle_density: Density,

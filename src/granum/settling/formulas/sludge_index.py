@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
-from granum.core import formula
+from granum.core import formula, watch
 from granum.core.kinds import Concentration, Fraction, PositiveNumber, Speed, Volume, VolumePerMass
 
 
@@ -33,7 +33,7 @@ def sludge_volume_index(settled_volume: Volume, sample_volume: Volume, solids_co
     return settled_volume / (sample_volume * solids_concentration)
 
 
-@formula(source="white1975; apha2005", equation=r"\mathrm{DSVI} = \frac{V_{30}}{V\,d\,X}")
+@formula(source="white1975; apha2005", equation=r"\mathrm{DSVI} = \frac{V_{30}}{V\,d\,X}", fitted={"settled_fraction": (0.0, 0.25)})
 def sludge_volume_index_diluted(
     settled_volume: Volume, sample_volume: Volume, solids_concentration: Concentration, dilution: Fraction = 0.5
 ) -> VolumePerMass:
@@ -45,6 +45,7 @@ def sludge_volume_index_diluted(
     >>> round(sludge_volume_index_diluted("200 mL", "1 L", "4 g/L", dilution=0.5) * 1e3, 6)
     100.0
     """
+    watch(settled_fraction=settled_volume / sample_volume)
     return settled_volume / (sample_volume * dilution * solids_concentration)
 
 
