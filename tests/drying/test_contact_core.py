@@ -167,6 +167,17 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
 
 
+def test_solid_drinks_no_faster_than_its_film_where_equilibrium_lies_above_the_critical_moisture() -> None:
+    one = jnp.ones((1, 1))
+    moist = Meeting(one, 300.0 * one, 300.0 * one, 0.0215 * one, one, MATTER)
+    for kinetics in (SurfaceKinetics, VanMeelKinetics):
+        law = kinetics(0.02, isotherm=Gab(0.06, 10.0, 0.8))
+        rest = law.equilibrium(moist)
+        assert float(rest[0, 0]) > 0.1
+        drunk = -law.rate(moist._replace(moisture=rest - 1e-3)) / moist.conductance
+        assert 0.0 < float(drunk[0, 0]) < 1.0  # of the film at a logarithmic driving force of one
+
+
 def test_a_mixture_without_its_vapor_is_refused() -> None:
     mixture = mixture_of(["ethanol"], ["quartz"], ["dry air", "water"], [1e-4, 1e-3])
     with pytest.raises(ApplicabilityError, match="first liquid among the gases"):

@@ -25,6 +25,7 @@ LEAST = 1e-9
 REA_FOOT = 1e-3  # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
 DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
 FOOT = 1e-4  # characteristic moisture below which every curve is a straight line to equilibrium
+NARROWEST = 0.01  # of the critical moisture, over which the rate falls where equilibrium comes near to it or lies above
 
 
 class Meeting(NamedTuple):
@@ -118,7 +119,8 @@ class _Curved(AbstractKinetics):
 
     def _phi(self, at: Meeting) -> Any:
         low = self.equilibrium(at)
-        return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, 1e-6)
+        narrowest = jnp.maximum(NARROWEST * self.critical_moisture, 1e-6)
+        return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, narrowest)
 
 
 @law("drying_kinetics", name="kinetics_surface", source="keey1978; langrish2009", title="Kinetics, surface with a characteristic curve",
