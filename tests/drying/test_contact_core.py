@@ -167,6 +167,17 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
 
 
+def test_gas_that_meets_a_large_surface_against_the_solid_is_solved() -> None:
+    """Twenty transfer units: at first the gas would dry beyond nothing, and being without memory it would do so in the shortest of steps."""
+    core = contact(20, Network.counter_current(20), 20.0, SurfaceKinetics(0.1, isotherm=Gab(0.025, 10.0, 0.8)))
+    inlet = Inlet(jnp.array([0.04]), jnp.array([278.15]), 0.002, 420.0)
+    found = ready(lambda: core.steady(inlet))()
+    assert bool(found.converged)
+    water, heat = water_and_heat(core, inlet)
+    assert float(found.water[0] + found.vapor) == pytest.approx(water, rel=1e-10)
+    assert float(found.solid_enthalpy[0] + found.gas_enthalpy) == pytest.approx(heat, rel=1e-10)
+
+
 def test_solid_drinks_no_faster_than_its_film_where_equilibrium_lies_above_the_critical_moisture() -> None:
     one = jnp.ones((1, 1))
     moist = Meeting(one, 300.0 * one, 300.0 * one, 0.0215 * one, one, MATTER)
