@@ -189,6 +189,17 @@ def test_solid_drinks_no_faster_than_its_film_where_equilibrium_lies_above_the_c
         assert 0.0 < float(drunk[0, 0]) < 1.0  # of the film at a logarithmic driving force of one
 
 
+def test_roots_within_a_law_are_known_as_well_as_the_core_asks() -> None:
+    one = jnp.ones((50, 1))
+    at = Meeting(0.5 * one, 300.0 * one, jnp.linspace(310.0, 450.0, 50)[:, None], 0.004 * one, 1e3 * one, MATTER)
+    wet = at._replace(temperature=at.wet_bulb)  # there heat and vapor agree
+    np.testing.assert_allclose(VanMeelKinetics(0.1).rate(wet), wet.film_rate(), rtol=1e-11)
+    left = np.linspace(0.05, 0.95, 50)[:, None]
+    page = ThinLayerKinetics(Page(1e-3, 1.2), 1.0)
+    closed = left * 1e-3 * 1.2 * (-np.log(left) / 1e-3) ** (0.2 / 1.2)
+    np.testing.assert_allclose(page.rate(at._replace(moisture=left, temperature=350.0 * one)), closed, rtol=1e-11)
+
+
 def test_a_mixture_without_its_vapor_is_refused() -> None:
     mixture = mixture_of(["ethanol"], ["quartz"], ["dry air", "water"], [1e-4, 1e-3])
     with pytest.raises(ApplicabilityError, match="first liquid among the gases"):
