@@ -20,7 +20,7 @@ BEND = 0.5  # correction of a step in time, over that step, which the next step 
 REST = 0.02  # of the largest change: what is too little to count as bent
 WARY, TRUST = 0.3, 1.5  # of a step taken back, which the next may not exceed; by how much more the one after
 CONFIDENCE = 1.2  # by how much more again each one after that, up to the growth of a good step
-LEASH = 200  # steps for one stage in time; none any more after a stage that was not solved
+LEASH = 300  # steps for one stage in time; none any more after a stage that was not solved
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
