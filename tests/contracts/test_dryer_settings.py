@@ -60,17 +60,19 @@ def _possible(kind: Any, value: Any) -> Any:
 def convective(setting: Setting, out: Any) -> dict[str, Any]:
     """What dries in a gas stays between the temperatures and moistures that the gas can bring about."""
     feed, gas, product = setting.inlets["feed"], setting.inlets["gas"], out.product
+    gases = entering(setting)
     matter = Matter.of(counted(feed), gas)
     Y, gone = gas.gas[1] / gas.gas[0], out.exhaust.gas[1] / out.exhaust.gas[0]
     X, left = feed.moisture_dry_basis, product.moisture_dry_basis
     kinetics = getattr(setting.unit, "kinetics", None)
-    most = jnp.maximum(feed.temperature, gas.temperature)
+    most = jnp.max(jnp.stack([feed.temperature, *(g.temperature for g in gases)]))
     at = Meeting(jnp.stack([left]), most + jnp.zeros(1), gas.temperature + jnp.zeros(1), Y + jnp.zeros(1), jnp.ones(1), matter)
     rest = 0.0 if kinetics is None else kinetics.equilibrium(at)[0]
     moist = at._replace(humidity=jnp.maximum(gone, Y) + jnp.zeros(1), gas_temperature=feed.temperature + jnp.zeros(1))
     wettest = 0.0 if kinetics is None else kinetics.equilibrium(moist)[0]
     condenses = matter.relative_humidity(feed.temperature, jnp.maximum(gone, Y)) > 0.9
-    lowest = jnp.minimum(feed.temperature, at.wet_bulb[0]) - 3.0
+    wet_bulbs = [by_itself(matter, left, g).wet_bulb[0] for g in gases]
+    lowest = jnp.min(jnp.stack([feed.temperature, *wet_bulbs])) - 3.0
     return {
         "drier than equilibrium": left >= jnp.minimum(rest, X) * (1.0 - SLACK) - SLACK,
         "wetter than the feed": condenses | (left <= jnp.maximum(X, wettest) + SLACK),
@@ -79,15 +81,32 @@ def convective(setting: Setting, out: Any) -> dict[str, Any]:
     }
 
 
+def entering(setting: Setting) -> list[Stream]:
+    """The gases that the solid meets."""
+    return [setting.inlets[port] for port in ("gas", "cooling") if port in setting.inlets]
+
+
+def by_itself(matter: Matter, X: Any, gas: Stream) -> Meeting:
+    """Solid of a moisture, as warm as the gas that it meets."""
+    T, Y = gas.temperature + jnp.zeros(1), gas.gas[1] / gas.gas[0] + jnp.zeros(1)
+    return Meeting(jnp.stack([X]), T, T, Y, jnp.ones(1), matter)
+
+
 def judged(build: Any, product: Any, x: Any, more: Any) -> tuple[Any, dict[str, Any], Any, Any]:
-    """Whether it refuses, what is in order, its moisture, and whether the feed dries without condensation."""
+    """Whether it refuses, what is in order, its moisture, and whether the feed dries without drinking from a gas that it meets."""
     setting = build(x, product, more)
     out, figures, lost = told(setting.unit, setting.inlets)
     found = general(setting.inlets, out, figures)
     if set(setting.inlets) >= {"feed", "gas"} and hasattr(out, "exhaust") and hasattr(setting.unit, "kinetics"):
         found |= convective(setting, out)
-    wet = setting.inlets.get("feed", out.product)
-    return lost, found, out.product.moisture_dry_basis, wet.moisture_dry_basis
+    left, feed = out.product.moisture_dry_basis, setting.inlets.get("feed", out.product)
+    dries = left < feed.moisture_dry_basis
+    gases, kinetics = entering(setting), getattr(setting.unit, "kinetics", None)
+    if gases and kinetics is not None:
+        matter = Matter.of(counted(feed), gases[0])
+        rests = jnp.stack([kinetics.equilibrium(by_itself(matter, left, g))[0] for g in gases])
+        dries &= jnp.all(left >= rests * (1.0 - SLACK) - SLACK)
+    return lost, found, left, dries
 
 
 def outcome(name: str, build: Any, product: str, count: int, seed: int = 11) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
@@ -97,11 +116,11 @@ def outcome(name: str, build: Any, product: str, count: int, seed: int = 11) -> 
     def both(x: Any) -> Any:
         return jax.vmap(lambda more: judged(build, PRODUCT[product], x, more))(jnp.array([1.0, AIR]))
 
-    lost, found, left, fed = jax.jit(lambda xs: jax.lax.map(both, xs, batch_size=50), **COOL)(rows)
+    lost, found, left, dry = jax.jit(lambda xs: jax.lax.map(both, xs, batch_size=50), **COOL)(rows)
     lost = np.asarray(lost)
     bad = {what: ~np.asarray(ok) & ~lost for what, ok in found.items()}
     if name in MORE_AIR_DRIES:
-        left, dries = np.asarray(left), np.asarray((left < fed).all(axis=1)) & ~lost.any(axis=1)
+        left, dries = np.asarray(left), np.asarray(dry).all(axis=1) & ~lost.any(axis=1)
         bad["wetter with more air"] = np.stack([dries & (left[:, 1] > left[:, 0] + SLACK * (1.0 + left[:, 0]))] * 2, axis=1)
     return lost, bad, rows
 

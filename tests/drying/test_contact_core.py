@@ -167,6 +167,39 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
 
 
+def test_gas_that_meets_a_large_surface_against_the_solid_is_solved() -> None:
+    """Twenty transfer units: at first the gas would dry beyond nothing, and being without memory it would do so in the shortest of steps."""
+    core = contact(20, Network.counter_current(20), 20.0, SurfaceKinetics(0.1, isotherm=Gab(0.025, 10.0, 0.8)))
+    inlet = Inlet(jnp.array([0.04]), jnp.array([278.15]), 0.002, 420.0)
+    found = ready(lambda: core.steady(inlet))()
+    assert bool(found.converged)
+    water, heat = water_and_heat(core, inlet)
+    assert float(found.water[0] + found.vapor) == pytest.approx(water, rel=1e-10)
+    assert float(found.solid_enthalpy[0] + found.gas_enthalpy) == pytest.approx(heat, rel=1e-10)
+
+
+def test_solid_drinks_no_faster_than_its_film_where_equilibrium_lies_above_the_critical_moisture() -> None:
+    one = jnp.ones((1, 1))
+    moist = Meeting(one, 300.0 * one, 300.0 * one, 0.0215 * one, one, MATTER)
+    for kinetics in (SurfaceKinetics, VanMeelKinetics):
+        law = kinetics(0.02, isotherm=Gab(0.06, 10.0, 0.8))
+        rest = law.equilibrium(moist)
+        assert float(rest[0, 0]) > 0.1
+        drunk = -law.rate(moist._replace(moisture=rest - 1e-3)) / moist.conductance
+        assert 0.0 < float(drunk[0, 0]) < 1.0  # of the film at a logarithmic driving force of one
+
+
+def test_roots_within_a_law_are_known_as_well_as_the_core_asks() -> None:
+    one = jnp.ones((50, 1))
+    at = Meeting(0.5 * one, 300.0 * one, jnp.linspace(310.0, 450.0, 50)[:, None], 0.004 * one, 1e3 * one, MATTER)
+    wet = at._replace(temperature=at.wet_bulb)  # there heat and vapor agree
+    np.testing.assert_allclose(VanMeelKinetics(0.1).rate(wet), wet.film_rate(), rtol=1e-11)
+    left = np.linspace(0.05, 0.95, 50)[:, None]
+    page = ThinLayerKinetics(Page(1e-3, 1.2), 1.0)
+    closed = left * 1e-3 * 1.2 * (-np.log(left) / 1e-3) ** (0.2 / 1.2)
+    np.testing.assert_allclose(page.rate(at._replace(moisture=left, temperature=350.0 * one)), closed, rtol=1e-11)
+
+
 def test_a_mixture_without_its_vapor_is_refused() -> None:
     mixture = mixture_of(["ethanol"], ["quartz"], ["dry air", "water"], [1e-4, 1e-3])
     with pytest.raises(ApplicabilityError, match="first liquid among the gases"):

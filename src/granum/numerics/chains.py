@@ -19,7 +19,8 @@ SHARE = 0.8  # of the largest change allowed, which the next step aims at
 BEND = 0.5  # correction of a step in time, over that step, which the next step aims at; twice as much and the step is taken back
 REST = 0.02  # of the largest change: what is too little to count as bent
 WARY, TRUST = 0.3, 1.5  # of a step taken back, which the next may not exceed; by how much more the one after
-LEASH = 200  # steps for one stage in time; none any more after a stage that was not solved
+CONFIDENCE = 1.2  # by how much more again each one after that, up to the growth of a good step
+LEASH = 300  # steps for one stage in time; none any more after a stage that was not solved
 GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
@@ -252,7 +253,7 @@ def solve_chain(
             return factor_chain(chain_blocks(push, u).shifted(1.0, jax.tree.map(lambda c: -c / h, capacity)))
 
         def step(carry: tuple) -> tuple:
-            u, safe, h, before, last, _next, damping, way, number, taken, most, then = carry
+            u, safe, h, before, last, _next, damping, way, number, taken, most, trust, then = carry
             trial, careful = way == 0, way == 2
             value, push = jax.linearize(f, u)
             r = _summed(value)
@@ -282,7 +283,8 @@ def solve_chain(
             growth = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
             began = jnp.where(jnp.isfinite(taken), taken, h)
             shorter = began * jnp.where(bent > BEND, jnp.clip(BEND / bent, CAUTION**2, 1.0), CAUTION)
-            most = jnp.where(careful, jnp.where(lost, WARY * began, jnp.minimum(TRUST * most, 1e4 * LATE * first_step)), most)
+            most = jnp.where(careful, jnp.where(lost, WARY * began, jnp.minimum(trust * most, 1e4 * LATE * first_step)), most)
+            trust = jnp.where(lost, TRUST, jnp.minimum(CONFIDENCE * trust, GROWTH))
             fitting = jnp.minimum(h * jnp.clip(jnp.minimum(SHARE / far, BEND / bent), CAUTION**2, growth), most)
             used, h = h, jnp.where(failed, first_step, jnp.where(lost, shorter, fitting))
             back = jax.tree.map(lambda s, v: jnp.where(lost, s, v), safe, u)
@@ -291,7 +293,7 @@ def solve_chain(
             last = jnp.where(good & ~failed, relative, jnp.inf)
             left = jnp.where(late, relative * ratio**2, jnp.inf)
             taken = jnp.where(good & ~failed, used, jnp.inf)
-            return new, back, h, known, last, left, damping, way + failed, number + 1, taken, most, factors
+            return new, back, h, known, last, left, damping, way + failed, number + 1, taken, most, trust, factors
 
         def unfinished(carry: tuple) -> Any:
             return (carry[5] > tolerance) & (carry[8] < max_steps)
@@ -309,6 +311,7 @@ def solve_chain(
             jnp.zeros((), int),
             none,
             1e4 * LATE * first_step,
+            jnp.asarray(TRUST),
             jax.tree.map(lambda v: jnp.zeros(v.shape), jax.eval_shape(lambda u: factored(jax.linearize(f, u)[1], u, 1.0), origin)),
         )
         found = lax.while_loop(unfinished, step, first)

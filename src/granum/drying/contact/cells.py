@@ -260,7 +260,8 @@ class Contact(eqx.Module):
             states, converged = march(lambda u, before, row: self.cell(row).rates(u, left(before)), first, rows, steps, limit)
             return self.profile(states, converged)
         step = 0.1 / jnp.max(self.renewal)
-        found = solve_chain(lambda u: self.rates(u, fresh), self.start(inlet), self.capacity(), first_step=step, largest_change=limit)
+        held = Cells(1.0, jnp.maximum(self.gas_time / n, step))  # on its way there the gas, too, has something to hold
+        found = solve_chain(lambda u: self.rates(u, fresh), self.start(inlet), held, first_step=step, largest_change=limit)
         return self.profile(found.state, found.converged)
 
     def profile(self, u: Cells, converged: Any = True) -> Profile:

@@ -22,9 +22,11 @@ Isotherm = Annotated[Any, Law("isotherm")]
 Curve = Annotated[Any, Law("characteristic_rate")]
 COLDEST = 200.0  # K, of a wet bulb
 LEAST = 1e-9
+EXACT = 1e-13  # of roots within a law: the core solves to 1e-12 and would never settle on rates known less well
 REA_FOOT = 1e-3  # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
 DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
 FOOT = 1e-4  # characteristic moisture below which every curve is a straight line to equilibrium
+NARROWEST = 0.01  # of the critical moisture, over which the rate falls where equilibrium comes near to it or lies above
 
 
 class Meeting(NamedTuple):
@@ -74,7 +76,7 @@ class Meeting(NamedTuple):
             heat = _stefan(m.vapor_heat_capacity(Ts), m.heat_of_vaporization(Ts), T - Ts)
             return heat - m.driving_force(pressure, Y) / (m.humid.lewis_factor * m.gas_heat_capacity(T, Y))
 
-        return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0).value
+        return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0, tolerance=EXACT).value
 
 
 class AbstractKinetics(eqx.Module):
@@ -118,7 +120,8 @@ class _Curved(AbstractKinetics):
 
     def _phi(self, at: Meeting) -> Any:
         low = self.equilibrium(at)
-        return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, 1e-6)
+        narrowest = jnp.maximum(NARROWEST * self.critical_moisture, 1e-6)
+        return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, narrowest)
 
 
 @law("drying_kinetics", name="kinetics_surface", source="keey1978; langrish2009", title="Kinetics, surface with a characteristic curve",
@@ -209,7 +212,9 @@ class ThinLayerKinetics(AbstractKinetics):
         low = self.equilibrium(at)
         ratio = jnp.clip((at.moisture - low) / jnp.maximum(self.initial_moisture - low, 1e-6), 1e-5, 1.0 - 1e-5)
         # logarithm of time, because curves of Page's kind start with a slope of zero or infinity
-        s = find_root(lambda s, r: jnp.log(jnp.maximum(layer.ratio(jnp.exp(s)), 1e-30)) - jnp.log(r), -15.0, 25.0, ratio, start=8.0).value
+        s = find_root(
+            lambda s, r: jnp.log(jnp.maximum(layer.ratio(jnp.exp(s)), 1e-30)) - jnp.log(r), -15.0, 25.0, ratio, start=8.0, tolerance=EXACT
+        ).value
         t = jnp.exp(jnp.where(jnp.isfinite(s), s, 0.0))
         fall = jax.jvp(layer.ratio, (t,), (jnp.ones_like(t),))[1]
         faster = jnp.exp(self.diffusion_activation_energy / GAS_CONSTANT * (1.0 / self.reference_temperature - 1.0 / at.gas_temperature))
