@@ -40,8 +40,9 @@ class Outflow(AbstractBoundary):
 class Inflow(AbstractBoundary):
     """End where a given state waits outside.
 
-    Args:
-        value: the state, or a function of time returning it.
+    Parameters
+    ----------
+    value: the state, or a function of time returning it.
     """
 
     value: Any
@@ -59,8 +60,9 @@ class Inflow(AbstractBoundary):
 class FixedFlux(AbstractBoundary):
     """End crossed by a given flux, positive towards higher coordinates.
 
-    Args:
-        value: amount per area and time, or a function of time returning it.
+    Parameters
+    ----------
+    value: amount per area and time, or a function of time returning it.
     """
 
     value: Any

@@ -216,18 +216,20 @@ def solve_chain(
     The path is first taken in steps as long as the largest change allows. Where these do not arrive, for fast lanes bend within them, it is
     taken once more with each step compared with the rates at its end, and taken back where they disagree.
 
-    Args:
-        function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the cell before and on the shared
-            unknowns of its cell, the shared rest on those of the neighbors. It may close over traced values.
-        start: first guess, unknowns scaled to about one.
-        capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation without
-            memory, any broadcastable shapes.
-        first_step: first step in time; it grows fourfold while steps are good.
-        largest_change: change of an unknown in one step above which the step is repeated shorter, broadcastable to a state.
-        tolerance: on the change that a whole Newton step would still make, relative to the unknowns or one.
+    Parameters
+    ----------
+    function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the cell before and on the shared
+        unknowns of its cell, the shared rest on those of the neighbors. It may close over traced values.
+    start: first guess, unknowns scaled to about one.
+    capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation without
+        memory, any broadcastable shapes.
+    first_step: first step in time; it grows fourfold while steps are good.
+    largest_change: change of an unknown in one step above which the step is repeated shorter, broadcastable to a state.
+    tolerance: on the change that a whole Newton step would still make, relative to the unknowns or one.
 
-    Returns:
-        A `ChainSolution`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
+    Returns
+    -------
+    A `ChainSolution`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
 
     Example:
         >>> def flow(u):
@@ -365,15 +367,16 @@ def advance_chain(
     The second stage starts from a straight line through the first. Where this would lead beyond what is possible, such as to less than
     nothing, it starts earlier, up to a whole step of the implicit method of Euler. What is linear in the unknowns and conserved by ``function`` is conserved to the tolerance of the stages.
 
-    Args:
-        function: ``capacity · du/dt = function(u, input)``, coupled as in `solve_chain`.
-        start: first state.
-        capacity: zero for an equation without memory, broadcastable to a state.
-        step: length of the steps, or of each of them.
-        inputs: pytree whose leaves have a leading axis of steps; constant within a step.
-        outflow: ``outflow(u, input)``, linear in u: flows (any vector) whose time integral is wanted.
-        reach: ``reach(u, change)``: how many times a change may be added to a state. Without it, as often as one likes.
-        largest_change: as in `solve_chain`.
+    Parameters
+    ----------
+    function: ``capacity · du/dt = function(u, input)``, coupled as in `solve_chain`.
+    start: first state.
+    capacity: zero for an equation without memory, broadcastable to a state.
+    step: length of the steps, or of each of them.
+    inputs: pytree whose leaves have a leading axis of steps; constant within a step.
+    outflow: ``outflow(u, input)``, linear in u: flows (any vector) whose time integral is wanted.
+    reach: ``reach(u, change)``: how many times a change may be added to a state. Without it, as often as one likes.
+    largest_change: as in `solve_chain`.
 
     Example:
         >>> fall = lambda u, i: Rates(i - u.lanes, jnp.zeros((1, 1, 1)), u.lanes[:, 0] - u.shared)

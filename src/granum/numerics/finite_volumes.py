@@ -33,8 +33,9 @@ class Evolution(NamedTuple):
 class Upwind(eqx.Module):
     """Flux ``velocity * u``, taken from the side it comes from.
 
-    Args:
-        velocity: scalar, or at the ``n + 1`` faces, or a function of time returning either.
+    Parameters
+    ----------
+    velocity: scalar, or at the ``n + 1`` faces, or a function of time returning either.
     """
 
     velocity: Any
@@ -51,10 +52,11 @@ class Godunov(eqx.Module):
     The least flux between the states where they rise, the greatest where they fall: shocks and
     fans of settling suspensions come out right without knowing which is which.
 
-    Args:
-        function: elementwise flux. It may close over arrays on the ``n + 1`` faces.
-        stationary: every ``u`` where the flux has a minimum or maximum, shape ``(k,)`` or
-            ``(k, n + 1)``; see `stationary_points`. Empty for a monotone flux.
+    Parameters
+    ----------
+    function: elementwise flux. It may close over arrays on the ``n + 1`` faces.
+    stationary: every ``u`` where the flux has a minimum or maximum, shape ``(k,)`` or
+        ``(k, n + 1)``; see `stationary_points`. Empty for a monotone flux.
     """
 
     function: Callable[[jax.Array], jax.Array]
@@ -95,17 +97,19 @@ def transport_rate(
 ) -> jax.Array:
     """Rate of change of the cell means.
 
-    Args:
-        cells: cell means, shape ``(..., n)``, at least two cells.
-        edges: increasing, shape ``(n + 1,)``.
-        flux: ``flux(left, right, time)`` at the faces, such as `Upwind` or `Godunov`.
-        lower, upper: boundaries at the first and last edge.
-        limiter: see `granum.numerics.limiters`.
-        source: ``source(cells, centers, time)``, amount per volume and time, shape of the cells.
-        time: handed to flux, boundaries and source.
+    Parameters
+    ----------
+    cells: cell means, shape ``(..., n)``, at least two cells.
+    edges: increasing, shape ``(n + 1,)``.
+    flux: ``flux(left, right, time)`` at the faces, such as `Upwind` or `Godunov`.
+    lower, upper: boundaries at the first and last edge.
+    limiter: see `granum.numerics.limiters`.
+    source: ``source(cells, centers, time)``, amount per volume and time, shape of the cells.
+    time: handed to flux, boundaries and source.
 
-    Returns:
-        ``d cells / dt``, shape ``(..., n)``.
+    Returns
+    -------
+    ``d cells / dt``, shape ``(..., n)``.
     """
     h = jnp.diff(edges)
     gap = jnp.concatenate([h[:1], 0.5 * (h[1:] + h[:-1]), h[-1:]])
@@ -144,12 +148,13 @@ def ssp_rk3(
 
     Whatever one forward Euler step of length ``dt`` keeps (positivity, no new extrema), this keeps.
 
-    Args:
-        rate: ``rate(state, time)``, a pytree like the state.
-        state: pytree of arrays, for instance cells together with a concentration.
-        steps: number of steps, a Python integer; see `steps_for`.
-        dt: length of a step; it may be traced.
-        record: ``record(state, time)`` after every step, stacked in the result.
+    Parameters
+    ----------
+    rate: ``rate(state, time)``, a pytree like the state.
+    state: pytree of arrays, for instance cells together with a concentration.
+    steps: number of steps, a Python integer; see `steps_for`.
+    dt: length of a step; it may be traced.
+    record: ``record(state, time)`` after every step, stacked in the result.
 
     Example:
         >>> ssp_rk3(lambda y, t: -y, jnp.array(1.0), steps=1000, dt=0.001).state
@@ -217,16 +222,18 @@ def advance(
 def steps_for(duration: float, edges: Any, speed: Any, *, courant: float = 0.45, sink_rate: Any = 0.0) -> int:
     """Number of equal steps that keeps the Courant number; call it outside `jax.jit`.
 
-    Args:
-        duration: time to cover, s.
-        edges: cell edges, shape ``(n + 1,)``.
-        speed: largest speed of a wave (``|dF/du|``): scalar, in cells ``(n,)`` or at faces
-            ``(n + 1,)``.
-        courant: most of a cell crossed in one step; positivity is proved up to 0.5.
-        sink_rate: fastest relative consumption by a source, 1/s.
+    Parameters
+    ----------
+    duration: time to cover, s.
+    edges: cell edges, shape ``(n + 1,)``.
+    speed: largest speed of a wave (``|dF/du|``): scalar, in cells ``(n,)`` or at faces
+        ``(n + 1,)``.
+    courant: most of a cell crossed in one step; positivity is proved up to 0.5.
+    sink_rate: fastest relative consumption by a source, 1/s.
 
-    Raises:
-        InputError: if a value is traced, since the number of steps shapes the program.
+    Raises
+    ------
+    InputError: if a value is traced, since the number of steps shapes the program.
 
     Example:
         >>> steps_for(1.0, uniform_edges(0.0, 1.0, 90), speed=1.0)

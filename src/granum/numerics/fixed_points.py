@@ -52,9 +52,10 @@ class Anderson(AbstractMethod):
     tenfold, a new one is tried with what it taught; otherwise, or where it is not finite, the past
     is forgotten and a plain step is tried, halved each time that this happens in a row.
 
-    Args:
-        window: number of earlier points remembered.
-        damping: part of each step taken, in (0, 1].
+    Parameters
+    ----------
+    window: number of earlier points remembered.
+    damping: part of each step taken, in (0, 1].
     """
 
     window: int = eqx.field(static=True, default=5)
@@ -109,8 +110,9 @@ class Newton(AbstractMethod):
     Up to `DENSE_LIMIT` unknowns the Jacobian is formed and factorized, beyond that the step is
     found by GMRES from directional derivatives alone.
 
-    Args:
-        halvings: how often a step may be halved until the residual shrinks.
+    Parameters
+    ----------
+    halvings: how often a step may be halved until the residual shrinks.
     """
 
     halvings: int = eqx.field(static=True, default=20)
@@ -159,19 +161,21 @@ def fixed_point(
 ) -> Solution:
     """Solve ``function(state, args) == state``.
 
-    Args:
-        function: returns a pytree like the state; it may close over traced values.
-        start: first guess, a pytree of real arrays.
-        args: handed to the function.
-        method: `Anderson` or `Newton`.
-        tolerance: on the largest change of any unknown by the function, relative to its scale.
-        max_steps: most iterations.
-        scale: typical sizes, a pytree like the state or a prefix of it; for each leaf by default
-            its largest magnitude in the start or its image, or 1 if both are zero. A state that
-            grew so far beyond its scale that rounding exceeds the tolerance is not accepted.
+    Parameters
+    ----------
+    function: returns a pytree like the state; it may close over traced values.
+    start: first guess, a pytree of real arrays.
+    args: handed to the function.
+    method: `Anderson` or `Newton`.
+    tolerance: on the largest change of any unknown by the function, relative to its scale.
+    max_steps: most iterations.
+    scale: typical sizes, a pytree like the state or a prefix of it; for each leaf by default
+        its largest magnitude in the start or its image, or 1 if both are zero. A state that
+        grew so far beyond its scale that rounding exceeds the tolerance is not accepted.
 
-    Returns:
-        A `Solution`. Nothing raises; without convergence ``state`` is the best iterate.
+    Returns
+    -------
+    A `Solution`. Nothing raises; without convergence ``state`` is the best iterate.
 
     Derivatives with respect to ``args`` and closed-over values follow from the implicit function
     theorem, forward and reverse, at any order and whatever the number of iterations. They are
@@ -209,17 +213,19 @@ def solve_system(
 ) -> Solution:
     """Solve ``function(state, args) == 0``, as many equations as unknowns.
 
-    Args:
-        function: returns a pytree with as many numbers as the state.
-        start, args, method, tolerance, max_steps: as for `fixed_point`.
-        scale: typical sizes of the unknowns; by default the magnitude of each leaf of the start,
-            or 1 if that is zero.
-        residual_scale: sizes below which, times the tolerance, equations count as solved, a pytree
-            like the result of the function or a prefix; by default its largest magnitude at the
-            start for each leaf, or 1 if that is zero.
+    Parameters
+    ----------
+    function: returns a pytree with as many numbers as the state.
+    start, args, method, tolerance, max_steps: as for `fixed_point`.
+    scale: typical sizes of the unknowns; by default the magnitude of each leaf of the start,
+        or 1 if that is zero.
+    residual_scale: sizes below which, times the tolerance, equations count as solved, a pytree
+        like the result of the function or a prefix; by default its largest magnitude at the
+        start for each leaf, or 1 if that is zero.
 
-    Returns:
-        A `Solution`, with derivatives as for `fixed_point`.
+    Returns
+    -------
+    A `Solution`, with derivatives as for `fixed_point`.
 
     Example:
         >>> solve_system(lambda x, a: x**2 - a, jnp.array([1.0, 1.0]), jnp.array([4.0, 9.0])).state

@@ -17,13 +17,15 @@ from granum.numerics.smooth import safe_divide
 def interpolate_linear(x: Any, points: Any, values: Any) -> tuple[jax.Array, jax.Array]:
     """Piecewise linear interpolation.
 
-    Args:
-        x: where to interpolate, any shape.
-        points: increasing abscissae, shape ``(n,)``, at least two.
-        values: ordinates, shape ``(n,)``.
+    Parameters
+    ----------
+    x: where to interpolate, any shape.
+    points: increasing abscissae, shape ``(n,)``, at least two.
+    values: ordinates, shape ``(n,)``.
 
-    Returns:
-        The values, and a boolean that is True inside the table; both of the shape of ``x``.
+    Returns
+    -------
+    The values, and a boolean that is True inside the table; both of the shape of ``x``.
 
     Example:
         >>> interpolate_linear(1.5, jnp.array([1.0, 2.0]), jnp.array([10.0, 20.0]))[0]
@@ -63,10 +65,11 @@ def slopes_steffen(points: jax.Array, values: jax.Array) -> jax.Array:
 class MonotoneCubic(eqx.Module):
     """Cubic through a table, once differentiable, monotone wherever the table is.
 
-    Args:
-        points: increasing abscissae, shape ``(n,)``, at least three.
-        values: ordinates, shape ``(n,)``.
-        slopes: how the slopes at the points are chosen, `slopes_pchip` or `slopes_steffen`.
+    Parameters
+    ----------
+    points: increasing abscissae, shape ``(n,)``, at least three.
+    values: ordinates, shape ``(n,)``.
+    slopes: how the slopes at the points are chosen, `slopes_pchip` or `slopes_steffen`.
 
     Example:
         >>> curve = MonotoneCubic.through(jnp.array([0.0, 1.0, 2.0]), jnp.array([0.0, 1.0, 8.0]))

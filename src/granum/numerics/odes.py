@@ -43,21 +43,23 @@ def integrate(
 ) -> Trajectory:
     """Solve ``dy/dt = vector_field(t, y, args)`` from ``y(times[0]) = start``.
 
-    Args:
-        vector_field: returns a pytree like the state.
-        start: pytree of real arrays.
-        times: increasing, shape ``(n,)``, at least two; the first is the initial time.
-        args: handed to the vector field and the stop condition.
-        stiff: Kvaerno's implicit 5(4) pair, stepping to each of the times, instead of Tsitouras'
-            explicit one, which interpolates.
-        until: ``until(t, y, args)``, real; the integration stops where it changes sign.
-        rtol, atol: tolerances on each step; ``atol`` may be a pytree like the state.
-        max_steps: most steps.
-        adjoint: how Diffrax differentiates. The default allows forward and reverse mode;
-            `diffrax.RecursiveCheckpointAdjoint` makes reverse mode faster and excludes forward.
+    Parameters
+    ----------
+    vector_field: returns a pytree like the state.
+    start: pytree of real arrays.
+    times: increasing, shape ``(n,)``, at least two; the first is the initial time.
+    args: handed to the vector field and the stop condition.
+    stiff: Kvaerno's implicit 5(4) pair, stepping to each of the times, instead of Tsitouras'
+        explicit one, which interpolates.
+    until: ``until(t, y, args)``, real; the integration stops where it changes sign.
+    rtol, atol: tolerances on each step; ``atol`` may be a pytree like the state.
+    max_steps: most steps.
+    adjoint: how Diffrax differentiates. The default allows forward and reverse mode;
+        `diffrax.RecursiveCheckpointAdjoint` makes reverse mode faster and excludes forward.
 
-    Returns:
-        A `Trajectory`. Nothing raises.
+    Returns
+    -------
+    A `Trajectory`. Nothing raises.
 
     Example:
         >>> path = integrate(lambda t, y, k: -k * y, 1.0, jnp.array([0.0, 1.0]), 1.0)

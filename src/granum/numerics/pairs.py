@@ -42,15 +42,17 @@ def crossing_pair(
     the first unknown, residuals of different signs the second. A Newton step that leaves the box so found, or that neither halves the step before
     nor lowers the residual, gives way to the middle of the box. The number of steps is bounded; ``converged`` judges the residual alone.
 
-    Args:
-        function: returns two residuals, scaled to about one; the next ``help``, with which its inner searches may start and which must
-            not change the residuals; and anything else that is wanted at the root.
-        lower, upper: corners of the box. start: first guess.
-        help_: first ``help``.
-        allowed: moves a point to where the function has the signs said above, by raising the second unknown alone; the root must be there.
+    Parameters
+    ----------
+    function: returns two residuals, scaled to about one; the next ``help``, with which its inner searches may start and which must
+        not change the residuals; and anything else that is wanted at the root.
+    lower, upper: corners of the box. start: first guess.
+    help_: first ``help``.
+    allowed: moves a point to where the function has the signs said above, by raising the second unknown alone; the root must be there.
 
-    Returns:
-        A `Pair`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
+    Returns
+    -------
+    A `Pair`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
 
     Example:
         >>> found = crossing_pair(lambda x, h: (jnp.stack([x[0] ** 3 - x[1], x[0] + x[1] - 2.0]), h, ()), [0.0, 0.0], [9.0, 9.0], [8.0, 1.0], None)

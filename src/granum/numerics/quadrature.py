@@ -36,13 +36,15 @@ def _gauss_legendre_rule(order: int) -> tuple[np.ndarray, np.ndarray]:
 def cumulative_trapezoid(values: Any, points: Any, axis: int = -1) -> jax.Array:
     """Integral from the first point to every point of a table, linear between points.
 
-    Args:
-        values: table, any shape.
-        points: increasing abscissae; one-dimensional along ``axis``, or of the shape of values.
-        axis: axis of the table.
+    Parameters
+    ----------
+    values: table, any shape.
+    points: increasing abscissae; one-dimensional along ``axis``, or of the shape of values.
+    axis: axis of the table.
 
-    Returns:
-        Array of the shape of ``values``; zero at the first point.
+    Returns
+    -------
+    Array of the shape of ``values``; zero at the first point.
 
     Example:
         >>> cumulative_trapezoid(jnp.array([0.0, 1.0, 2.0]), jnp.array([0.0, 1.0, 2.0]))
@@ -77,13 +79,15 @@ def cumulative_simpson(values: Any, points: Any, axis: int = -1) -> jax.Array:
 def moments(densities: Any, edges: Any, orders: Any) -> jax.Array:
     """Moments ``integral of x**k n(x) dx`` of a density that is constant in each cell.
 
-    Args:
-        densities: cell means, shape ``(..., n)``.
-        edges: increasing cell edges, shape ``(n + 1,)``; non-negative unless the orders are whole.
-        orders: the exponents ``k``, any real numbers but -1, shape ``(m,)``.
+    Parameters
+    ----------
+    densities: cell means, shape ``(..., n)``.
+    edges: increasing cell edges, shape ``(n + 1,)``; non-negative unless the orders are whole.
+    orders: the exponents ``k``, any real numbers but -1, shape ``(m,)``.
 
-    Returns:
-        Moments, shape ``(..., m)``.
+    Returns
+    -------
+    Moments, shape ``(..., m)``.
 
     Example:
         >>> moments(jnp.array([1.0, 1.0]), jnp.array([0.0, 1.0, 2.0]), jnp.array([0, 1, 2]))

@@ -46,21 +46,23 @@ def find_root(
     halving the set of floating-point numbers between the ends, which takes 66 passes at most: with
     the default ``max_steps`` a sign change is always found, however nasty the function.
 
-    Args:
-        function: elementwise; ``function(x, *args)[i]`` may depend on ``x[i]`` only. It may close
-            over traced values.
-        lower, upper: finite ends, any broadcastable shapes, in either order. The function may be
-            infinite there, and a root exactly at an end is found.
-        *args: pytrees of arrays that broadcast with the ends.
-        start: first guess; the middle of the bracket where it is not given or lies outside.
-        tolerance: the function changes sign within this distance of the root, relative to ``|x|``;
-            in a bracket that contains zero, relative to its nearer end at least.
-        max_steps: most passes over the array.
+    Parameters
+    ----------
+    function: elementwise; ``function(x, *args)[i]`` may depend on ``x[i]`` only. It may close
+        over traced values.
+    lower, upper: finite ends, any broadcastable shapes, in either order. The function may be
+        infinite there, and a root exactly at an end is found.
+    *args: pytrees of arrays that broadcast with the ends.
+    start: first guess; the middle of the bracket where it is not given or lies outside.
+    tolerance: the function changes sign within this distance of the root, relative to ``|x|``;
+        in a bracket that contains zero, relative to its nearer end at least.
+    max_steps: most passes over the array.
 
-    Returns:
-        A `Root`. Nothing raises: without a sign change (or with a NaN function) the value is NaN
-        and ``converged`` False; a sign change through a pole, and an element that ran out of
-        passes, keep their last iterate with ``converged`` False.
+    Returns
+    -------
+    A `Root`. Nothing raises: without a sign change (or with a NaN function) the value is NaN
+    and ``converged`` False; a sign change through a pole, and an element that ran out of
+    passes, keep their last iterate with ``converged`` False.
 
     Derivatives with respect to the arguments and to closed-over values are exact at any order,
     forward and reverse (implicit function theorem). Where the slope of the function at the root is

@@ -14,12 +14,13 @@ import jax.numpy as jnp
 def safe_where(condition: Any, function: Callable[[Any], Any], argument: Any, inside: Any, otherwise: Any) -> jax.Array:
     """``function(argument)`` where the condition holds, ``otherwise`` elsewhere.
 
-    Args:
-        condition: boolean, True where the argument is in the domain of the function.
-        function: elementwise, of one argument.
-        argument: array that broadcasts with the condition.
-        inside: any constant in the domain; the function is evaluated there instead.
-        otherwise: value outside; its own derivative is kept.
+    Parameters
+    ----------
+    condition: boolean, True where the argument is in the domain of the function.
+    function: elementwise, of one argument.
+    argument: array that broadcasts with the condition.
+    inside: any constant in the domain; the function is evaluated there instead.
+    otherwise: value outside; its own derivative is kept.
 
     Example:
         >>> safe_where(jnp.array([True, False]), jnp.log, jnp.array([1.0, -1.0]), 1.0, 7.0)
