@@ -2,7 +2,8 @@
 
     python benchmarks/app_load.py --users 200 --seconds 20
 
-Each user changes a value, waits for the answer, thinks for a second, and starts again. Prints answers, refusals, p50 and p95.
+Each user changes a value, waits for the answer, thinks for a second, and starts again. Prints answers,
+refusals, p50 and p95.
 """
 
 from __future__ import annotations
@@ -21,14 +22,21 @@ CARDS = {
     "particles.terminal_velocity": SPHERE,
     "particles.terminal_velocity_stokes": SPHERE,
     "filtration.cake_resistance_kozeny_carman": {"void_fraction": "0.38", "solid_density": "2630 kg/m3"},
-    "porous.pressure_gradient_ergun": {"superficial_velocity": "1 mm/s", "void_fraction": "0.4", "fluid_density": "998 kg/m3", "dynamic_viscosity": "1 cP"},
+    "porous.pressure_gradient_ergun": {
+        "superficial_velocity": "1 mm/s",
+        "void_fraction": "0.4",
+        "fluid_density": "998 kg/m3",
+        "dynamic_viscosity": "1 cP",
+    },
     "porous.permeability_carman": {"void_fraction": "0.4"},
     "fluidization.minimum_fluidization_velocity_wen_yu": SPHERE,
-}  # fmt: skip
+}
 """Cards whose particle diameter the users change."""
 
 
-async def user(client: httpx.AsyncClient, number: int, until: float, times: list[float], lost: list[str]) -> None:
+async def user(
+    client: httpx.AsyncClient, number: int, until: float, times: list[float], lost: list[str]
+) -> None:
     """One user until the end: a value, an answer, a second of thought."""
     draw = random.Random(number)
     await asyncio.sleep(draw.random())
@@ -38,7 +46,9 @@ async def user(client: httpx.AsyncClient, number: int, until: float, times: list
             await client.get(f"/api/cards/{card}")
         start = time.perf_counter()
         try:
-            answer = await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": f"{draw.uniform(20, 200):.3g} um"})
+            answer = await client.post(
+                f"/api/calc/{card}", json=inputs | {"particle_diameter": f"{draw.uniform(20, 200):.3g} um"}
+            )
             if answer.status_code == 200:
                 times.append(time.perf_counter() - start)
             else:
@@ -55,12 +65,17 @@ async def crowd(address: str, users: int, seconds: float) -> int:
     lost: list[str] = []
     async with httpx.AsyncClient(base_url=address, limits=limits, timeout=60.0) as client:
         for card, inputs in CARDS.items():  # the first call of each card compiles
-            (await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": "85 um"})).raise_for_status()
+            (
+                await client.post(f"/api/calc/{card}", json=inputs | {"particle_diameter": "85 um"})
+            ).raise_for_status()
         until = time.monotonic() + seconds
         await asyncio.gather(*(user(client, number, until, times, lost) for number in range(users)))
     times.sort()
     median, p95 = times[len(times) // 2], times[int(len(times) * 0.95)]
-    print(f"{users} users, {seconds:g} s: {len(times)} answers, {len(lost)} lost, p50 {1e3 * median:.0f} ms, p95 {1e3 * p95:.0f} ms")
+    print(
+        f"{users} users, {seconds:g} s: {len(times)} answers, {len(lost)} lost, p50 {1e3 * median:.0f} "
+        f"ms, p95 {1e3 * p95:.0f} ms"
+    )
     for reason in sorted(set(lost))[:5]:
         print("  lost:", reason)
     return 0 if not lost and p95 <= 1.0 else 1

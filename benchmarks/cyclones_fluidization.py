@@ -1,10 +1,11 @@
-"""A million minimum fluidization velocities and a hundred thousand cyclone ratings, beside scalar loops in the same run.
+"""A million minimum fluidization velocities and a hundred thousand cyclone ratings, beside scalar loops in
+the same run.
 
     python benchmarks/cyclones_fluidization.py
 
-The peer ``fluids`` knows no minimum fluidization: its user finds the root of its Ergun equation against the weight of the bed, which
-is timed over 1 000 sizes and scaled. No open library rates cyclones; the ratings stand alone. Budgets: 0.2 s warm each.
-Needs ``pip install granum[bench]``.
+The peer ``fluids`` knows no minimum fluidization: its user finds the root of its Ergun equation against the
+weight of the bed, which is timed over 1 000 sizes and scaled. No open library rates cyclones; the ratings
+stand alone. Budgets: 0.2 s warm each. Needs ``pip install granum[bench]``.
 """
 
 from __future__ import annotations
@@ -60,12 +61,15 @@ def main() -> None:
     start = time.perf_counter()
     theirs = [peer(d) for d in few]
     scaled = (time.perf_counter() - start) * COUNT / len(few)
-    apart = np.asarray(ergun(particle_diameter=np.array(few), void_fraction=0.4, **AIR)) / np.array(theirs) - 1.0
+    apart = (
+        np.asarray(ergun(particle_diameter=np.array(few), void_fraction=0.4, **AIR)) / np.array(theirs) - 1.0
+    )
     print(f"1e6 U_mf by Ergun                  {ours:8.3f} s  (budget 0.2)")
     print(f"1e6 U_mf by Wen and Yu             {simple:8.3f} s  (budget 0.2)")
     print(f"1e5 cyclones: cut, grade, drop     {ratings:8.3f} s  (budget 0.2)")
     print(
-        f"root of fluids' Ergun, 1e6 scaled  {scaled:8.1f} s, {scaled / ours:.0f} times longer; largest difference {abs(apart).max():.1e}"
+        f"root of fluids' Ergun, 1e6 scaled  {scaled:8.1f} s, {scaled / ours:.0f} times longer; largest "
+        f"difference {abs(apart).max():.1e}"
     )
     if max(ours, simple, ratings) > 0.2:
         raise SystemExit("over budget")

@@ -1,4 +1,5 @@
-"""Ten thousand dryers by balance: the card of a dryer, and the unit with its heater, recycle and outlets as a flowsheet has it.
+"""Ten thousand dryers by balance: the card of a dryer, and the unit with its heater, recycle and outlets as a
+flowsheet has it.
 
     python benchmarks/dryers.py
 
@@ -34,19 +35,32 @@ def best(job, *given, repeats: int = 15) -> float:
 
 
 def card(T, end):
-    """The balance of the maize dryer with losses and half of the air recirculated, from the temperature or the humidity of the outlet."""
+    """The balance of the maize dryer with losses and half of the air recirculated, from the temperature or
+    the humidity of the outlet.
+    """
     known = {"relative_humidity_outlet": end} if HUMID else {"temperature_outlet": end}
     return gr.drying.dryer_balance(
-        mass_flow_inlet=1.0, moisture_dry_basis_inlet=0.54, moisture_dry_basis_outlet=0.18, temperature_fresh=298.15, relative_humidity_fresh=0.5,
-        temperature_inlet=T, recirculated_fraction=0.5, heat_loss=2e4, temperature_product_inlet=290.0, temperature_product_outlet=315.0, **known,
-    )  # fmt: skip
+        mass_flow_inlet=1.0,
+        moisture_dry_basis_inlet=0.54,
+        moisture_dry_basis_outlet=0.18,
+        temperature_fresh=298.15,
+        relative_humidity_fresh=0.5,
+        temperature_inlet=T,
+        recirculated_fraction=0.5,
+        heat_loss=2e4,
+        temperature_product_inlet=290.0,
+        temperature_product_outlet=315.0,
+        **known,
+    )
 
 
 def unit(T, moisture):
     """The unit: outlet streams and duties."""
     feed = empty(MIXTURE, 290.0).replace(solid=jnp.array([[0.65]]), liquid=jnp.array([0.35]))
     gas = empty(MIXTURE, 298.15).replace(gas=jnp.array([20.0, 0.2]))
-    dryer = ConvectiveDryer(temperature_inlet=T, moisture_outlet=moisture, recirculated_fraction=0.5, heat_loss=2e4)
+    dryer = ConvectiveDryer(
+        temperature_inlet=T, moisture_outlet=moisture, recirculated_fraction=0.5, heat_loss=2e4
+    )
     return dryer(feed, gas)
 
 
@@ -54,7 +68,13 @@ if __name__ == "__main__":
     draw = np.random.default_rng(0)
     T, moisture = draw.uniform(340.0, 400.0, COUNT), draw.uniform(0.1, 0.3, COUNT)
     HUMID = False
-    print(f"card, outlet temperature given: {best(jax.jit(jax.vmap(card)), T, draw.uniform(315.0, 330.0, COUNT)):.3f} s")
+    print(
+        f"card, outlet temperature given: "
+        f"{best(jax.jit(jax.vmap(card)), T, draw.uniform(315.0, 330.0, COUNT)):.3f} s"
+    )
     HUMID = True
-    print(f"card, outlet humidity given:    {best(jax.jit(jax.vmap(lambda T, phi: card(T, phi))), T, draw.uniform(0.3, 0.8, COUNT)):.3f} s")
+    print(
+        f"card, outlet humidity given:    "
+        f"{best(jax.jit(jax.vmap(lambda T, phi: card(T, phi))), T, draw.uniform(0.3, 0.8, COUNT)):.3f} s"
+    )
     print(f"unit, product moisture given:   {best(jax.jit(jax.vmap(unit)), T, moisture):.3f} s")

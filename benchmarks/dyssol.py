@@ -1,11 +1,15 @@
-"""Two dynamic flowsheets of the simulator Dyssol 1.1.1 (TUHH, BSD-3), solved here and, where the program is installed, there.
+"""Two dynamic flowsheets of the simulator Dyssol 1.1.1 (TUHH, BSD-3), solved here and, where the program is
+installed, there.
 
-    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/ --materials FILE] [--limit 900] [--plant-time 1200]
+    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/
+    --materials FILE] [--limit 900] [--plant-time 1200]
 
-The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol; Debian ships the program as ``dyssol``. The first
-is two screens and two population-balance mills in nested recycles, 200 size × 50 attribute classes, 6 h. The second is an agglomerator,
-two screens, a mill and a recycle, 320 size classes, 10 h. Both are solved as flowsheets in time, checked against SciPy on the same
-equations, and set against what the program itself makes of them. Times are processor time, since the machine may be shared, and wall time.
+The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol; Debian ships the
+program as ``dyssol``. The first is two screens and two population-balance mills in nested recycles, 200 size
+× 50 attribute classes, 6 h. The second is an agglomerator, two screens, a mill and a recycle, 320 size
+classes, 10 h. Both are solved as flowsheets in time, checked against SciPy on the same equations, and set
+against what the program itself makes of them. Times are processor time, since the machine may be shared, and
+wall time.
 """
 
 from __future__ import annotations
@@ -54,7 +58,9 @@ def script(path: Path) -> dict[tuple[str, ...], list[float]]:
     return found
 
 
-def sieve_mill(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tuple[Profile, ...], dict[str, jax.Array]]:
+def sieve_mill(
+    data: dict[tuple[str, ...], list[float]],
+) -> tuple[Flowsheet, tuple[Profile, ...], dict[str, jax.Array]]:
     """The flowsheet, the feeds and screen settings that change, and what the mills hold at the start."""
     edges = np.array(data["DISTRIBUTION_GRID", "GLOBAL", "SIZE", "NUMERIC", "MANUAL", "DIAMETER"][1:])
     attribute = np.array(data["DISTRIBUTION_GRID", "GLOBAL", "USER_DEFINED_01", "NUMERIC", "MANUAL"][1:])
@@ -62,40 +68,82 @@ def sieve_mill(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tup
     mixture = Mixture((sand,), (), (), tuple(edges), (("attribute", tuple(attribute)),))
 
     def joint(unit: str, holdup: str) -> np.ndarray:
-        size = np.array(data["HOLDUP_DISTRIBUTION", unit, holdup, "SIZE", "Sand", "MASS_FRACTION", "DIAMETER", "MANUAL"][1 : len(edges)])
-        other = np.array(data["HOLDUP_DISTRIBUTION", unit, holdup, "USER_DEFINED_01", "Sand", "MANUAL"][1 : len(attribute)])
+        size = np.array(
+            data["HOLDUP_DISTRIBUTION", unit, holdup, "SIZE", "Sand", "MASS_FRACTION", "DIAMETER", "MANUAL"][
+                1 : len(edges)
+            ]
+        )
+        other = np.array(
+            data["HOLDUP_DISTRIBUTION", unit, holdup, "USER_DEFINED_01", "Sand", "MANUAL"][1 : len(attribute)]
+        )
         return np.outer(size / size.sum(), other / other.sum())[None]
 
     def mill(unit: str) -> BallMill:
         number = {k: data["UNIT_PARAMETER", unit, k][0] for k in ("S1", "S2", "B1", "B2", "B3")}
-        # The program reads its laws at class means and counts fragments down from there: laws of single sizes, the default here.
+        # The program reads its laws at class means and counts fragments down from there: laws of single
+        # sizes, the default here.
         # The script's laws are powers of volume: a third of the exponents of size.
-        selection = AustinSelection(1.0, 3 * number["S2"], reference_size=(6 * number["S1"] / np.pi) ** (1 / 3))
-        return BallMill(selection, AustinBreakage(number["B1"], 3 * number["B3"], 3 * number["B2"]) if number["B2"] > number["B3"] else
-                        AustinBreakage(1 - number["B1"], 3 * number["B2"], 3 * number["B3"]), data["HOLDUP_OVERALL", unit, "Holdup"][1])  # fmt: skip
+        selection = AustinSelection(
+            1.0, 3 * number["S2"], reference_size=(6 * number["S1"] / np.pi) ** (1 / 3)
+        )
+        return BallMill(
+            selection,
+            AustinBreakage(number["B1"], 3 * number["B3"], 3 * number["B2"])
+            if number["B2"] > number["B3"]
+            else AustinBreakage(1 - number["B1"], 3 * number["B2"], 3 * number["B3"]),
+            data["HOLDUP_OVERALL", unit, "Holdup"][1],
+        )
 
     def screen(unit: str) -> Screen:
-        return Screen(MolerusHoffmannPartition(data["UNIT_PARAMETER", unit, "Xcut"][1], data["UNIT_PARAMETER", unit, "Alpha"][1]))
+        return Screen(
+            MolerusHoffmannPartition(
+                data["UNIT_PARAMETER", unit, "Xcut"][1], data["UNIT_PARAMETER", unit, "Alpha"][1]
+            )
+        )
 
-    units = {"mixer_in": Mixer(), "screen1": screen("Screen1"), "screen2": screen("Screen2"), "mill1": mill("Mill1"),
-             "mixer_coarse": Mixer(), "mill2": mill("Mill2")}  # fmt: skip
+    units = {
+        "mixer_in": Mixer(),
+        "screen1": screen("Screen1"),
+        "screen2": screen("Screen2"),
+        "mill1": mill("Mill1"),
+        "mixer_coarse": Mixer(),
+        "mill2": mill("Mill2"),
+    }
     feeds, profiles = {}, []
     for name in ("Inlet1", "Inlet2"):
         points = np.array(data["HOLDUP_OVERALL", name, "InputMaterial"]).reshape(-1, 4)
-        feeds[name] = empty(mixture, 300.0, 1e5).replace(solid=jnp.asarray(joint(name, "InputMaterial")) * 1.0)
-        profiles.append(Profile(f"{name}.mass_flow", np.append(points[:, 0], 1e9), np.append(points[:, 1], points[-1, 1])))
+        feeds[name] = empty(mixture, 300.0, 1e5).replace(
+            solid=jnp.asarray(joint(name, "InputMaterial")) * 1.0
+        )
+        profiles.append(
+            Profile(f"{name}.mass_flow", np.append(points[:, 0], 1e9), np.append(points[:, 1], points[-1, 1]))
+        )
     for unit in ("Screen1", "Screen2"):
         alpha = np.array(data["UNIT_PARAMETER", unit, "Alpha"]).reshape(-1, 2)
         profiles.append(Profile(f"{unit.lower()}.separation.sharpness", alpha[:, 0], alpha[:, 1]))
-    links = {"Inlet1": ("", "mixer_in.one"), "Inlet2": ("", "mixer_in.two"), "milled2": ("mill2", "mixer_in.back"), "mixed": ("mixer_in", "screen1"),
-             "coarse1": ("screen1.oversize", "mill1"), "fine1": ("screen1.undersize", "screen2"), "coarse2": ("screen2.oversize", "mixer_coarse.two"),
-             "milled1": ("mill1", "mixer_coarse.one"), "to_mill2": ("mixer_coarse", "mill2"), "product": ("screen2.undersize", "")}  # fmt: skip
-    held = {unit.lower(): jnp.asarray(joint(unit, "Holdup")) * data["HOLDUP_OVERALL", unit, "Holdup"][1] for unit in ("Mill1", "Mill2")}
+    links = {
+        "Inlet1": ("", "mixer_in.one"),
+        "Inlet2": ("", "mixer_in.two"),
+        "milled2": ("mill2", "mixer_in.back"),
+        "mixed": ("mixer_in", "screen1"),
+        "coarse1": ("screen1.oversize", "mill1"),
+        "fine1": ("screen1.undersize", "screen2"),
+        "coarse2": ("screen2.oversize", "mixer_coarse.two"),
+        "milled1": ("mill1", "mixer_coarse.one"),
+        "to_mill2": ("mixer_coarse", "mill2"),
+        "product": ("screen2.undersize", ""),
+    }
+    held = {
+        unit.lower(): jnp.asarray(joint(unit, "Holdup")) * data["HOLDUP_OVERALL", unit, "Holdup"][1]
+        for unit in ("Mill1", "Mill2")
+    }
     return Flowsheet(units, feeds, links), tuple(profiles), held
 
 
 class OnePassCrusher(Unit):
-    """The program's cone crusher: King's selection, Vogel's fragments, each particle broken once; the mass it loses is made up in proportion."""
+    """The program's cone crusher: King's selection, Vogel's fragments, each particle broken once; the mass it
+    loses is made up in proportion.
+    """
 
     smallest: float = eqx.field(static=True)
     largest: float = eqx.field(static=True)
@@ -107,7 +155,11 @@ class OnePassCrusher(Unit):
         """Product by class of each class of the feed, before the loss is made up."""
         d = 0.5 * (edges[1:] + edges[:-1])
         chance = 1.0 - np.clip((self.largest - d) / (self.largest - self.smallest), 0.0, 1.0) ** self.power
-        finer = np.tril((d[:, None] / d) ** self.exponent * 0.5 * (1.0 + np.tanh((d - self.fragment_size) / self.fragment_size)))
+        finer = np.tril(
+            (d[:, None] / d) ** self.exponent
+            * 0.5
+            * (1.0 + np.tanh((d - self.fragment_size) / self.fragment_size))
+        )
         finer = finer / finer.sum(axis=1, keepdims=True)
         return ((finer - np.diag(np.diag(finer))) * chance[:, None] + np.diag(1.0 - chance)).T
 
@@ -128,14 +180,20 @@ class PairKernel(eqx.Module):
         return self.coefficient * (size + other) ** 2 / (size * other)
 
 
-def agglomeration(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, tuple[Profile, ...], dict[str, jax.Array]]:
+def agglomeration(
+    data: dict[tuple[str, ...], list[float]],
+) -> tuple[Flowsheet, tuple[Profile, ...], dict[str, jax.Array]]:
     """The flowsheet and what the agglomerator holds at the start."""
     edges = np.array(data["DISTRIBUTION_GRID", "GLOBAL", "SIZE", "NUMERIC", "MANUAL", "DIAMETER"][1:])
     urea = Species("urea", (("urea", 1.0),), (UREA_DENSITY,), (1500.0,), 0.0, 0.06)
     mixture = Mixture((urea,), (), (), tuple(edges))
 
     def by_size(unit: str, holdup: str) -> np.ndarray:
-        size = np.array(data["HOLDUP_DISTRIBUTION", unit, holdup, "SIZE", "Urea", "MASS_FRACTION", "DIAMETER", "MANUAL"][1 : len(edges)])
+        size = np.array(
+            data["HOLDUP_DISTRIBUTION", unit, holdup, "SIZE", "Urea", "MASS_FRACTION", "DIAMETER", "MANUAL"][
+                1 : len(edges)
+            ]
+        )
         return (size / size.sum())[None]
 
     def screen(unit: str) -> Screen:
@@ -145,21 +203,45 @@ def agglomeration(data: dict[tuple[str, ...], list[float]]) -> tuple[Flowsheet, 
     king = {k: data["UNIT_PARAMETER", "Mill", k][0] for k in ("CSS", "alpha1", "alpha2", "n", "d'", "q")}
     mass = data["HOLDUP_OVERALL", "Agglomerator", "Holdup"][1]
     units = {
-        "mixer_feed": Mixer(), "agglomerator": Agglomerator(PairKernel(data["UNIT_PARAMETER", "Agglomerator", "Beta0"][0]), mass, 1.0),
-        "screen1": screen("Screen1"), "screen2": screen("Screen2"),
-        "mill": OnePassCrusher(king["CSS"] * king["alpha1"], king["CSS"] * king["alpha2"], king["n"], king["d'"], king["q"]), "mixer_back": Mixer(),
-    }  # fmt: skip
+        "mixer_feed": Mixer(),
+        "agglomerator": Agglomerator(
+            PairKernel(data["UNIT_PARAMETER", "Agglomerator", "Beta0"][0]), mass, 1.0
+        ),
+        "screen1": screen("Screen1"),
+        "screen2": screen("Screen2"),
+        "mill": OnePassCrusher(
+            king["CSS"] * king["alpha1"], king["CSS"] * king["alpha2"], king["n"], king["d'"], king["q"]
+        ),
+        "mixer_back": Mixer(),
+    }
     feed = empty(mixture, 300.0, 1e5).replace(
-        solid=jnp.asarray(by_size("Feed", "InputMaterial")) * data["HOLDUP_OVERALL", "Feed", "InputMaterial"][1]
+        solid=jnp.asarray(by_size("Feed", "InputMaterial"))
+        * data["HOLDUP_OVERALL", "Feed", "InputMaterial"][1]
     )
-    links = {"Feed": ("", "mixer_feed.fresh"), "back": ("mixer_back", "mixer_feed.back"), "mixed": ("mixer_feed", "agglomerator"),
-             "grown": ("agglomerator", "screen1"), "coarse1": ("screen1.oversize", "mill"), "fine1": ("screen1.undersize", "screen2"),
-             "product": ("screen2.oversize", ""), "fine2": ("screen2.undersize", "mixer_back.fine"), "milled": ("mill", "mixer_back.milled")}  # fmt: skip
-    return Flowsheet(units, {"Feed": feed}, links), (), {"agglomerator": jnp.asarray(by_size("Agglomerator", "Holdup")) * mass}
+    links = {
+        "Feed": ("", "mixer_feed.fresh"),
+        "back": ("mixer_back", "mixer_feed.back"),
+        "mixed": ("mixer_feed", "agglomerator"),
+        "grown": ("agglomerator", "screen1"),
+        "coarse1": ("screen1.oversize", "mill"),
+        "fine1": ("screen1.undersize", "screen2"),
+        "product": ("screen2.oversize", ""),
+        "fine2": ("screen2.undersize", "mixer_back.fine"),
+        "milled": ("mill", "mixer_back.milled"),
+    }
+    return (
+        Flowsheet(units, {"Feed": feed}, links),
+        (),
+        {"agglomerator": jnp.asarray(by_size("Agglomerator", "Holdup")) * mass},
+    )
 
 
-def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax.Array], times: np.ndarray) -> np.ndarray:
-    """Product by size from SciPy's BDF: the attribute rides along, so that the sums over it follow the same equations."""
+def by_scipy(
+    line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax.Array], times: np.ndarray
+) -> np.ndarray:
+    """Product by size from SciPy's BDF: the attribute rides along, so that the sums over it follow the same
+    equations.
+    """
     edges = np.asarray(next(iter(line.feeds.values())).mixture.edges)
     mills = [line.units["mill1"], line.units["mill2"]]
     a = [np.asarray(rate_matrix(edges, m.selection, m.breakage)) for m in mills]
@@ -168,7 +250,9 @@ def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax
 
     def partition(unit: str, t: float) -> np.ndarray:
         sharp = float(np.interp(t, *next((p.times, p.values) for p in profiles if p.path.startswith(unit))))
-        return np.asarray(MolerusHoffmannPartition(line.units[unit].separation.cut_size, sharp).over(edges[:-1], edges[1:]))
+        return np.asarray(
+            MolerusHoffmannPartition(line.units[unit].separation.cut_size, sharp).over(edges[:-1], edges[1:])
+        )
 
     grades = {u: (partition(u, 0.0), partition(u, 1e6)) for u in ("screen1", "screen2")}
 
@@ -190,7 +274,12 @@ def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax
     def slope(t: float, y: np.ndarray) -> np.ndarray:
         w = y.reshape(2, n)
         into = flows(t, *w)
-        return np.concatenate([(f - f.sum() * x) / m.holdup_mass + k @ x for f, x, m, k in zip(into[:2], w, mills, a, strict=True)])
+        return np.concatenate(
+            [
+                (f - f.sum() * x) / m.holdup_mass + k @ x
+                for f, x, m, k in zip(into[:2], w, mills, a, strict=True)
+            ]
+        )
 
     start = np.concatenate([np.asarray(x).sum(axis=(0, 2)) / x.sum() for x in held.values()])
     states = []
@@ -200,16 +289,23 @@ def by_scipy(line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax
             break
         hi = min(hi, times[-1])
         inside = times[(times >= lo) & ((times < hi) | (times == times[-1]) & (hi == times[-1]))]
-        path = solve_ivp(slope, (lo, hi), start, "BDF", np.append(inside[inside < hi], hi), rtol=1e-8, atol=1e-12)
+        path = solve_ivp(
+            slope, (lo, hi), start, "BDF", np.append(inside[inside < hi], hi), rtol=1e-8, atol=1e-12
+        )
         states.append(path.y.T[: len(inside)])
         start = path.y[:, -1]
-    return np.stack([flows(t, *y.reshape(2, n))[2] for t, y in zip(times, np.concatenate(states), strict=True)])
+    return np.stack(
+        [flows(t, *y.reshape(2, n))[2] for t, y in zip(times, np.concatenate(states), strict=True)]
+    )
 
 
-def agglomeration_by_scipy(line: Flowsheet, held: dict[str, jax.Array], times: np.ndarray, theirs: bool = False) -> np.ndarray:
+def agglomeration_by_scipy(
+    line: Flowsheet, held: dict[str, jax.Array], times: np.ndarray, theirs: bool = False
+) -> np.ndarray:
     """Product by size from SciPy's LSODA, births by NumPy's convolution.
 
-    ``theirs``: numbers from the volume at the mean diameter of a class, newborn shared out and screens read as in the program.
+    ``theirs``: numbers from the volume at the mean diameter of a class, newborn shared out and screens read
+    as in the program.
     """
     bed, feed = line.units["agglomerator"], next(iter(line.feeds.values()))
     edges = feed.mixture.edges
@@ -237,7 +333,11 @@ def agglomeration_by_scipy(line: Flowsheet, held: dict[str, jax.Array], times: n
         share = number * volume / (number @ volume)
         again, _product = back(share)
         flow = fresh.sum() / (1.0 - again.sum())
-        return bed.agglomeration_kernel.coefficient * (born - lost) + (fresh + flow * again) / volume / UREA_DENSITY - flow * number / mass
+        return (
+            bed.agglomeration_kernel.coefficient * (born - lost)
+            + (fresh + flow * again) / volume / UREA_DENSITY
+            - flow * number / mass
+        )
 
     start = np.asarray(held["agglomerator"])[0] / volume / UREA_DENSITY
     found = []
@@ -248,26 +348,40 @@ def agglomeration_by_scipy(line: Flowsheet, held: dict[str, jax.Array], times: n
 
 
 def other(given: argparse.Namespace, path: Path, end: float) -> tuple[float, float, float, np.ndarray | None]:
-    """Plant time that Dyssol got through, its processor and wall time, and the product by time and size class if it came to the end."""
+    """Plant time that Dyssol got through, its processor and wall time, and the product by time and size class
+    if it came to the end.
+    """
     text = path.read_text().replace('"Inlet flow"', '"InletFlow"').replace('"Outlet flow"', '"OutletFlow"')
     text = re.sub(r"MODELS_PATH .*\n(?=MODELS_PATH)", "", text)
     with tempfile.TemporaryDirectory() as folder:
         for key, value in {
-            "SIMULATION_TIME": f"{end:g}", "RESULT_FILE": f'"{folder}/r.dflw"', "MATERIALS_DATABASE": f'"{given.materials}"', "MODELS_PATH": f'"{given.models}"',
-        }.items():  # fmt: skip
+            "SIMULATION_TIME": f"{end:g}",
+            "RESULT_FILE": f'"{folder}/r.dflw"',
+            "MATERIALS_DATABASE": f'"{given.materials}"',
+            "MODELS_PATH": f'"{given.models}"',
+        }.items():
             text = re.sub(rf"{key} .*", lambda _m, key=key, value=value: f"{key} {value}", text)
         (Path(folder) / "case.txt").write_text(text)
         before, begun = _children(), time.perf_counter()
         try:
             said = subprocess.run(
-                [given.program, f"-s={folder}/case.txt"], capture_output=True, text=True, timeout=given.limit, check=False
+                [given.program, f"-s={folder}/case.txt"],
+                capture_output=True,
+                text=True,
+                timeout=given.limit,
+                check=False,
             ).stdout
         except subprocess.TimeoutExpired as late:
             said = (late.stdout or b"").decode()
         took = time.perf_counter() - begun
         reached = [float(x) for x in re.findall(r"\[[\d.e+-]+, ([\d.e+-]+)\]", said)]
         result = Path(folder) / "r.dflw"
-        return (reached[-1] if reached else 0.0), _children() - before, took, product_of(result) if result.exists() else None
+        return (
+            (reached[-1] if reached else 0.0),
+            _children() - before,
+            took,
+            product_of(result) if result.exists() else None,
+        )
 
 
 def _children() -> float:
@@ -288,8 +402,15 @@ def product_of(path: Path) -> np.ndarray | None:
             if not classes:
                 return None
             blocks = [share[f"Data{i}"][:] for i in range(sum(name.startswith("Data") for name in share))]
-            parts = [np.concatenate([np.broadcast_to(b[i + 1], (max(map(len, b)),)) for b in blocks]) for i in range(classes)]
-            flow = next(o["Data"][:][1] for o in stream["Overalls"].values() if o["Name"][0].lower().startswith(b"mass"))
+            parts = [
+                np.concatenate([np.broadcast_to(b[i + 1], (max(map(len, b)),)) for b in blocks])
+                for i in range(classes)
+            ]
+            flow = next(
+                o["Data"][:][1]
+                for o in stream["Overalls"].values()
+                if o["Name"][0].lower().startswith(b"mass")
+            )
             return np.column_stack([stream["TimePoints"][:], flow[:, None] * np.stack(parts, 1)])
     return None
 
@@ -297,10 +418,19 @@ def product_of(path: Path) -> np.ndarray | None:
 def solved(
     line: Flowsheet, profiles: tuple[Profile, ...], held: dict[str, jax.Array], spans: list[tuple[float, int]]
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
-    """Times, product by size class, processor and wall time of a run of several equal numbers of steps, the second time it is made."""
+    """Times, product by size class, processor and wall time of a run of several equal numbers of steps, the
+    second time it is made.
+    """
     run = eqx.filter_jit(lambda held, times: march(line, times, profiles, start=held))
     for _again in range(2):
-        processor, begun, state, t0, times, product = time.process_time(), time.perf_counter(), held, 0.0, [], []
+        processor, begun, state, t0, times, product = (
+            time.process_time(),
+            time.perf_counter(),
+            held,
+            0.0,
+            [],
+            [],
+        )
         for end, steps in spans:
             course = run(state, jnp.linspace(t0, end, steps + 1))
             assert bool(course.converged.all()), "a loop did not converge"
@@ -308,7 +438,12 @@ def solved(
             solid = np.asarray(course.streams["product"].solid)
             times.append(np.asarray(course.times)[int(bool(times)) :])
             product.append(solid.sum(axis=(1, *range(3, solid.ndim)))[int(bool(product)) :])
-    return np.concatenate(times), np.concatenate(product), time.process_time() - processor, time.perf_counter() - begun
+    return (
+        np.concatenate(times),
+        np.concatenate(product),
+        time.process_time() - processor,
+        time.perf_counter() - begun,
+    )
 
 
 def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]) -> None:
@@ -324,17 +459,30 @@ def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]
     end = spans[-1][0]
     times, product, processor, wall = solved(few.line, profiles, few.holdups, spans)
     print(
-        f"{name}: {len(times) - 1} steps, {processor:.2f} s of processor, {wall:.2f} s of wall, {end / processor:.0f} s of plant time a second"
+        f"{name}: {len(times) - 1} steps, {processor:.2f} s of processor, {wall:.2f} s of wall, "
+        f"{end / processor:.0f} s of plant time a second"
     )
-    reference = by_scipy(line, profiles, held, times) if name == "sieve-mill" else agglomeration_by_scipy(line, held, times)
+    reference = (
+        by_scipy(line, profiles, held, times)
+        if name == "sieve-mill"
+        else agglomeration_by_scipy(line, held, times)
+    )
     miss = np.abs(product - reference).sum(axis=1) / reference.sum(axis=1)
-    print(f"  share of the product in another class than SciPy has it: at most {0.5 * miss.max():.1e}, median {0.5 * np.median(miss):.1e}")
+    print(
+        f"  share of the product in another class than SciPy has it: at most {0.5 * miss.max():.1e}, "
+        f"median {0.5 * np.median(miss):.1e}"
+    )
     if not given.program:
         return
     reached, theirs, took, found = other(given, path, end)
     late = "" if reached >= end else " (not to the end; it is slower at the start than later)"
-    print(f"  Dyssol: {reached:.0f} s of plant time in {theirs:.0f} s of processor, {took:.0f} s of wall{late}")
-    print(f"  ratio: {end / processor / (reached / theirs):.0f} by processor time, {end / wall / (reached / took):.0f} by wall time")
+    print(
+        f"  Dyssol: {reached:.0f} s of plant time in {theirs:.0f} s of processor, {took:.0f} s of wall{late}"
+    )
+    print(
+        f"  ratio: {end / processor / (reached / theirs):.0f} by processor time, "
+        f"{end / wall / (reached / took):.0f} by wall time"
+    )
     if found is not None:
         there = np.stack([np.interp(times, found[:, 0], column) for column in found[:, 1:].T], 1)
 
@@ -345,7 +493,8 @@ def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]
         print(f"  share of the product in another class than Dyssol has it: {off(product)}")
         if name == "agglomeration":
             print(
-                f"  the same for SciPy with the class numbers that Dyssol works with: {off(agglomeration_by_scipy(line, held, times, True))}"
+                f"  the same for SciPy with the class numbers that Dyssol works with: "
+                f"{off(agglomeration_by_scipy(line, held, times, True))}"
             )
 
 
@@ -355,8 +504,12 @@ def main() -> None:
     options.add_argument("--program", type=Path)
     options.add_argument("--models", default="/usr/lib/x86_64-linux-gnu/Dyssol/Units/")
     options.add_argument("--materials", default="/usr/share/Dyssol/MaterialsDB/Materials.dmdb")
-    options.add_argument("--limit", type=float, default=900.0, help="seconds given to Dyssol for each problem")
-    options.add_argument("--plant-time", type=float, default=np.inf, help="seconds of plant time after which both stop")
+    options.add_argument(
+        "--limit", type=float, default=900.0, help="seconds given to Dyssol for each problem"
+    )
+    options.add_argument(
+        "--plant-time", type=float, default=np.inf, help="seconds of plant time after which both stop"
+    )
     given = options.parse_args()
     compare("agglomeration", given, [(1500.0, 300), (9000.0, 300), (36000.0, 300)])
     compare("sieve-mill", given, [(end, 300) for end in (300.0, 7200.0, 7500.0, 14400.0, 14700.0, 21600.0)])

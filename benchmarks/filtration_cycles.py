@@ -1,8 +1,10 @@
-"""A hundred thousand filter cycles at once: the closed cycle, and whole presses in a line with washing and draining.
+"""A hundred thousand filter cycles at once: the closed cycle, and whole presses in a line with washing and
+draining.
 
     python benchmarks/filtration_cycles.py
 
-Budget: 1 s warm each. The peer is the same cycle found by SciPy's scalar minimizer, timed over 200 cases in the same run and scaled.
+Budget: 1 s warm each. The peer is the same cycle found by SciPy's scalar minimizer, timed over 200 cases in
+the same run and scaled.
 """
 
 from __future__ import annotations
@@ -51,7 +53,12 @@ def median_of(job, repeats: int = 7) -> float:
 def peer(dead: float) -> float:
     """Best filtrate volume by a scalar search."""
     a, b = 1e-3 * 5e10 * 30.0 / (2 * 3e5 * 144.0), 1e-3 * 1e11 / (3e5 * 12.0)
-    return minimize_scalar(lambda V: -V / (dead + a * V**2 + b * V), bounds=(1e-3, 1e3), method="bounded", options={"xatol": 1e-9}).x
+    return minimize_scalar(
+        lambda V: -V / (dead + a * V**2 + b * V),
+        bounds=(1e-3, 1e3),
+        method="bounded",
+        options={"xatol": 1e-9},
+    ).x
 
 
 def main() -> None:
@@ -77,7 +84,8 @@ def main() -> None:
     print(f"1e5 best cycles, closed form       {closed:8.4f} s  (budget 1)")
     print(f"1e5 presses with wash in a line    {whole:8.3f} s  (budget 1)")
     print(
-        f"scalar search, scaled              {scaled:8.1f} s, {scaled / closed:.0f} times longer; largest difference {abs(apart).max():.1e}"
+        f"scalar search, scaled              {scaled:8.1f} s, {scaled / closed:.0f} times longer; "
+        f"largest difference {abs(apart).max():.1e}"
     )
     if max(closed, whole) > 1.0:
         raise SystemExit("over budget")

@@ -2,9 +2,10 @@
 
     python benchmarks/freeze_drying.py [--vials 10000]
 
-The peer solves the same quasi-steady equations in the way of LyoPRONTO (Shivkumar et al. 2019): `scipy.integrate.solve_ivp` over time
-with the balance of heat at the ice front solved by `scipy.optimize.fsolve` at each call, at SciPy's default tolerances. LyoPRONTO itself
-is not on the package index; its authors' program takes 0.02 to 0.03 s per vial on a common processor.
+The peer solves the same quasi-steady equations in the way of LyoPRONTO (Shivkumar et al. 2019):
+`scipy.integrate.solve_ivp` over time with the balance of heat at the ice front solved by
+`scipy.optimize.fsolve` at each call, at SciPy's default tolerances. LyoPRONTO itself is not on the package
+index; its authors' program takes 0.02 to 0.03 s per vial on a common processor.
 """
 
 from __future__ import annotations
@@ -21,7 +22,15 @@ from granum.drying.formulas.freeze_drying import primary_drying
 
 TORR = 133.322368
 RESISTANCE = 3600 * TORR * 0.1  # one cm² h Torr/g in m/s
-AV, AP, FILL, KC, KP, KD, P = 3.8e-4, 3.14e-4, 2e-6, 2.75e-4 * 41840, 8.93e-4 * 41840 / TORR, 0.46 / TORR, 0.15 * TORR
+AV, AP, FILL, KC, KP, KD, P = (
+    3.8e-4,
+    3.14e-4,
+    2e-6,
+    2.75e-4 * 41840,
+    8.93e-4 * 41840 / TORR,
+    0.46 / TORR,
+    0.15 * TORR,
+)
 R0, A1 = 1.4 * RESISTANCE, 16 * RESISTANCE * 100
 HEAT, ICE, DENSITY = 678.0 * 4184.0, 0.0059 * 418.4, 918.0
 
@@ -38,7 +47,11 @@ def one_vial(heat: float, resistance: float) -> float:
         L = min(y[0], L0)
         R = resistance * (R0 + A1 * L)
         Z = AP / (K * AV) + (L0 - L) / ICE
-        last[0] = float(fsolve(lambda T: 2.698e10 * TORR * np.exp(-6144.96 / T) - P - R * (shelf - T) / (HEAT * Z), last[0])[0])
+        last[0] = float(
+            fsolve(
+                lambda T: 2.698e10 * TORR * np.exp(-6144.96 / T) - P - R * (shelf - T) / (HEAT * Z), last[0]
+            )[0]
+        )
         return [max(2.698e10 * TORR * np.exp(-6144.96 / last[0]) - P, 0.0) / R * L0 * AP / ice]
 
     def done(t: float, y: np.ndarray) -> float:
@@ -59,7 +72,20 @@ def main() -> None:
     @jax.jit
     def batch(heat: jax.Array, resistance: jax.Array) -> jax.Array:
         return primary_drying(
-            P, 293.15, AV, AP, FILL, 50.0, KC * heat, KP * heat, R0 * resistance, A1 * resistance, 0.0, KD, 238.15, 1 / 60
+            P,
+            293.15,
+            AV,
+            AP,
+            FILL,
+            50.0,
+            KC * heat,
+            KP * heat,
+            R0 * resistance,
+            A1 * resistance,
+            0.0,
+            KD,
+            238.15,
+            1 / 60,
         ).drying_time
 
     start = time.perf_counter()
@@ -73,9 +99,13 @@ def main() -> None:
     sample, peers, theirs = min(count, 5), [], []
     for _run in range(3):
         start = time.perf_counter()
-        theirs = [one_vial(float(h), float(r)) for h, r in zip(heat[:sample], resistance[:sample], strict=True)]
+        theirs = [
+            one_vial(float(h), float(r)) for h, r in zip(heat[:sample], resistance[:sample], strict=True)
+        ]
         peers.append((time.perf_counter() - start) / sample)
-    print(f"granum: {np.median(spans) * 1e6:.1f} us per vial in a batch of {count} (first call {first:.1f} s)")
+    print(
+        f"granum: {np.median(spans) * 1e6:.1f} us per vial in a batch of {count} (first call {first:.1f} s)"
+    )
     print(f"scipy:  {np.median(peers) * 1e6:.0f} us per vial")
     print(f"ratio:  {np.median(peers) / np.median(spans):.0f}")
     print(f"largest difference of the times: {np.max(np.abs(ours[:sample] / np.array(theirs) - 1)):.2e}")

@@ -2,8 +2,8 @@
 
     python benchmarks/recycles.py
 
-Passes through the units for Anderson's method, steps for Newton's (each with directional derivatives of the whole loop); "–" where the
-way does not converge. What has no steady state must fail in all of them.
+Passes through the units for Anderson's method, steps for Newton's (each with directional derivatives of the
+whole loop); "–" where the way does not converge. What has no steady state must fail in all of them.
 """
 
 from __future__ import annotations
@@ -47,7 +47,12 @@ def newton(line: Any) -> Any:
     return solve(line, method=Newton(), max_steps=50)
 
 
-WAYS = {"substitution": substituted, "Anderson": anderson, "patient Anderson": patient, "Newton–Krylov": newton}
+WAYS = {
+    "substitution": substituted,
+    "Anderson": anderson,
+    "patient Anderson": patient,
+    "Newton–Krylov": newton,
+}
 
 
 def main() -> None:
@@ -70,7 +75,9 @@ def main() -> None:
     for name, case in corpus.REFUSED.items():
         line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case().line)
         print(
-            f"| no steady state: {name} | " + " | ".join("–" if not bool(run(line).converged) else "WRONG" for run in WAYS.values()) + " |"
+            f"| no steady state: {name} | "
+            + " | ".join("–" if not bool(run(line).converged) else "WRONG" for run in WAYS.values())
+            + " |"
         )
 
 

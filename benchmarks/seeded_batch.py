@@ -1,7 +1,9 @@
-"""Seeded cooling batch of potassium nitrate: packets against a grid handed to a black-box stiff integrator, in one run.
+"""Seeded cooling batch of potassium nitrate: packets against a grid handed to a black-box stiff integrator,
+in one run.
 
-The peer is a flux-limited finite volume grid of 200 classes integrated by SciPy's BDF with its finite-difference Jacobian, as
-several open tools do it. Accuracy is measured against moment equations at a tolerance of 1e-11. Run: python benchmarks/seeded_batch.py
+The peer is a flux-limited finite volume grid of 200 classes integrated by SciPy's BDF with its
+finite-difference Jacobian, as several open tools do it. Accuracy is measured against moment equations at a
+tolerance of 1e-11. Run: python benchmarks/seeded_batch.py
 """
 
 from __future__ import annotations
@@ -37,10 +39,22 @@ def solubility(theta):
 
 def ours(q):
     """Moments and composition at the end for six parameters: kinetics, end temperature, seed mass."""
-    model = Model(PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), PowerLawGrowth(q[0], q[1]), PowerLawNucleation(q[2] / RHO, q[3]),
-                  Crystal(RHO), SolventVolume(1000.0))  # fmt: skip
+    model = Model(
+        PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+        PowerLawGrowth(q[0], q[1]),
+        PowerLawNucleation(q[2] / RHO, q[3]),
+        Crystal(RHO),
+        SolventVolume(1000.0),
+    )
     seeds = Seeds.of_density(density, jnp.linspace(90e-6, 110e-6, 33), q[5], RHO)
-    course = march(model, Programmed(lambda t: 305.15 - q[4] * t / END), seeds, START, 1.0, jnp.linspace(0.0, END, STEPS + 1))
+    course = march(
+        model,
+        Programmed(lambda t: 305.15 - q[4] * t / END),
+        seeds,
+        START,
+        1.0,
+        jnp.linspace(0.0, END, STEPS + 1),
+    )
     return jnp.append(course.moments[-1], course.solute_per_solvent[-1])
 
 
@@ -118,11 +132,15 @@ def main():
     ensemble = time.perf_counter() - begin
     worst = np.max(np.abs(out[:5] / exact - 1))
     print(
-        f"packets, {STEPS} steps: {one * 1e3:.2f} ms (median {one_median * 1e3:.2f}); worst moment error {worst:.1e}, composition {out[5] - composition:+.1e}"
+        f"packets, {STEPS} steps: {one * 1e3:.2f} ms (median {one_median * 1e3:.2f}); worst moment "
+        f"error {worst:.1e}, composition {out[5] - composition:+.1e}"
     )
     print(f"exact Jacobian, 6 parameters: {jac * 1e3:.2f} ms = {jac / one:.1f} runs")
     print(f"10 000 batches: {ensemble:.1f} s")
-    print(f"grid of 200 classes by BDF: {peer * 1e3:.0f} ms, error in number {number.sum() / exact[0] - 1:+.1e}; ratio {peer / one:.0f}")
+    print(
+        f"grid of 200 classes by BDF: {peer * 1e3:.0f} ms, error in number "
+        f"{number.sum() / exact[0] - 1:+.1e}; ratio {peer / one:.0f}"
+    )
     assert worst < 1e-4
     assert peer > 100 * one
     assert one < 3e-3

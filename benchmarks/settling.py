@@ -1,8 +1,10 @@
-"""A day of a continuous clarifier-thickener with compression: our scan against a plain SciPy method of lines of the same fluxes.
+"""A day of a continuous clarifier-thickener with compression: our scan against a plain SciPy method of lines
+of the same fluxes.
 
-Both solve 100 cells over 24 h from an empty tank (BSM1 settling function, logarithmic effective stress, 4 m deep). The peer is
-written in NumPy with the same Godunov, upwind and compression fluxes and handed to SciPy's LSODA and BDF. Then 1 000 parameter
-sets batched, and the exact derivative of the underflow. Run: python benchmarks/settling.py
+Both solve 100 cells over 24 h from an empty tank (BSM1 settling function, logarithmic effective stress, 4 m
+deep). The peer is written in NumPy with the same Godunov, upwind and compression fluxes and handed to SciPy's
+LSODA and BDF. Then 1 000 parameter sets batched, and the exact derivative of the underflow. Run: python
+benchmarks/settling.py
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ def peer(method):
     factor = 1050.0 / (9.80665 * (1050.0 - 998.0))
 
     def velocity(C):
-        return np.clip(v0 * (np.exp(-rh * C) - np.exp(-rp * C)), 0.0, cap) * np.clip((1050.0 - C) / (0.05 * 1050.0), 0, 1)
+        return np.clip(v0 * (np.exp(-rh * C) - np.exp(-rp * C)), 0.0, cap) * np.clip(
+            (1050.0 - C) / (0.05 * 1050.0), 0, 1
+        )
 
     fine = np.linspace(0.0, 20.0, 200001)
     flux = fine * velocity(fine)
@@ -48,7 +52,9 @@ def peer(method):
         through = np.minimum(np.where(peak > C, f, top)[:-1], np.where(peak < C, f, top)[1:])
         b = np.maximum(C, 6.0)
         slow, stiff = np.where(C > 6.0, v, velocity(6.0)), factor * 4.0 / (4.0 + b - 6.0)
-        through = through - 0.5 / dz * np.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1]) * (b[1:] - b[:-1])
+        through = through - 0.5 / dz * np.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1]) * (
+            b[1:] - b[:-1]
+        )
         inner = through + np.where(np.arange(1, CELLS) > mid, QU * C[:-1], -(Q - QU) * C[1:])
         faces = np.concatenate([[-(Q - QU) * C[0]], inner, [QU * C[-1]]])
         change = -np.diff(faces) / dz
@@ -56,7 +62,9 @@ def peer(method):
         return change
 
     options = {"lband": 1, "uband": 1} if method == "LSODA" else {}
-    return solve_ivp(rate, (0, HOURS * 3600.0), np.zeros(CELLS), method=method, rtol=1e-6, atol=1e-8, **options)
+    return solve_ivp(
+        rate, (0, HOURS * 3600.0), np.zeros(CELLS), method=method, rtol=1e-6, atol=1e-8, **options
+    )
 
 
 def clock(run, repeat=5):
@@ -73,14 +81,24 @@ def main() -> None:
     jax.block_until_ready(ours(suspension))
     course, seconds = clock(lambda: jax.block_until_ready(ours(suspension)))
     need = steps_needed(suspension, DEPTH, CELLS, OPERATION)
-    print(f"ours                 {1e3 * seconds:8.1f} ms   underflow {float(course.concentration[-1, -1]):.4f} kg/m³, "
-          f"balance {float(course.mass_error):.0e}, {HOURS * int(need.steps)} steps × {int(need.compression)}")  # fmt: skip
+    print(
+        f"ours                 {1e3 * seconds:8.1f} ms   underflow "
+        f"{float(course.concentration[-1, -1]):.4f} kg/m³, "
+        f"balance {float(course.mass_error):.0e}, {HOURS * int(need.steps)} steps × {int(need.compression)}"
+    )
     for method in ("LSODA", "BDF"):
         found, seconds = clock(lambda method=method: peer(method), 1)
-        print(f"SciPy {method:<14} {1e3 * seconds:8.1f} ms   underflow {found.y[-1, -1]:.4f} kg/m³, {found.nfev} evaluations")
+        print(
+            f"SciPy {method:<14} {1e3 * seconds:8.1f} ms   underflow {found.y[-1, -1]:.4f} kg/m³, "
+            f"{found.nfev} evaluations"
+        )
 
     slope = jax.jit(
-        lambda v: jax.jvp(lambda u: ours(Suspension(Takacs(takacs_velocity=u), STRESS)).underflow_concentration[-1], (v,), (1.0,))
+        lambda v: jax.jvp(
+            lambda u: ours(Suspension(Takacs(takacs_velocity=u), STRESS)).underflow_concentration[-1],
+            (v,),
+            (1.0,),
+        )
     )
     jax.block_until_ready(slope(5e-3))
     out, seconds = clock(lambda: jax.block_until_ready(slope(5e-3)))

@@ -1,9 +1,10 @@
-"""100 000 sieve analyses of 14 root-two classes to D[3,2], D[4,3], d10, d50 and d90, beside the library ``fluids`` in the same run.
+"""100 000 sieve analyses of 14 root-two classes to D[3,2], D[4,3], d10, d50 and d90, beside the library
+``fluids`` in the same run.
 
     python benchmarks/sieve_analyses.py
 
-``fluids`` takes one analysis at a time: its loop is timed over 200 analyses and scaled. Budget: 0.20 s warm and 50 times the peer.
-Needs ``pip install granum[bench]``.
+``fluids`` takes one analysis at a time: its loop is timed over 200 analyses and scaled. Budget: 0.20 s warm
+and 50 times the peer. Needs ``pip install granum[bench]``.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ def figures(amounts: jax.Array) -> tuple[jax.Array, ...]:
 
 
 def peer(amounts: np.ndarray) -> tuple[float, ...]:
-    """The same figures of one analysis by the peer; not a number where it finds no percentile (in the outermost classes)."""
+    """The same figures of one analysis by the peer; not a number where it finds no percentile (in the
+    outermost classes).
+    """
     d = ParticleSizeDistribution(ds=EDGES, fractions=(amounts / amounts.sum()).tolist(), order=3)
 
     def percentile(part: float) -> float:

@@ -1,8 +1,10 @@
-"""Studies of the potassium nitrate line (nine units, one recycle): cases a second, cost of a derivative; a million cases of a formula.
+"""Studies of the potassium nitrate line (nine units, one recycle): cases a second, cost of a derivative; a
+million cases of a formula.
 
     python benchmarks/studies.py
 
-Budgets, warm, on 2 cores: 10 000 cases of the line within 10 s; figures with one directional derivative within 5 solves.
+Budgets, warm, on 2 cores: 10 000 cases of the line within 10 s; figures with one directional derivative
+within 5 solves.
 """
 
 from __future__ import annotations
@@ -45,7 +47,10 @@ def main() -> None:
     both = jax.jit(lambda x: jax.jvp(lambda x: run(numbers, x)[0], (x,), (x,)))
     jax.block_until_ready((solve(at), both(at)))
     one, two = best_of(lambda: solve(at), 50), best_of(lambda: both(at), 50)
-    print(f"line, one solve {1e3 * one:.2f} ms, with a directional derivative {1e3 * two:.2f} ms: {two / one:.2f} solves")
+    print(
+        f"line, one solve {1e3 * one:.2f} ms, with a directional derivative {1e3 * two:.2f} ms: "
+        f"{two / one:.2f} solves"
+    )
 
     settling = read_studies(EXAMPLES / "studies" / "settling.toml")["spread"].with_options(samples=1_000_000)
     settling.run()

@@ -1,9 +1,10 @@
-"""A million terminal velocities of quartz in water, 1 µm to 20 mm, beside the library ``fluids`` in the same run.
+"""A million terminal velocities of quartz in water, 1 µm to 20 mm, beside the library ``fluids`` in the same
+run.
 
     python benchmarks/terminal_velocity.py
 
-``fluids`` is scalar: its loop is timed over 20 000 sizes spread over the same range and scaled. Budget: 0.10 s warm and 50 times
-the peer. Needs ``pip install granum[bench]``.
+``fluids`` is scalar: its loop is timed over 20 000 sizes spread over the same range and scaled. Budget:
+0.10 s warm and 50 times the peer. Needs ``pip install granum[bench]``.
 """
 
 from __future__ import annotations
@@ -34,15 +35,26 @@ def main() -> None:
     start = time.perf_counter()
     velocities = granum.particles.terminal_velocity(particle_diameter=sizes, **PHASES).block_until_ready()
     first = time.perf_counter() - start
-    ours = best_of(lambda: granum.particles.terminal_velocity(particle_diameter=sizes, **PHASES).block_until_ready())
-    back = best_of(lambda: granum.particles.terminal_diameter(velocity=velocities, **PHASES).block_until_ready())
+    ours = best_of(
+        lambda: granum.particles.terminal_velocity(particle_diameter=sizes, **PHASES).block_until_ready()
+    )
+    back = best_of(
+        lambda: granum.particles.terminal_diameter(velocity=velocities, **PHASES).block_until_ready()
+    )
 
     few = sizes[:: COUNT // SAMPLE].tolist()
     start = time.perf_counter()
     peer = [fluids.v_terminal(D=d, rhop=2650.0, rho=998.0, mu=1.0e-3) for d in few]
     theirs = (time.perf_counter() - start) * COUNT / len(few)
 
-    one = best_of(lambda: [granum.particles.terminal_velocity(particle_diameter=85e-6, **PHASES) for _ in range(200)])[0] / 200
+    one = (
+        best_of(
+            lambda: [
+                granum.particles.terminal_velocity(particle_diameter=85e-6, **PHASES) for _ in range(200)
+            ]
+        )[0]
+        / 200
+    )
     apart = np.asarray(velocities)[:: COUNT // SAMPLE] / np.asarray(peer) - 1.0
     print(f"granum, first call                {first:8.3f} s")
     print(f"granum, 1e6 velocities, warm      {ours[0]:8.3f} s best, {ours[1]:.3f} s median")

@@ -1,9 +1,10 @@
-"""A million wet-bulb temperatures: ideal air, real air and a solvent, beside psychrolib (plain and compiled) and CoolProp in the same run.
+"""A million wet-bulb temperatures: ideal air, real air and a solvent, beside psychrolib (plain and compiled)
+and CoolProp in the same run.
 
     python benchmarks/wet_bulb.py
 
-Budgets, warm: 0.10 s ideal, 0.25 s real gas; 40 times psychrolib, 5 times its compiled mode, 500 times CoolProp. The peers are timed on
-fewer states and scaled. Needs ``pip install granum[bench]``.
+Budgets, warm: 0.10 s ideal, 0.25 s real gas; 40 times psychrolib, 5 times its compiled mode, 500 times
+CoolProp. The peers are timed on fewer states and scaled. Needs ``pip install granum[bench]``.
 """
 
 from __future__ import annotations
@@ -43,7 +44,9 @@ def states(pair, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def psychrolib(compiled: bool):
-    """The peer with or without the compiler that it uses when one is installed; None where that mode cannot be had."""
+    """The peer with or without the compiler that it uses when one is installed; None where that mode cannot
+    be had.
+    """
     import importlib.util
     import sys
 
@@ -67,13 +70,22 @@ def psychrolib(compiled: bool):
 
 def main() -> None:
     ours = {}
-    for name, pair in (("ideal air", AIR_WATER), ("real air", AIR_WATER_REAL), ("nitrogen and ethanol", NitrogenEthanol())):
+    for name, pair in (
+        ("ideal air", AIR_WATER),
+        ("real air", AIR_WATER_REAL),
+        ("nitrogen and ethanol", NitrogenEthanol()),
+    ):
         T, w = (jax.numpy.asarray(a) for a in states(pair, COUNT))
         start = time.perf_counter()
         jax.block_until_ready(wet_bulb_temperature(temperature=T, humidity_ratio=w, pair=pair))
         first = time.perf_counter() - start
-        ours[name] = best_of(lambda T=T, w=w, pair=pair: wet_bulb_temperature(temperature=T, humidity_ratio=w, pair=pair))
-        print(f"granum, {name:22s} {ours[name][0]:8.3f} s best, {ours[name][1]:8.3f} s median, first call {first:.1f} s")
+        ours[name] = best_of(
+            lambda T=T, w=w, pair=pair: wet_bulb_temperature(temperature=T, humidity_ratio=w, pair=pair)
+        )
+        print(
+            f"granum, {name:22s} {ours[name][0]:8.3f} s best, {ours[name][1]:8.3f} s median, first call "
+            f"{first:.1f} s"
+        )
     T, w = states(AIR_WATER, COUNT)
     found = np.asarray(wet_bulb_temperature(temperature=T, humidity_ratio=w))
     for mode in ("plain", "compiled"):
@@ -93,7 +105,10 @@ def main() -> None:
         print(f"psychrolib, {mode:9s}         {taken:8.2f} s, ratio {taken / ours['ideal air'][1]:.1f}")
         print(f"largest difference            {np.abs(values + 273.15 - found[:many]).max():8.4f} K")
     some = np.random.default_rng(1).uniform(0.1, 0.9, COUNT)
-    for second, given in (("relative_humidity", {"relative_humidity": some}), ("humidity_ratio", {"humidity_ratio": w})):
+    for second, given in (
+        ("relative_humidity", {"relative_humidity": some}),
+        ("humidity_ratio", {"humidity_ratio": w}),
+    ):
         job = jax.jit(lambda T, x, second=second: state(temperature=T, pressure=P, **{second: x}))
         x = next(iter(given.values()))
         jax.block_until_ready(job(T, x))
@@ -104,7 +119,9 @@ def main() -> None:
     except ImportError:
         print("CoolProp is not installed")
     else:
-        real = np.asarray(wet_bulb_temperature(temperature=T[:SLOW], humidity_ratio=w[:SLOW], pair=AIR_WATER_REAL))
+        real = np.asarray(
+            wet_bulb_temperature(temperature=T[:SLOW], humidity_ratio=w[:SLOW], pair=AIR_WATER_REAL)
+        )
         start = time.perf_counter()
         peer = np.array([HAPropsSI("B", "T", T[i], "P", P, "W", w[i]) for i in range(SLOW)])
         taken = (time.perf_counter() - start) * COUNT / SLOW

@@ -1,6 +1,8 @@
-"""Makes the generated part of the documentation while mkdocs builds: a page of cards per domain in both languages, and the
-plots and tables of the theory pages, which name them as ``[[validation NAME]]``, ``[[printed DOMAIN]]``, ``[[chart CARD name=value]]``,
-``[[card CARD]]``, ``[[source MODULE NAME]]`` or ``[[include FILE]]``. Everything comes from the registry and from data of the repository; a name that does not exist ends the build.
+"""Makes the generated part of the documentation while mkdocs builds: a page of cards per domain in both
+languages, and the plots and tables of the theory pages, which name them as ``[[validation NAME]]``,
+``[[printed DOMAIN]]``, ``[[chart CARD name=value]]``, ``[[card CARD]]``, ``[[source MODULE NAME]]`` or
+``[[include FILE]]``. Everything comes from the registry and from data of the repository; a name that does not
+exist ends the build.
 """
 
 from __future__ import annotations
@@ -27,20 +29,74 @@ from granum.reports.quantities import limit_rows, value_text
 
 ROOT = Path(__file__).parent.parent
 WORDS = {
-    "en": ["Cards", "input", "symbol", "units", "allowed", "default", "required", "result", "Source", "covers", "Kind", "formula", "cards"],
-    "fr": ["Fiches", "donnée", "symbole", "unités", "permis", "par défaut", "obligatoire", "résultat", "Source", "couvre", "Sorte", "formule", "fiches"],
-}  # fmt: skip
+    "en": [
+        "Cards",
+        "input",
+        "symbol",
+        "units",
+        "allowed",
+        "default",
+        "required",
+        "result",
+        "Source",
+        "covers",
+        "Kind",
+        "formula",
+        "cards",
+    ],
+    "fr": [
+        "Fiches",
+        "donnée",
+        "symbole",
+        "unités",
+        "permis",
+        "par défaut",
+        "obligatoire",
+        "résultat",
+        "Source",
+        "couvre",
+        "Sorte",
+        "formule",
+        "fiches",
+    ],
+}
 FOLDERS = {"en": "cards", "fr": "cards-fr"}
 DOMAIN_TITLES = {
-    "en": {"materials": "Materials", "particles": "Particles", "porous": "Porous media", "humid_gas": "Humid gas", "streams": "Streams",
-           "comminution": "Comminution and screening", "settling": "Settling", "cyclones": "Cyclones", "fluidization": "Fluidization",
-           "filtration": "Filtration", "centrifuges": "Centrifuges", "crystallization": "Crystallization", "drying": "Drying", "studies": "Studies",
-           "costs": "Costs"},
-    "fr": {"materials": "Matériaux", "particles": "Particules", "porous": "Milieux poreux", "humid_gas": "Gaz humide", "streams": "Courants",
-           "comminution": "Broyage et criblage", "settling": "Décantation", "cyclones": "Cyclones", "fluidization": "Fluidisation",
-           "filtration": "Filtration", "centrifuges": "Centrifugation", "crystallization": "Cristallisation", "drying": "Séchage", "studies": "Études",
-           "costs": "Coûts"},
-}  # fmt: skip
+    "en": {
+        "materials": "Materials",
+        "particles": "Particles",
+        "porous": "Porous media",
+        "humid_gas": "Humid gas",
+        "streams": "Streams",
+        "comminution": "Comminution and screening",
+        "settling": "Settling",
+        "cyclones": "Cyclones",
+        "fluidization": "Fluidization",
+        "filtration": "Filtration",
+        "centrifuges": "Centrifuges",
+        "crystallization": "Crystallization",
+        "drying": "Drying",
+        "studies": "Studies",
+        "costs": "Costs",
+    },
+    "fr": {
+        "materials": "Matériaux",
+        "particles": "Particules",
+        "porous": "Milieux poreux",
+        "humid_gas": "Gaz humide",
+        "streams": "Courants",
+        "comminution": "Broyage et criblage",
+        "settling": "Décantation",
+        "cyclones": "Cyclones",
+        "fluidization": "Fluidisation",
+        "filtration": "Filtration",
+        "centrifuges": "Centrifugation",
+        "crystallization": "Cristallisation",
+        "drying": "Séchage",
+        "studies": "Études",
+        "costs": "Coûts",
+    },
+}
 
 
 def on_config(config: Any) -> Any:
@@ -53,7 +109,11 @@ def on_config(config: Any) -> Any:
         if isinstance(entry, list):
             return [filled(item) for item in entry]
         code = places.get(entry)
-        return [entry, *({DOMAIN_TITLES[code][d]: f"{FOLDERS[code]}/{d}.md"} for d in _domains())] if code else entry
+        return (
+            [entry, *({DOMAIN_TITLES[code][d]: f"{FOLDERS[code]}/{d}.md"} for d in _domains())]
+            if code
+            else entry
+        )
 
     config["nav"] = filled(config["nav"])
     return config
@@ -77,14 +137,17 @@ def on_files(files_: Any, config: Any) -> Any:
 
 def on_page_markdown(markdown: str, **_more: Any) -> str:
     """Replace ``[[word name …]]`` on a line of its own."""
-    return re.sub(r"^\[\[(\w+) (.+?)\]\]$", lambda found: PARTS[found[1]](found[2]), markdown, flags=re.MULTILINE)
+    return re.sub(
+        r"^\[\[(\w+) (.+?)\]\]$", lambda found: PARTS[found[1]](found[2]), markdown, flags=re.MULTILINE
+    )
 
 
 # ---- parts of theory pages -------------------------------------------------------------------------
 def _figure(figure: Any, label: str) -> str:
     data = figure.to_json().replace("</", "<\\/")
     return (
-        f'<div class="plot" role="group" aria-label="{html.escape(label)}"><script type="application/json">{data}</script>'
+        f'<div class="plot" role="group" aria-label="{html.escape(label)}"><script '
+        f'type="application/json">{data}</script>'
         f"<noscript>{html.escape(label)}</noscript></div>"
     )
 
@@ -104,7 +167,10 @@ def _printed(domain: str) -> str:
 def _chart(text: str) -> str:
     key, *pairs = text.split(" ")
     thing = registry.find(key)
-    return _figure(thing(**dict(pair.split("=", 1) for pair in pairs)), thing.card.title) + f"\n\n*{thing.card.title}.*"
+    return (
+        _figure(thing(**dict(pair.split("=", 1) for pair in pairs)), thing.card.title)
+        + f"\n\n*{thing.card.title}.*"
+    )
 
 
 def _one_card(key: str) -> str:
@@ -121,10 +187,19 @@ def _include(name: str) -> str:
 def _source(text: str) -> str:
     """The source of a class or function of the package."""
     module, name = text.split()
-    return f"```python\n{inspect.getsource(inspect.unwrap(getattr(importlib.import_module(module), name)))}```"
+    return (
+        f"```python\n{inspect.getsource(inspect.unwrap(getattr(importlib.import_module(module), name)))}```"
+    )
 
 
-PARTS = {"include": _include, "source": _source, "validation": _validation, "printed": _printed, "chart": _chart, "card": _one_card}
+PARTS = {
+    "include": _include,
+    "source": _source,
+    "validation": _validation,
+    "printed": _printed,
+    "chart": _chart,
+    "card": _one_card,
+}
 
 
 # ---- pages of cards --------------------------------------------------------------------------------
@@ -135,7 +210,9 @@ def _card_pages(code: str) -> dict[str, str]:
         cards = [thing.card for thing in registry.everything((domain,)).values()]
         total += len(cards)
         title = DOMAIN_TITLES[code][domain]
-        pages[domain] = f"# {title}\n\n" + "\n".join(part for name, found in _by_module(cards) for part in _room(name, found, words))
+        pages[domain] = f"# {title}\n\n" + "\n".join(
+            part for name, found in _by_module(cards) for part in _room(name, found, words)
+        )
         lines.append(f"* [{title}]({domain}.md): {len(cards)} {words[12]}")
     pages["index"] = f"# {words[0]}\n\n{total} {words[12]}.\n\n" + "\n".join(lines) + "\n"
     return pages
@@ -181,12 +258,15 @@ def _section(card: Card, words: list[str]) -> str:
     for name, limits in card.fitted.items():
         p = next((p for p in (*card.parameters, *card.outputs) if p.name == name), None)
         text = range_text(p, limits) if p else " … ".join(f"{x:g}" for x in limits)
-        parts.append(f"<p>{words[8]} {words[9]}: {html.escape(p.label if p else name.replace('_', ' '))} {html.escape(text)}</p>\n")
+        parts.append(
+            f"<p>{words[8]} {words[9]}: {html.escape(p.label if p else name.replace('_', ' '))} "
+            f"{html.escape(text)}</p>\n"
+        )
     parts.append(f"<p class='source'>{words[8]}: {html.escape(card.citation)}</p>\n")
     rest = card.doc.split("\n\n", 1)[1] if "\n\n" in card.doc else ""
     if rest:
         parts.append(
-            f"<details><summary>{'Example and remarks' if words is WORDS['en'] else 'Exemple et remarques'}</summary><pre lang='en'><code>{html.escape(rest)}</code></pre></details>\n"
+            f"<details><summary>{'Example and remarks' if words is WORDS['en'] else 'Exemple et remarques'}</summary><pre lang='en'><code>{html.escape(rest)}</code></pre></details>\n"  # noqa: E501
         )
     return "\n".join(parts)
 

@@ -1,7 +1,9 @@
-"""Validation shown in the documentation: the package's charts with published data in them, and printed worked examples recalculated.
+"""Validation shown in the documentation: the package's charts with published data in them, and printed worked
+examples recalculated.
 
-Two charts show how a test is read instead, on made data, and say so. Printed numbers stand in ``docs/data``, ``examples`` and ``tests/references``, each file with its source beside it; what Granum finds is
-calculated while the site is built.
+Two charts show how a test is read instead, on made data, and say so. Printed numbers stand in ``docs/data``,
+``examples`` and ``tests/references``, each file with its source beside it; what Granum finds is calculated
+while the site is built.
 """
 
 from __future__ import annotations
@@ -53,7 +55,11 @@ def _data(name: str) -> dict[str, list[str]]:
 
 def _table(heads: list[str], rows: list[list[str]]) -> str:
     return "\n".join(
-        ["| " + " | ".join(heads) + " |", "|---" + "|--:" * (len(heads) - 1) + "|", *("| " + " | ".join(r) + " |" for r in rows)]
+        [
+            "| " + " | ".join(heads) + " |",
+            "|---" + "|--:" * (len(heads) - 1) + "|",
+            *("| " + " | ".join(r) + " |" for r in rows),
+        ]
     )
 
 
@@ -62,15 +68,28 @@ def particles_drag() -> Shown:
     """Every drag law against measured drag."""
     ranking = gr.particles.drag_ranking()
     rows = [
-        [str(name).replace("_", "–").title(), f"{100 * float(rms):.1f}", f"{100 * float(mean):+.1f}", f"{100 * float(largest):.0f}", f"{100 * float(covered):.0f}",
-         f"{format_number(float(low), 2)} … {format_number(float(high), 2)}"]
+        [
+            str(name).replace("_", "–").title(),
+            f"{100 * float(rms):.1f}",
+            f"{100 * float(mean):+.1f}",
+            f"{100 * float(largest):.0f}",
+            f"{100 * float(covered):.0f}",
+            f"{format_number(float(low), 2)} … {format_number(float(high), 2)}",
+        ]
         for name, rms, mean, largest, covered, low, high in zip(
-            ranking.drag, ranking.deviation_rms, ranking.deviation_mean, ranking.deviation_largest, ranking.measurements_covered,
-            ranking.reynolds_lowest, ranking.reynolds_highest, strict=True)
-    ]  # fmt: skip
+            ranking.drag,
+            ranking.deviation_rms,
+            ranking.deviation_mean,
+            ranking.deviation_largest,
+            ranking.measurements_covered,
+            ranking.reynolds_lowest,
+            ranking.reynolds_highest,
+            strict=True,
+        )
+    ]
     caption = (
-        "Deviation of every drag law of a sphere from the means of measurements tabulated by Morsi and Alexander (1972), inside the range each law claims. "
-        "Table: the same laws against these means and the measurements of Roos and Willmarth (1971) together; laws that cover all measurements first."
+        "Deviation of every drag law of a sphere from the means of measurements tabulated by Morsi and Alexander (1972), inside the range each law claims. "  # noqa: E501
+        "Table: the same laws against these means and the measurements of Roos and Willmarth (1971) together; laws that cover all measurements first."  # noqa: E501
     )
     heads = ["law", "rms deviation / %", "mean / %", "largest / %", "measurements covered / %", "range of Re"]
     return Shown(gr.particles.drag_deviation_chart(deviation_largest=0.25), caption, _table(heads, rows))
@@ -82,7 +101,8 @@ def particles_sizes() -> Shown:
         EXAMPLES / "size-analysis" / "crushed_quartz_mccabe2005.csv", pan_mass="0.75 g", sample_mass="100 g"
     )
     return Shown(
-        test.chart(), "Crushed quartz on Tyler sieves (McCabe, Smith and Harriott) and the Rosin–Rammler distribution fitted to it."
+        test.chart(),
+        "Crushed quartz on Tyler sieves (McCabe, Smith and Harriott) and the Rosin–Rammler distribution fitted to it.",  # noqa: E501
     )
 
 
@@ -98,17 +118,22 @@ def porous_bed() -> Shown:
     )
     return Shown(
         test.chart(),
-        "A made water test (Ergun's equation for 0.50 mm grains, rounded to two digits) and the fit that must find the grain size again.",
+        "A made water test (Ergun's equation for 0.50 mm grains, rounded to two digits) and the fit that must find the grain size again.",  # noqa: E501
     )
 
 
 def settling_curve() -> Shown:
     """Settling curve of limestone."""
     test = gr.settling.BatchTest.read(
-        EXAMPLES / "batch-settling" / "limestone.csv", initial_concentration="236 g/L", underflow_concentration="550 g/L"
+        EXAMPLES / "batch-settling" / "limestone.csv",
+        initial_concentration="236 g/L",
+        underflow_concentration="550 g/L",
     )
     figure = gr.settling.settling_curve_chart(test.time, test.interface_height, test.initial_concentration)
-    return Shown(figure, "Limestone slurry of 236 g/L (Foust et al.): measured interface, tangents found by the program, zones.")
+    return Shown(
+        figure,
+        "Limestone slurry of 236 g/L (Foust et al.): measured interface, tangents found by the program, zones.",  # noqa: E501
+    )
 
 
 def filtration_leaf() -> Shown:
@@ -121,18 +146,22 @@ def filtration_leaf() -> Shown:
         dry_cake_per_filtrate=23.47,
     )
     return Shown(
-        test.chart(), "Calcium carbonate at 338 kPa: data of Ruth and Kempe (1937) as printed by Geankoplis, with the fitted line."
+        test.chart(),
+        "Calcium carbonate at 338 kPa: data of Ruth and Kempe (1937) as printed by Geankoplis, with the fitted line.",  # noqa: E501
     )
 
 
 def filtration_pressures() -> Shown:
     """Compressibility from five pressures."""
     test = gr.filtration.Compressibility.read(
-        EXAMPLES / "leaf-filter" / "pressures_mccabe.csv", area="440 cm2", dynamic_viscosity="0.8937 cP", dry_cake_per_filtrate="23.5 g/L"
+        EXAMPLES / "leaf-filter" / "pressures_mccabe.csv",
+        area="440 cm2",
+        dynamic_viscosity="0.8937 cP",
+        dry_cake_per_filtrate="23.5 g/L",
     )
     return Shown(
         test.chart(),
-        "Cake resistance against pressure drop: five tests of calcium carbonate (data of Ruth, printed by McCabe, Smith and Harriott).",
+        "Cake resistance against pressure drop: five tests of calcium carbonate (data of Ruth, printed by McCabe, Smith and Harriott).",  # noqa: E501
     )
 
 
@@ -143,7 +172,7 @@ def crystallization_msmpr() -> Shown:
     )
     return Shown(
         test.chart(),
-        "Urea crystallizer of Bennett and Van Buren (1969): population density and the straight line of an MSMPR crystallizer.",
+        "Urea crystallizer of Bennett and Van Buren (1969): population density and the straight line of an MSMPR crystallizer.",  # noqa: E501
     )
 
 
@@ -156,21 +185,36 @@ def drying_curve() -> Shown:
         equilibrium_moisture=0.190 / 3.765,
         warm_up_time="0.4 h",
     )
-    return Shown(test.chart(), "Tray of foodstuff (Geankoplis, problem 9.7-2): measured mass and the drying curve in two periods.")
+    return Shown(
+        test.chart(),
+        "Tray of foodstuff (Geankoplis, problem 9.7-2): measured mass and the drying curve in two periods.",
+    )
 
 
 def humid_gas_saturation() -> Shown:
     """Saturated humidity ratio against ASHRAE's table."""
-    celsius, printed = (np.array(column, dtype=float) for column in _data("saturated_air_ashrae2017.csv").values())
-    figure = charts.figure(charts.axis_title("temperature", "degC"), charts.axis_title("humidity_ratio", "kg/kg"), y_log=True)
+    celsius, printed = (
+        np.array(column, dtype=float) for column in _data("saturated_air_ashrae2017.csv").values()
+    )
+    figure = charts.figure(
+        charts.axis_title("temperature", "degC"), charts.axis_title("humidity_ratio", "kg/kg"), y_log=True
+    )
     fine = np.linspace(-60, 92, 120)
-    charts.add_line(figure, fine, np.asarray(gr.humid_gas.humidity_ratio_saturated(temperature=fine + ZERO)), "Granum, ideal gas")
+    charts.add_line(
+        figure,
+        fine,
+        np.asarray(gr.humid_gas.humidity_ratio_saturated(temperature=fine + ZERO)),
+        "Granum, ideal gas",
+    )
     charts.add_points(figure, celsius, printed, "ASHRAE, table of moist air")
     found = np.asarray(gr.humid_gas.humidity_ratio_saturated(temperature=celsius + ZERO))
-    rows = [[f"{t:g}", f"{a:.4g}", f"{b:.4g}", f"{100 * (b / a - 1):+.2f}"] for t, a, b in zip(celsius, printed, found, strict=True)]
+    rows = [
+        [f"{t:g}", f"{a:.4g}", f"{b:.4g}", f"{100 * (b / a - 1):+.2f}"]
+        for t, a, b in zip(celsius, printed, found, strict=True)
+    ]
     return Shown(
         figure,
-        "Humidity ratio of saturated air at 101 325 Pa: ASHRAE Handbook (real gas) and the ideal-gas formula; the enhancement factor explains the half percent.",
+        "Humidity ratio of saturated air at 101 325 Pa: ASHRAE Handbook (real gas) and the ideal-gas formula; the enhancement factor explains the half percent.",  # noqa: E501
         _table(["temperature / °C", "printed", "Granum", "difference / %"], rows),
     )
 
@@ -181,19 +225,34 @@ def materials_solubility() -> Shown:
     tables: dict[str, dict[float, float]] = {}
     for name, celsius, value in zip(names, temperatures, found, strict=True):
         tables.setdefault(name, {})[float(celsius)] = float(value)
-    figure = charts.figure(charts.axis_title("temperature", "degC"), "solubility / g per 100 g of water", y_log=True)
+    figure = charts.figure(
+        charts.axis_title("temperature", "degC"), "solubility / g per 100 g of water", y_log=True
+    )
     figure.update_yaxes(dtick=None)
     for (name, table), color in zip(tables.items(), charts.LINES, strict=False):
         celsius = np.array(list(table), dtype=float)
         fine = np.linspace(celsius[0], celsius[-1], 60)
-        charts.add_line(figure, fine, 100 * np.asarray(gr.materials.solute(name).solubility(fine + ZERO)), name, color=color)
-        charts.add_points(figure, celsius, list(table.values()), f"{name}, Perry", color=color, showlegend=False)
-    return Shown(figure, "Solubility in water: library (fitted to the CRC Handbook) as lines, Perry's Handbook, table 2-120, as points.")
+        charts.add_line(
+            figure,
+            fine,
+            100 * np.asarray(gr.materials.solute(name).solubility(fine + ZERO)),
+            name,
+            color=color,
+        )
+        charts.add_points(
+            figure, celsius, list(table.values()), f"{name}, Perry", color=color, showlegend=False
+        )
+    return Shown(
+        figure,
+        "Solubility in water: library (fitted to the CRC Handbook) as lines, Perry's Handbook, table 2-120, as points.",  # noqa: E501
+    )
 
 
 def materials_water() -> Shown:
     """Vapor pressure of water."""
-    kelvin, pressure = (np.array(column, dtype=float) for column in _data("vapor_pressure_iapws2012.csv").values())
+    kelvin, pressure = (
+        np.array(column, dtype=float) for column in _data("vapor_pressure_iapws2012.csv").values()
+    )
     figure = charts.figure(charts.axis_title("temperature", "degC"), "vapor pressure / bar", y_log=True)
     fine = np.linspace(273.16, 640.0, 150)
     charts.add_line(figure, fine - ZERO, np.asarray(gr.materials.water_vapor_pressure(fine)) / 1e5, "Granum")
@@ -205,15 +264,29 @@ def fluidization_minimum() -> Shown:
     """Every correlation of minimum fluidization against one measured powder."""
     measured = 0.040
     spread = gr.fluidization.minimum_fluidization_spread(
-        particle_diameter="160 um", particle_density=2600, fluid_density=1.2, dynamic_viscosity=1.8e-5, void_fraction=0.55, sphericity=0.67
+        particle_diameter="160 um",
+        particle_density=2600,
+        fluid_density=1.2,
+        dynamic_viscosity=1.8e-5,
+        void_fraction=0.55,
+        sphericity=0.67,
     )
     names = [name.replace("_", "–").title() for name in spread.correlation]
     found, valid = np.asarray(spread.minimum_fluidization_velocity), np.asarray(spread.in_range) == 1
     figure = charts.figure(charts.axis_title("minimum_fluidization_velocity", "cm/s"), "", showlegend=True)
-    charts.add_line(figure, [100 * measured] * 2, [names[0], names[-1]], "measured", color=charts.OUT, dash="dash")
+    charts.add_line(
+        figure, [100 * measured] * 2, [names[0], names[-1]], "measured", color=charts.OUT, dash="dash"
+    )
     for inside, label in ((True, "within its range"), (False, "outside its range")):
         chosen = np.flatnonzero(valid == inside)
-        charts.add_points(figure, 100 * found[chosen], [names[i] for i in chosen], label, color=charts.ACCENT, hollow=not inside)
+        charts.add_points(
+            figure,
+            100 * found[chosen],
+            [names[i] for i in chosen],
+            label,
+            color=charts.ACCENT,
+            hollow=not inside,
+        )
     figure.update_yaxes(type="category", categoryorder="array", categoryarray=names, automargin=True)
     rows = [
         [name, f"{100 * v:.2f}", f"{round(100 * (v / measured - 1)):+d}", "yes" if inside else "no"]
@@ -221,8 +294,8 @@ def fluidization_minimum() -> Shown:
     ]
     return Shown(
         figure,
-        "Sharp sand of 160 µm in air, sphericity 0.67, void fraction 0.55: measured 4.0 cm/s (Kunii and Levenspiel, chapter 3) and what every "
-        "correlation says. Ergun's equation is told shape and void fraction, most others are not; hollow points lie outside what their source covers.",
+        "Sharp sand of 160 µm in air, sphericity 0.67, void fraction 0.55: measured 4.0 cm/s (Kunii and Levenspiel, chapter 3) and what every "  # noqa: E501
+        "correlation says. Ergun's equation is told shape and void fraction, most others are not; hollow points lie outside what their source covers.",  # noqa: E501
         _table(["correlation", "minimum fluidization / (cm/s)", "difference / %", "within its range"], rows),
     )
 
@@ -230,29 +303,43 @@ def fluidization_minimum() -> Shown:
 def fluidization_curve() -> Shown:
     """Pressure curve of a made test."""
     test = gr.fluidization.PressureCurve.read(
-        EXAMPLES / "fluidized-bed" / "pressure_curve_made.csv", height="30 cm", particle_density=2500.0, fluid_density=1.2
+        EXAMPLES / "fluidized-bed" / "pressure_curve_made.csv",
+        height="30 cm",
+        particle_density=2500.0,
+        fluid_density=1.2,
     )
     return Shown(
         test.chart(),
-        "A made pressure curve (4.0 cm/s, void fraction 0.43, with random errors) and the minimum fluidization velocity read from it.",
+        "A made pressure curve (4.0 cm/s, void fraction 0.43, with random errors) and the minimum fluidization velocity read from it.",  # noqa: E501
     )
 
 
 def cyclones_grade() -> Shown:
     """Grade efficiency of Stairmand's cyclone."""
     figure = gr.cyclones.gas_cyclone_chart(
-        volume_flow=223 / 3600, particle_density=2000.0, fluid_density=1.2, dynamic_viscosity=1.8e-5, diameter=0.203
+        volume_flow=223 / 3600,
+        particle_density=2000.0,
+        fluid_density=1.2,
+        dynamic_viscosity=1.8e-5,
+        diameter=0.203,
     )
     charts.add_points(figure, [1.4], [50.0], "Stairmand: 50 % at 1.4 µm", color=charts.OUT)
     return Shown(
-        figure, "High-efficiency cyclone of 203 mm at 223 m³/h with dust of 2000 kg/m³; the point is the cut that Stairmand measured."
+        figure,
+        "High-efficiency cyclone of 203 mm at 223 m³/h with dust of 2000 kg/m³; the point is the cut that Stairmand measured.",  # noqa: E501
     )
 
 
 def comminution_energy() -> Shown:
     """Bond's law with two printed mills on it."""
-    figure = charts.figure(charts.axis_title("product_size", "um"), "specific energy / kWh/t", x_log=True, y_log=True)
-    mills = [row for row in _rows("comminution") if row["card"] == "comminution.specific_energy_bond" and row.get("what")]
+    figure = charts.figure(
+        charts.axis_title("product_size", "um"), "specific energy / kWh/t", x_log=True, y_log=True
+    )
+    mills = [
+        row
+        for row in _rows("comminution")
+        if row["card"] == "comminution.specific_energy_bond" and row.get("what")
+    ]
     for row, color in zip(mills, charts.LINES, strict=False):
         card = registry.find(row["card"])
         given = card.evaluate(**_inputs(row)).inputs
@@ -260,15 +347,40 @@ def comminution_energy() -> Shown:
         sizes = np.geomspace(product / 3, feed / 1.5, 50)
         energy = np.asarray(card(**given | {"product_size": sizes})) / 3600
         charts.add_line(figure, sizes * 1e6, energy, row["what"], color=color)
-        charts.add_points(figure, [product * 1e6], [float(row["printed"].split()[0])], "printed", color=color, showlegend=False)
-    return Shown(figure, "Bond's law for the rod mill and the ball mill of Rowland and Kjos; points are the printed energies.")
+        charts.add_points(
+            figure,
+            [product * 1e6],
+            [float(row["printed"].split()[0])],
+            "printed",
+            color=color,
+            showlegend=False,
+        )
+    return Shown(
+        figure,
+        "Bond's law for the rod mill and the ball mill of Rowland and Kjos; points are the printed energies.",
+    )
 
 
 FIGURES = {
     f.__name__: f
-    for f in (particles_drag, particles_sizes, porous_bed, settling_curve, filtration_leaf, filtration_pressures, crystallization_msmpr, drying_curve,
-              humid_gas_saturation, materials_solubility, materials_water, fluidization_minimum, fluidization_curve, cyclones_grade, comminution_energy)
-}  # fmt: skip
+    for f in (
+        particles_drag,
+        particles_sizes,
+        porous_bed,
+        settling_curve,
+        filtration_leaf,
+        filtration_pressures,
+        crystallization_msmpr,
+        drying_curve,
+        humid_gas_saturation,
+        materials_solubility,
+        materials_water,
+        fluidization_minimum,
+        fluidization_curve,
+        cyclones_grade,
+        comminution_energy,
+    )
+}
 
 
 # ---- printed worked examples -----------------------------------------------------------------------
@@ -312,7 +424,12 @@ def _compared(row: dict[str, str]) -> Printed:
         found = abs(found - read_quantity(inputs[less.name], less.kind))
     if "expected [SI]" in row:
         wanted = float(row["expected [SI]"])
-        return Printed(f"{card.title} ({row['source']})", value_text(wanted, figure), value_text(found, figure), found / wanted - 1)
+        return Printed(
+            f"{card.title} ({row['source']})",
+            value_text(wanted, figure),
+            value_text(found, figure),
+            found / wanted - 1,
+        )
     number, _blank, unit = row["printed"].partition(" ")
     wanted = read_quantity(row["printed"], figure.kind)
     shown = float(from_si(found, unit or "dimensionless", figure.kind))

@@ -7,10 +7,12 @@ import tempfile
 from itertools import count
 from pathlib import Path
 
-# Both test processes share what they compile, also after forgetting it; a folder already named in the environment is kept.
+# Both test processes share what they compile, also after forgetting it; a folder already named in the
+# environment is kept.
 os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(Path(tempfile.gettempdir()) / "granum-tests-compiled"))
 os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.3")
-# Most of the time of these tests is compilation, and this halves it; it changes nothing but the speed of large arrays.
+# Most of the time of these tests is compilation, and this halves it; it changes nothing but the speed of
+# large arrays.
 os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} --xla_cpu_use_fusion_emitters=false".strip()
 
 import pytest
@@ -22,16 +24,23 @@ settings.register_profile("granum", deadline=None, max_examples=40, derandomize=
 settings.load_profile("granum")
 
 MAPS = Path("/proc/self/maps")
-MANY_MAPS = 20_000  # of the 65 530 that Linux gives a process by default; every compiled function takes several
+MANY_MAPS = (
+    20_000  # of the 65 530 that Linux gives a process by default; every compiled function takes several
+)
 RESIDENT = Path("/proc/self/statm")
-MUCH, MORE = 1.7e9, 0.4e9  # bytes in use at which compiled functions are forgotten, and again when so much has been added since
+MUCH, MORE = (
+    1.7e9,
+    0.4e9,
+)  # bytes in use at which compiled functions are forgotten, and again when so much has been added since
 _finished = count(1)
 _kept = 0.0
 
 
 @pytest.fixture(autouse=True)
 def _bounded_memory():
-    """Thousands of compiled functions in one process would exhaust memory and its maps: forget them before that."""
+    """Thousands of compiled functions in one process would exhaust memory and its maps: forget them before
+    that.
+    """
     yield
     if next(_finished) % 5 == 0 and (_resident() > max(MUCH, _kept + MORE) or _maps() > MANY_MAPS):
         _forget()
@@ -51,7 +60,9 @@ def _forget() -> None:
 
     jax.clear_caches()
     gc.collect()
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # what is freed stays with the process unless glibc is asked
+    trim = getattr(
+        ctypes.CDLL(None), "malloc_trim", None
+    )  # what is freed stays with the process unless glibc is asked
     if trim is not None:
         trim(0)
     _kept = _resident()

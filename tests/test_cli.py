@@ -16,12 +16,19 @@ from granum.cli import app
 from granum.particles import terminal_velocity
 
 TERMINAL = ["calc", "particles.terminal_velocity"]
-GOOD = ["particle_diameter=85um", "particle_density=2630kg/m3", "fluid_density=1020kg/m3", "dynamic_viscosity=1.2cP"]
+GOOD = [
+    "particle_diameter=85um",
+    "particle_density=2630kg/m3",
+    "fluid_density=1020kg/m3",
+    "dynamic_viscosity=1.2cP",
+]
 ROOT = Path(__file__).parents[1]
 
 
 def granum(*words: str) -> tuple[int, str, str]:
-    outcome = contextvars.copy_context().run(CliRunner().invoke, app, list(words))  # the language ends with the command
+    outcome = contextvars.copy_context().run(
+        CliRunner().invoke, app, list(words)
+    )  # the language ends with the command
     return outcome.exit_code, outcome.stdout, outcome.stderr
 
 
@@ -30,7 +37,11 @@ def test_version() -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["--lang", "fr", "show", "particles.terminal_velocity"], ["show", "particles.terminal_velocity", "--lang", "fr"]]
+    "words",
+    [
+        ["--lang", "fr", "show", "particles.terminal_velocity"],
+        ["show", "particles.terminal_velocity", "--lang", "fr"],
+    ],
 )
 def test_the_language_stands_before_or_after_the_command(words: list[str]) -> None:
     code, out, _err = granum(*words)
@@ -49,12 +60,17 @@ def test_bounds_of_counts_are_shown() -> None:
 
 
 def test_a_result_prints_in_a_few_lines() -> None:
-    fall = terminal_velocity.evaluate(particle_diameter="85 um", particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP")
+    fall = terminal_velocity.evaluate(
+        particle_diameter="85 um", particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP"
+    )
     assert str(fall) == "particles.terminal_velocity\nterminal velocity = 4.917 mm/s"
     assert repr(fall) == "<particles.terminal_velocity; terminal velocity = 4.917 mm/s>"
     beyond = str(
         terminal_velocity.evaluate(
-            particle_diameter=["1 mm", "20 cm"], particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP"
+            particle_diameter=["1 mm", "20 cm"],
+            particle_density=2630,
+            fluid_density=1020,
+            dynamic_viscosity="1.2 cP",
         )
     )
     assert "! " in beyond
@@ -115,7 +131,9 @@ def test_table_in_a_narrow_terminal() -> None:
 def test_list_and_show() -> None:
     assert "particles.terminal_velocity" in granum("list", "terminal")[1]
     assert "humid_gas.wet_bulb_temperature" in granum("list", "bulb", "wet")[1]
-    assert "centrifuges.centrifugal_effect" in granum("list", "g-force")[1]  # another name, in the description only
+    assert (
+        "centrifuges.centrifugal_effect" in granum("list", "g-force")[1]
+    )  # another name, in the description only
     code, out, _err = granum("show", "particles.terminal_velocity", "--json")
     assert code == 0
     assert {p["name"] for p in json.loads(out)["parameters"]} >= {"particle_diameter", "dynamic_viscosity"}
@@ -128,6 +146,9 @@ def test_missing_case_file_is_one_message() -> None:
 
 
 def test_import_and_help_load_nothing_heavy() -> None:
-    text = "import sys, granum, granum.cli; print([m for m in ('jax', 'plotly', 'pint', 'scipy') if m in sys.modules])"
+    text = (
+        "import sys, granum, granum.cli; print([m for m in ('jax', 'plotly', 'pint', 'scipy') if m in "
+        "sys.modules])"
+    )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

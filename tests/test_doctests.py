@@ -12,12 +12,17 @@ import granum
 
 ROOMS = ("core", "numerics", "estimation", "streams", "flowsheet", "studies", "cases", "reports")
 MODULES = sorted(
-    m.name for room in ROOMS for m in pkgutil.walk_packages(importlib.import_module(f"granum.{room}").__path__, f"granum.{room}.")
+    m.name
+    for room in ROOMS
+    for m in pkgutil.walk_packages(importlib.import_module(f"granum.{room}").__path__, f"granum.{room}.")
 )
 
 
 @pytest.mark.parametrize("module", MODULES)
 def test_examples(module: str) -> None:
-    outcome = doctest.testmod(importlib.import_module(module), optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE,
-                              extraglobs={"jnp": importlib.import_module("jax.numpy"), "granum": granum})  # fmt: skip
+    outcome = doctest.testmod(
+        importlib.import_module(module),
+        optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE,
+        extraglobs={"jnp": importlib.import_module("jax.numpy"), "granum": granum},
+    )
     assert outcome.failed == 0

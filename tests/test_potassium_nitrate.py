@@ -1,4 +1,6 @@
-"""The potassium nitrate line: converges, closes, agrees with hand calculations. Its derivatives: tests/studies/test_line_gradients.py."""
+"""The potassium nitrate line: converges, closes, agrees with hand calculations. Its derivatives:
+tests/studies/test_line_gradients.py.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,8 @@ def test_converges_and_closes(run) -> None:
 def test_overall_balance_by_hand(run) -> None:
     """Mother liquor holds salt at the solubility of 28 °C; salt and water that enter leave again.
 
-    CRC table: 31.3 % by mass at 30 °C and 27.7 % at 25 °C, so about 29.9 % at 28 °C: 0.426 kg per kg of water.
+    CRC table: 31.3 % by mass at 30 °C and 27.7 % at 25 °C, so about 29.9 % at 28 °C: 0.426 kg per kg of
+    water.
     """
     clear = run.streams["clear_liquor"]
     assert float(clear.liquid[1] / clear.liquid[0]) == pytest.approx(0.426, rel=0.01)
@@ -39,7 +42,9 @@ def test_overall_balance_by_hand(run) -> None:
 
 
 def test_crystal_size_follows_growth_and_residence_time(run) -> None:
-    """Exponential size distribution by number: mass median 3.67 G τ (Randolph and Larson 1988); returned fines shift it by under 1 %."""
+    """Exponential size distribution by number: mass median 3.67 G τ (Randolph and Larson 1988); returned
+    fines shift it by under 1 %.
+    """
     growth, time = run.figure("crystallizer.growth_rate"), run.figure("crystallizer.residence_time")
     assert run.figure("crystallizer.mass_median_size") == pytest.approx(3.67 * growth * time, rel=0.02)
 
@@ -59,22 +64,27 @@ def test_figures_are_those_of_a_plant(run) -> None:
     assert 300e-6 < run.figure("crystallizer.mass_median_size") < 900e-6
     assert 0.02 < run.figure("filter.moisture_dry_basis") < 0.15
     assert run.figure("dryer.moisture_dry_basis") < 0.002
-    # air gives up what evaporation and heating take: about 2 500 kJ per kg of water, 49 kg/h from 2 000 kg/h cooled by 67 K
+    # air gives up what evaporation and heating take: about 2 500 kJ per kg of water, 49 kg/h from 2 000 kg/h
+    # cooled by 67 K
     assert run.figure("dryer.evaporation_rate") * 2.5e6 < run.figure("air_heater.heat_duty")
     assert -200e3 < run.figure("crystallizer.heat_duty") < -50e3
     assert all(check.ok for unit in run.units.values() for check in unit.checks)
 
 
 def test_full_models_close_and_keep_their_limits() -> None:
-    """Drum in cells, bed that lifts dust, cyclones: every balance closes, every practical limit is kept, water leaves as by hand.
+    """Drum in cells, bed that lifts dust, cyclones: every balance closes, every practical limit is kept,
+    water leaves as by hand.
 
-    The duty of the heater: 3000 kg/h of dry air and its vapor over 95 K at about 1.01 and 1.9 kJ/(kg K) are 81.3 kW. Stairmand's high-efficiency cyclone keeps
+    The duty of the heater: 3000 kg/h of dry air and its vapor over 95 K at about 1.01 and 1.9 kJ/(kg K) are
+        81.3 kW. Stairmand's high-efficiency cyclone keeps
     about 5.4 velocity heads: 1.06 kg/m³ at 19 m/s give 1.03 kPa.
     """
     run = gr.read(CASE.with_name("full.toml")).solve()
     assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
     assert [c.name for u in run.units.values() for c in u.checks if not c.ok] == []
-    water = float(run.streams["purged"].liquid[0] + run.streams["dried"].liquid[0]) + run.figure("dryer.evaporation_rate")
+    water = float(run.streams["purged"].liquid[0] + run.streams["dried"].liquid[0]) + run.figure(
+        "dryer.evaporation_rate"
+    )
     assert water * 3600 == pytest.approx(1500.0 * 0.32 + 70.0, rel=1e-9)
     assert run.figure("air_heater.heat_duty") == pytest.approx(81.3e3, rel=0.01)
     assert run.figure("cyclones.pressure_drop") == pytest.approx(1.03e3, rel=0.05)

@@ -1,6 +1,7 @@
 """What does a tubular bowl catch, and where do two liquids part in it?
 
-Geankoplis, Transport Processes and Separation Process Principles, examples 14.4-1 and 14.4-2, with their printed answers.
+Geankoplis, Transport Processes and Separation Process Principles, examples 14.4-1 and 14.4-2, with their
+printed answers.
 """
 
 from __future__ import annotations
@@ -9,7 +10,8 @@ import granum as gr
 
 centrifuges = gr.centrifuges
 
-# 14.4-1: viscous solution in a bowl of 22.25 mm turning at 23 000 rpm. Printed Σ = 196.3 m2, critical diameter 0.746 µm.
+# 14.4-1: viscous solution in a bowl of 22.25 mm turning at 23 000 rpm. Printed Σ = 196.3 m2, critical
+# diameter 0.746 µm.
 sigma = centrifuges.sigma_factor_tubular_half_thickness(
     bowl_length="0.1970 m", radius_inner="7.16 mm", radius_outer="22.25 mm", rotation_speed="23000 rpm"
 )
@@ -26,7 +28,9 @@ assert abs(sigma / 196.3 - 1) < 0.002
 assert abs(cut / 0.746e-6 - 1) < 0.002
 
 # 14.4-2: vegetable oil and water phase. Printed interface at 13.75 mm; the printed data give 13.69 mm.
-interface = centrifuges.radius_interface(radius_heavy="10.414 mm", radius_light="10.160 mm", density_heavy=980.3, density_light=919.5)
+interface = centrifuges.radius_interface(
+    radius_heavy="10.414 mm", radius_light="10.160 mm", density_heavy=980.3, density_light=919.5
+)
 print(f"interface at {1e3 * interface:.2f} mm (printed 13.75)")
 assert abs(interface / 13.75e-3 - 1) < 0.006
 

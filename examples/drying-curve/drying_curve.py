@@ -1,9 +1,10 @@
 """When does the constant-rate period of a tray of foodstuff end, and how long does it take to dry?
 
-Drying test of Geankoplis, problem 9.7-2, with its printed answers: 0.996 kg/(m² h), critical free moisture 0.12, and 4.1 h from a free
-moisture of 0.20 to 0.04. From the command line:
+Drying test of Geankoplis, problem 9.7-2, with its printed answers: 0.996 kg/(m² h), critical free moisture
+0.12, and 4.1 h from a free moisture of 0.20 to 0.04. From the command line:
 
-    granum fit drying.curve foodstuff_geankoplis.csv dry_solid_mass=3.765kg area=0.186m2 equilibrium_moisture=0.0505 warm_up_time=0.4h
+    granum fit drying.curve foodstuff_geankoplis.csv dry_solid_mass=3.765kg area=0.186m2
+    equilibrium_moisture=0.0505 warm_up_time=0.4h
 """
 
 from __future__ import annotations
@@ -26,7 +27,10 @@ def main() -> None:
     )
     found = test.fit()
     Xc, rate = found["critical_moisture"], found["drying_rate_constant"]
-    print(f"critical free moisture {Xc.value - EQUILIBRIUM:.3f}, 95 % within ± {Xc.interval_95[1] - Xc.value:.3f} (printed 0.12)")
+    print(
+        f"critical free moisture {Xc.value - EQUILIBRIUM:.3f}, 95 % within ± "
+        f"{Xc.interval_95[1] - Xc.value:.3f} (printed 0.12)"
+    )
     print(f"constant rate {3600 * rate.value:.3f} kg/(m2 h) (printed 0.996)")
     time = gr.drying.drying_time(
         dry_solid_mass="3.765 kg",

@@ -1,9 +1,10 @@
 """What is the air of a room, and what does a convective dryer do to it?
 
-The readings of the course notes (U V.7, D I.3), then the path of drying air on the Mollier–Ramzin chart. The same from the command line:
+The readings of the course notes (U V.7, D I.3), then the path of drying air on the Mollier–Ramzin chart. The
+same from the command line:
 
-    granum calc humid_gas.state temperature=22.2degC wet_bulb_temperature=17degC pressure=1atm
-    granum calc humid_gas.mixing dry_gas_flow_first=1.5 humidity_ratio_first=0.027 enthalpy_first="100 kJ/kg" …
+    granum calc humid_gas.state temperature=22.2degC wet_bulb_temperature=17degC pressure=1atm granum calc
+    humid_gas.mixing dry_gas_flow_first=1.5 humidity_ratio_first=0.027 enthalpy_first="100 kJ/kg" …
 """
 
 from __future__ import annotations
@@ -20,11 +21,13 @@ def celsius(T: float) -> float:
 def main() -> None:
     room = air.state(temperature="22.2 degC", wet_bulb_temperature="17 degC")
     print(
-        f"room: {100 * room.relative_humidity:.0f} %, {room.enthalpy / 1e3:.1f} kJ/kg, dew point {celsius(room.dew_point_temperature):.1f} °C"
+        f"room: {100 * room.relative_humidity:.0f} %, {room.enthalpy / 1e3:.1f} kJ/kg, dew point "
+        f"{celsius(room.dew_point_temperature):.1f} °C"
     )
     mixed = air.mixing(1.5, 0.027, "100 kJ/kg", 2.5, 0.04, "160 kJ/kg")
     print(
-        f"mixture: {mixed.enthalpy / 1e3:.1f} kJ/kg, {mixed.humidity_ratio:.4f}, {celsius(mixed.temperature):.1f} °C, {100 * mixed.relative_humidity:.0f} %"
+        f"mixture: {mixed.enthalpy / 1e3:.1f} kJ/kg, {mixed.humidity_ratio:.4f}, "
+        f"{celsius(mixed.temperature):.1f} °C, {100 * mixed.relative_humidity:.0f} %"
     )
 
     # Ambient air heated to 90 °C and dried with, adiabatically and with losses of 400 kJ per kg of water
@@ -34,10 +37,13 @@ def main() -> None:
     real = air.real_drying("90 degC", 0.008, 0.025, drying_slope=slope)
     wet = air.wet_bulb_temperature("90 degC", 0.008)
     print(
-        f"heater {hot.heat_duty / 1e3:.1f} kW; outlet {celsius(ideal.temperature):.1f} °C ideal, {celsius(real.temperature):.1f} °C with losses"
+        f"heater {hot.heat_duty / 1e3:.1f} kW; outlet {celsius(ideal.temperature):.1f} °C ideal, "
+        f"{celsius(real.temperature):.1f} °C with losses"
     )
     chart = air.mollier_chart(
-        temperature=["20 degC", "90 degC", real.temperature], humidity_ratio=[0.008, 0.008, 0.025], temperature_high="100 degC"
+        temperature=["20 degC", "90 degC", real.temperature],
+        humidity_ratio=[0.008, 0.008, 0.025],
+        temperature_high="100 degC",
     )
     chart.to_json()
 

@@ -1,7 +1,9 @@
-"""How much pressure does air lose through a bed of spheres, and what does a permeametry test tell about the grains?
+"""How much pressure does air lose through a bed of spheres, and what does a permeametry test tell about the
+grains?
 
-The bed is that of Geankoplis, Transport Processes and Separation Process Principles, example 3.1-4: 12.7 mm spheres, 0.61 m wide,
-2.44 m deep, void fraction 0.38, 0.358 kg/s of air at 311 K entering at 1.10 atm. Printed answer: 0.0497e5 Pa.
+The bed is that of Geankoplis, Transport Processes and Separation Process Principles, example 3.1-4: 12.7 mm
+spheres, 0.61 m wide, 2.44 m deep, void fraction 0.38, 0.358 kg/s of air at 311 K entering at 1.10 atm.
+Printed answer: 0.0497e5 Pa.
 """
 
 from __future__ import annotations
@@ -20,7 +22,11 @@ drop = inlet - outlet
 print(f"Ergun: {drop:.0f} Pa (printed 4970 Pa)")
 assert abs(drop / 4970 - 1) < 0.01
 
-for law in (gr.porous.pressure_gradient_carman, gr.porous.pressure_gradient_erdim, gr.porous.pressure_gradient_kta):
+for law in (
+    gr.porous.pressure_gradient_carman,
+    gr.porous.pressure_gradient_erdim,
+    gr.porous.pressure_gradient_kta,
+):
     other = inlet - gr.porous.pressure_outlet_gas_bed(
         mass_flux=flux, pressure_inlet=inlet, length=2.44, pressure_gradient=law, **air, **bed
     )
@@ -30,11 +36,16 @@ for law in (gr.porous.pressure_gradient_carman, gr.porous.pressure_gradient_erdi
 back = gr.porous.mass_flux_gas_bed(pressure_inlet=inlet, pressure_outlet=outlet, length=2.44, **air, **bed)
 assert abs(back / flux - 1) < 1e-9
 
-# A water test on a 20 cm layer of sand; the readings are those that Ergun's equation gives for 0.50 mm grains, rounded to 2 digits.
+# A water test on a 20 cm layer of sand; the readings are those that Ergun's equation gives for 0.50 mm
+# grains, rounded to 2 digits.
 test = gr.porous.Permeametry.read(
-    Path(__file__).with_name("water_test.csv"), length="20 cm", dynamic_viscosity="1.0 cP", fluid_density=998, void_fraction=0.40,
+    Path(__file__).with_name("water_test.csv"),
+    length="20 cm",
+    dynamic_viscosity="1.0 cP",
+    fluid_density=998,
+    void_fraction=0.40,
     kozeny_coefficient=150 / 36,
-)  # fmt: skip
+)
 found = test.fit()
 for name in ("permeability", "inertial_coefficient", "specific_surface", "particle_diameter"):
     low, high = found[name].interval_95

@@ -17,9 +17,30 @@ if "jax" in sys.modules:
 else:
     os.environ["JAX_ENABLE_X64"] = "1"
 
-_SUBPACKAGES = ("core", "numerics", "estimation", "materials", "particles", "porous", "humid_gas", "streams", "comminution",
-                "settling", "cyclones", "fluidization", "filtration", "centrifuges", "crystallization", "drying",
-                "flowsheet", "studies", "costs", "reports", "cases", "app")  # fmt: skip
+_SUBPACKAGES = (
+    "core",
+    "numerics",
+    "estimation",
+    "materials",
+    "particles",
+    "porous",
+    "humid_gas",
+    "streams",
+    "comminution",
+    "settling",
+    "cyclones",
+    "fluidization",
+    "filtration",
+    "centrifuges",
+    "crystallization",
+    "drying",
+    "flowsheet",
+    "studies",
+    "costs",
+    "reports",
+    "cases",
+    "app",
+)
 
 
 def __getattr__(name: str) -> Any:

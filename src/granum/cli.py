@@ -9,7 +9,17 @@ import typer
 
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
-from granum.shell import SHARED, Commands, choose_language, choose_units, emit, keep_compiled_code, one_message, pairs, tell_version
+from granum.shell import (
+    SHARED,
+    Commands,
+    choose_language,
+    choose_units,
+    emit,
+    keep_compiled_code,
+    one_message,
+    pairs,
+    tell_version,
+)
 
 app = typer.Typer(
     name="granum",
@@ -21,16 +31,24 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-Pairs = Annotated[list[str] | None, typer.Argument(help="Inputs as name=value, with units: particle_diameter=85um.", show_default=False)]
+Pairs = Annotated[
+    list[str] | None,
+    typer.Argument(help="Inputs as name=value, with units: particle_diameter=85um.", show_default=False),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON alone.")]
 Key = Annotated[str, typer.Argument(help="Card, as domain.name; see 'granum list'.")]
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).")]
 
 
 @app.callback()
-def _options(lang: Annotated[str, typer.Option("--lang", help=SHARED["--lang"][1], envvar="GRANUM_LANG")] = "",
-             units: Annotated[str, typer.Option("--units", help=SHARED["--units"][1], envvar="GRANUM_UNITS")] = "",
-             version: Annotated[bool, typer.Option("--version", help="Show the version and end.", callback=tell_version, is_eager=True)] = False) -> None:  # fmt: skip
+def _options(
+    lang: Annotated[str, typer.Option("--lang", help=SHARED["--lang"][1], envvar="GRANUM_LANG")] = "",
+    units: Annotated[str, typer.Option("--units", help=SHARED["--units"][1], envvar="GRANUM_UNITS")] = "",
+    version: Annotated[
+        bool,
+        typer.Option("--version", help="Show the version and end.", callback=tell_version, is_eager=True),
+    ] = False,
+) -> None:
     choose_units(units)
     choose_language(lang)
 
@@ -43,7 +61,9 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
 
     thing = registry.find(key)
     if not hasattr(thing, "evaluate"):
-        hint = {"lab test": "granum fit {key} data.csv …", "equipment": "granum run case.toml"}.get(thing.card.sort, "granum show {key}")
+        hint = {"lab test": "granum fit {key} data.csv …", "equipment": "granum run case.toml"}.get(
+            thing.card.sort, "granum show {key}"
+        )
         raise InputError(
             _("'{key}' is a {sort}, which 'calc' cannot evaluate; use: {hint}").format(
                 key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
@@ -60,25 +80,41 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
 
 @app.command()
 @one_message
-def fit(key: Key, data: Annotated[Path, typer.Argument(help="CSV or XLSX with units in the header.")], conditions: Pairs = None,
-        as_json: Json = False, chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None,
-        estimate: Annotated[list[str] | None, typer.Option(help="Of a formula or law: a parameter to find, as NAME or NAME=first value.")] = None,
-        output: Annotated[str, typer.Option(help="Of a formula with several results: the measured one.")] = "",
-        robust: Annotated[bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")] = False,
-        next_point: Annotated[bool, typer.Option("--next", help="Of a formula or law: where the next measurement tells most.")] = False) -> None:  # fmt: skip
+def fit(
+    key: Key,
+    data: Annotated[Path, typer.Argument(help="CSV or XLSX with units in the header.")],
+    conditions: Pairs = None,
+    as_json: Json = False,
+    chart: Annotated[Path | None, typer.Option(help="Save the chart of the fit as HTML.")] = None,
+    estimate: Annotated[
+        list[str] | None,
+        typer.Option(help="Of a formula or law: a parameter to find, as NAME or NAME=first value."),
+    ] = None,
+    output: Annotated[str, typer.Option(help="Of a formula with several results: the measured one.")] = "",
+    robust: Annotated[
+        bool, typer.Option("--robust", help="Of a formula or law: stray points lose their pull (Huber).")
+    ] = False,
+    next_point: Annotated[
+        bool, typer.Option("--next", help="Of a formula or law: where the next measurement tells most.")
+    ] = False,
+) -> None:
     """Fit a lab test, a formula or a law to a data file: parameters with 95 % intervals."""
     from granum.core import registry
 
     thing = registry.find(key)
     if thing.card.sort == "lab test":
         if estimate or output or robust or next_point:
-            raise InputError(_("A lab test knows what it estimates: leave out --estimate, --output, --robust and --next."))
+            raise InputError(
+                _("A lab test knows what it estimates: leave out --estimate, --output, --robust and --next.")
+            )
         test = thing.read(data, **pairs(conditions))
         found = test.fit()
     else:
         from granum.estimation import CardData, Huber
 
-        wanted = {name: value or None for name, _equals, value in (word.partition("=") for word in estimate or ())}
+        wanted = {
+            name: value or None for name, _equals, value in (word.partition("=") for word in estimate or ())
+        }
         test = CardData.read(thing, data, estimate=wanted, fixed=pairs(conditions), output=output)
         found = test.fit(Huber() if robust else None)
     told = test.next_measurement(found) if next_point else None
@@ -111,10 +147,20 @@ def _unsolved(problem: ConvergenceError, as_json: bool, partial: bool) -> None:
 
 @app.command()
 @one_message
-def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
-        tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None,
-        minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
-        partial: Annotated[bool, typer.Option("--partial", help="Of a line without solution: print the last iterate all the same, marked as such.")] = False) -> None:  # fmt: skip
+def run(
+    case: CaseFile,
+    as_json: Json = False,
+    report: Annotated[Path | None, typer.Option(help="Write an HTML report.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Write streams and results as .csv or .xlsx.")] = None,
+    minutes: Annotated[float, typer.Option(min=0.01, help="The most time to spend on solving.")] = 15.0,
+    partial: Annotated[
+        bool,
+        typer.Option(
+            "--partial",
+            help="Of a line without solution: print the last iterate all the same, marked as such.",
+        ),
+    ] = False,
+) -> None:
     """Solve a case file: streams, sizes, duties, checks, audit."""
     from granum.cases import read
     from granum.flowsheet.watching import Watch
@@ -144,21 +190,62 @@ def run(case: CaseFile, as_json: Json = False, report: Annotated[Path | None, ty
 
 @app.command()
 @one_message
-def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case or study file (TOML), or a formula, law or piece of equipment.")],
-          names: Annotated[list[str] | None, typer.Argument(metavar="[STUDY|name=value]...", help="Of a file: the studies to run, all when none is named. Of a card: its inputs; 0.3..0.8bar is a range, 1e7+-30% a spread.", show_default=False)] = None,
-          as_json: Json = False,
-          samples: Annotated[int | None, typer.Option(help="Number of samples, instead of what the file says.")] = None,
-          seed: Annotated[int | None, typer.Option(help="Seed of the samples, instead of what the file says.")] = None,
-          sobol: Annotated[bool, typer.Option("--sobol", help="Of a card: what moves the results (Sobol indices).")] = False,
-          minimize: Annotated[str, typer.Option(help="Of a card: the result to make least over the ranges.")] = "",
-          maximize: Annotated[str, typer.Option(help="Of a card: the result to make greatest over the ranges.")] = "",
-          limit: Annotated[list[str] | None, typer.Option(help="Of a card: a result to keep, as NAME<=VALUE or NAME>=VALUE.")] = None,
-          output: Annotated[list[str] | None, typer.Option(help="Of a card: a result to show; of equipment the first six when none is named.")] = None,
-          steps: Annotated[int | None, typer.Option(min=2, help="Of a card: points along each range.")] = None,
-          out: Annotated[Path | None, typer.Option("--out", "-o", help="Write all cases as .nc, .parquet or .csv; a killed study continues from FILE.parts.")] = None,
-          report: Annotated[Path | None, typer.Option(help="Write an HTML report with charts.")] = None,
-          workers: Annotated[str | None, typer.Option(help="Number of local Dask workers, or address of a Dask scheduler.")] = None) -> None:  # fmt: skip
-    """Run the studies of a file, or of one card: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization, Pareto fronts."""
+def study(
+    model: Annotated[
+        str,
+        typer.Argument(
+            metavar="CASE|CARD", help="Case or study file (TOML), or a formula, law or piece of equipment."
+        ),
+    ],
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[STUDY|name=value]...",
+            help=(
+                "Of a file: the studies to run, all when none is named. Of a card: its inputs; 0.3..0.8bar "
+                "is a range, 1e7+-30% a spread."
+            ),
+            show_default=False,
+        ),
+    ] = None,
+    as_json: Json = False,
+    samples: Annotated[
+        int | None, typer.Option(help="Number of samples, instead of what the file says.")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Seed of the samples, instead of what the file says.")
+    ] = None,
+    sobol: Annotated[
+        bool, typer.Option("--sobol", help="Of a card: what moves the results (Sobol indices).")
+    ] = False,
+    minimize: Annotated[str, typer.Option(help="Of a card: the result to make least over the ranges.")] = "",
+    maximize: Annotated[
+        str, typer.Option(help="Of a card: the result to make greatest over the ranges.")
+    ] = "",
+    limit: Annotated[
+        list[str] | None, typer.Option(help="Of a card: a result to keep, as NAME<=VALUE or NAME>=VALUE.")
+    ] = None,
+    output: Annotated[
+        list[str] | None,
+        typer.Option(help="Of a card: a result to show; of equipment the first six when none is named."),
+    ] = None,
+    steps: Annotated[int | None, typer.Option(min=2, help="Of a card: points along each range.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Write all cases as .nc, .parquet or .csv; a killed study continues from FILE.parts.",
+        ),
+    ] = None,
+    report: Annotated[Path | None, typer.Option(help="Write an HTML report with charts.")] = None,
+    workers: Annotated[
+        str | None, typer.Option(help="Number of local Dask workers, or address of a Dask scheduler.")
+    ] = None,
+) -> None:
+    """Run the studies of a file, or of one card: Monte Carlo, Sobol indices, sweeps, maps, scenarios,
+    optimization, Pareto fronts.
+    """
     from granum.cases.reading import text_of
     from granum.cases.studying import studies_of_text
     from granum.core.errors import unknown_name
@@ -167,12 +254,23 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
     from granum.studies.report import stoppable
 
     case = Path(model)
-    of_card = {"minimize": minimize, "maximize": maximize, "sobol": sobol, "limit": limit or [], "output": output or [], "steps": steps}
+    of_card = {
+        "minimize": minimize,
+        "maximize": maximize,
+        "sobol": sobol,
+        "limit": limit or [],
+        "output": output or [],
+        "steps": steps,
+    }
     with working(_("Reading {file}").format(file=case.name), quiet=as_json):
         if case.suffix == ".toml" or case.exists():
             for option, given in of_card.items():
                 if given:
-                    raise InputError(_("--{option} is of a card: the file says it in its [study] tables.").format(option=option))
+                    raise InputError(
+                        _("--{option} is of a card: the file says it in its [study] tables.").format(
+                            option=option
+                        )
+                    )
             text, wanted = text_of(case), names or []
             known = studies_of_text(text, folder=case.parent, name=case.name)
         else:
@@ -192,11 +290,17 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
         check_writable(report)
     outcomes, saved = [], []
     for one in picked:
-        one = one.with_options(**{k: v for k, v in (("samples", samples), ("seed", seed)) if one.takes(k) or len(picked) == 1})
+        one = one.with_options(
+            **{k: v for k, v in (("samples", samples), ("seed", seed)) if one.takes(k) or len(picked) == 1}
+        )
         target = out if out is None or len(picked) == 1 else out.with_stem(f"{out.stem}-{one.name}")
         parts = None if target is None or not one.kept_in_parts else target.with_name(target.name + ".parts")
         with stoppable(parts), advancing(one.title, quiet=as_json) as progress:
-            outcome = one.run(progress=progress, folder=parts, workers=workers if one.kept_in_parts or len(picked) == 1 else None)
+            outcome = one.run(
+                progress=progress,
+                folder=parts,
+                workers=workers if one.kept_in_parts or len(picked) == 1 else None,
+            )
         if target is not None:
             outcome.save(target)
             saved.append(target)
@@ -213,7 +317,9 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
             write_atomic(report, study_report(outcomes, text, known[picked[0].name].subject.title))
         saved.append(report)
     if as_json:
-        emit({"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}})
+        emit(
+            {"studies": {one.name: outcome.as_json() for one, outcome in zip(picked, outcomes, strict=True)}}
+        )
     else:
         from granum.studies.report import print_study
 
@@ -224,7 +330,9 @@ def study(model: Annotated[str, typer.Argument(metavar="CASE|CARD", help="Case o
 @app.command()
 @one_message
 def chart(
-    key: Key, inputs: Pairs = None, out: Annotated[Path, typer.Option("--out", "-o", help="HTML file to write.")] = Path("chart.html")
+    key: Key,
+    inputs: Pairs = None,
+    out: Annotated[Path, typer.Option("--out", "-o", help="HTML file to write.")] = Path("chart.html"),
 ) -> None:
     """Draw a chart and save it as HTML."""
     from granum.core import registry
@@ -234,7 +342,9 @@ def chart(
     thing = registry.find(key)
     if thing.card.sort != "chart":
         raise InputError(
-            _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(key=key, sort=_(thing.card.sort))
+            _("'{key}' is a {sort}, not a chart; 'granum list --sort chart' shows those.").format(
+                key=key, sort=_(thing.card.sort)
+            )
         )
     write_atomic(out, as_html(thing(**pairs(inputs)), page=True))
     print(_("saved to {path}").format(path=out))
@@ -242,9 +352,13 @@ def chart(
 
 @app.command("list")
 @one_message
-def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)] = None,
-               as_json: Json = False,
-               sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "") -> None:  # fmt: skip
+def list_cards(
+    words: Annotated[
+        list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)
+    ] = None,
+    as_json: Json = False,
+    sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "",
+) -> None:
     """List the cards."""
     from granum.core import registry
 
@@ -252,9 +366,17 @@ def list_cards(words: Annotated[list[str] | None, typer.Argument(help="Show only
     needles = " ".join(words or ()).lower().split()
     cards = [c for c in cards if not sort or c.sort == sort]
     found = [c for c in cards if all(n in f"{c.key} {c.title} {c.summary}".lower() for n in needles)]
-    found = found or [c for c in cards if all(n in c.doc.lower() for n in needles)]  # other names of a thing stand in its description
+    found = found or [
+        c for c in cards if all(n in c.doc.lower() for n in needles)
+    ]  # other names of a thing stand in its description
     if as_json:
-        emit({"cards": [{"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found]})
+        emit(
+            {
+                "cards": [
+                    {"card": c.key, "sort": c.sort, "title": c.title, "summary": c.summary} for c in found
+                ]
+            }
+        )
     else:
         from granum.reports.terminal import print_list
 
@@ -278,9 +400,14 @@ def show(key: Key, as_json: Json = False) -> None:
 
 @app.command("app")
 @one_message
-def serve(port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8765, host: Annotated[str, typer.Option(help="Address; another than loopback demands a token.")] = "127.0.0.1",
-          browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
-          workspace: Annotated[Path | None, typer.Option(help="Folder whose case files may be opened and saved.")] = None) -> None:  # fmt: skip
+def serve(
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8765,
+    host: Annotated[str, typer.Option(help="Address; another than loopback demands a token.")] = "127.0.0.1",
+    browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
+    workspace: Annotated[
+        Path | None, typer.Option(help="Folder whose case files may be opened and saved.")
+    ] = None,
+) -> None:
     """Open the web app."""
     from granum.app.serving import serve as start
 

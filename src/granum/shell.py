@@ -1,4 +1,6 @@
-"""What the commands share: options that stand anywhere, pairs of name and value, one message and an exit status for what fails."""
+"""What the commands share: options that stand anywhere, pairs of name and value, one message and an exit
+status for what fails.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +56,9 @@ def _heeded(act: Callable[[str], None], _context: Any, _option: Any, value: str)
 
 
 class Commands(TyperGroup):
-    """The commands, each of which takes the options of the program too: ``granum run case.toml --lang fr``."""
+    """The commands, each of which takes the options of the program too: ``granum run case.toml --lang
+    fr``.
+    """
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         command = super().get_command(ctx, cmd_name)
@@ -96,7 +100,10 @@ def one_message(command: Callable[..., None]) -> Callable[..., None]:
             if os.environ.get("GRANUM_TRACEBACK"):
                 raise
             place = f"{type(problem).__name__}: {str(problem).splitlines()[0] if str(problem) else ''}"
-            text = _("Granum failed where it should not have ({place}). Please report it with the output of GRANUM_TRACEBACK=1.")
+            text = _(
+                "Granum failed where it should not have ({place}). Please report it with the output of "
+                "GRANUM_TRACEBACK=1."
+            )
             _fail(Unexpected(text.format(place=place)), bool(kwargs.get("as_json")))
 
     return run
@@ -108,7 +115,9 @@ def pairs(words: list[str] | None) -> dict[str, str]:
     for word in words or []:
         name, equals, value = word.partition("=")
         if not equals or not name:
-            raise InputError(_("'{word}' is not of the form name=value, such as particle_diameter=85um.").format(word=word))
+            raise InputError(
+                _("'{word}' is not of the form name=value, such as particle_diameter=85um.").format(word=word)
+            )
         if name in values:
             raise InputError(_("'{name}' was given twice.").format(name=name), name=name)
         values[name] = value
@@ -121,14 +130,18 @@ def emit(data: dict[str, Any]) -> None:
 
 
 def keep_compiled_code() -> None:
-    """The second run of a line skips the compiler: what JAX compiles stays in the user's cache folder, oldest out beyond 512 MB."""
+    """The second run of a line skips the compiler: what JAX compiles stays in the user's cache folder, oldest
+    out beyond 512 MB.
+    """
     from platformdirs import user_cache_path
 
     if "JAX_COMPILATION_CACHE_DIR" in os.environ:
         return
     folder = user_cache_path("granum") / "compiled"
     for entry in folder.glob("*-cache"):
-        if not entry.with_name(entry.name.removesuffix("-cache") + "-atime").exists():  # a run was killed while it wrote this one
+        if not entry.with_name(
+            entry.name.removesuffix("-cache") + "-atime"
+        ).exists():  # a run was killed while it wrote this one
             entry.unlink(missing_ok=True)
     os.environ["JAX_COMPILATION_CACHE_DIR"] = str(folder)
     os.environ.setdefault("JAX_COMPILATION_CACHE_MAX_SIZE", "512_000_000")

@@ -16,7 +16,10 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-NEEDED = "these tests need Debian's packages chromium and chromium-driver: apt-get install chromium chromium-driver"
+NEEDED = (
+    "these tests need Debian's packages chromium and chromium-driver: apt-get install chromium "
+    "chromium-driver"
+)
 PATIENCE = 240.0  # seconds: a first calculation compiles, and continuous integration is slow
 
 
@@ -29,9 +32,17 @@ def chromium() -> Iterator[webdriver.Chrome]:
     options = Options()
     options.binary_location = program
     for argument in (
-        "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-        "--disable-sync", "--disable-dev-shm-usage", "--window-size=1400,900", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
-    ):  # fmt: skip
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--disable-dev-shm-usage",
+        "--window-size=1400,900",
+        "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+    ):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     found = webdriver.Chrome(options=options, service=Service(driver))
@@ -54,7 +65,11 @@ class Page:
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
         self.browser.get(f"{self.address}/style.css")
         self.browser.execute_script(
-            "localStorage.clear(); sessionStorage.clear(); localStorage.setItem('granum-theme', arguments[0])", theme
+            (
+                "localStorage.clear(); sessionStorage.clear(); localStorage.setItem('granum-theme', "
+                "arguments[0])"
+            ),
+            theme,
         )
         self.browser.get_log("browser")
         self.browser.get(f"{self.address}/?lang={language}#/{place}")
@@ -103,15 +118,25 @@ class Page:
 
     def fresh(self) -> bool:
         """Whether a result stands there as one of the present inputs."""
-        return self.browser.execute_script("return [...document.querySelectorAll('[data-output]')].some((e) => !e.closest('.stale'))")
+        return self.browser.execute_script(
+            "return [...document.querySelectorAll('[data-output]')].some((e) => !e.closest('.stale'))"
+        )
 
     def check(self, refused: bool = False) -> None:
-        """No word on the console (but for refusals where they are wanted), nothing wider than the page, no complaint of axe."""
-        complaints = [e["message"] for e in self.browser.get_log("browser") if e["level"] in ("SEVERE", "WARNING")]
+        """No word on the console (but for refusals where they are wanted), nothing wider than the page, no
+        complaint of axe.
+        """
+        complaints = [
+            e["message"] for e in self.browser.get_log("browser") if e["level"] in ("SEVERE", "WARNING")
+        ]
         if refused:
             complaints = [text for text in complaints if "status of 422" not in text]
         assert not complaints
-        assert self.browser.execute_script("return document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window"
+        assert self.browser.execute_script("return document.documentElement.scrollWidth <= innerWidth"), (
+            "the page is wider than the window"
+        )
         self.browser.execute_script(Path(axe_selenium_python.axe._DEFAULT_SCRIPT).read_text(encoding="utf-8"))
-        found = self.browser.execute_async_script("axe.run({rules: {region: {enabled: false}}}).then((r) => arguments[0](r.violations))")
+        found = self.browser.execute_async_script(
+            "axe.run({rules: {region: {enabled: false}}}).then((r) => arguments[0](r.violations))"
+        )
         assert not found, [(v["id"], [n["html"][:160] for n in v["nodes"][:3]]) for v in found]

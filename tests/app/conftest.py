@@ -1,4 +1,6 @@
-"""A real server on a free port of the loopback address, and a browser to look at it, for the tests of the app."""
+"""A real server on a free port of the loopback address, and a browser to look at it, for the tests of the
+app.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ from granum.app.serving import configured
 def running(app: Any, **changes: Any) -> Iterator[str]:
     """Serve an application from a thread; gives its address."""
     listener = socket.create_server(("127.0.0.1", 0))
-    server = uvicorn.Server(configured(app, log_level="critical", lifespan="off", timeout_graceful_shutdown=1, **changes))
+    server = uvicorn.Server(
+        configured(app, log_level="critical", lifespan="off", timeout_graceful_shutdown=1, **changes)
+    )
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
     thread.start()
     while not server.started and thread.is_alive():

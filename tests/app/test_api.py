@@ -1,4 +1,6 @@
-"""The web API: shapes, refusals with a sentence, nothing outside the workspace, never a fault of the server."""
+"""The web API: shapes, refusals with a sentence, nothing outside the workspace, never a fault of the
+server.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,12 @@ from granum.core.i18n import catalog
 from granum.core.units import from_si
 
 APP = Path(str(files("granum") / "app"))
-SPHERE = {"particle_diameter": "85 um", "particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
+SPHERE = {
+    "particle_diameter": "85 um",
+    "particle_density": "2630 kg/m3",
+    "fluid_density": "1020 kg/m3",
+    "dynamic_viscosity": "1.2 cP",
+}
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +63,9 @@ def test_cards_are_listed_in_both_languages(client: httpx.Client) -> None:
     french = client.get("/api/cards", headers={"x-language": "fr"}).json()["cards"]
     assert len(english) >= 300
     assert [c["card"] for c in english] == [c["card"] for c in french]
-    assert next(c for c in french if c["card"] == "particles.terminal_velocity")["title"].startswith("Vitesse")
+    assert next(c for c in french if c["card"] == "particles.terminal_velocity")["title"].startswith(
+        "Vitesse"
+    )
     assert {c["sort"] for c in client.get("/api/cards?sort=chart").json()["cards"]} == {"chart"}
 
 
@@ -76,14 +85,20 @@ def test_a_form_offers_what_people_write(client: httpx.Client) -> None:
     assert rows["particle_diameter"]["units"][0]["label"] == "µm"
     assert rows["gravity"]["default_shown"]["unit"] == "m/s^2"
     assert {"Stokes", "Newton"} <= {o["label"] for o in rows["drag"]["options"]}
-    values = {p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip() for p in card["parameters"] if p["example"]}
+    values = {
+        p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip()
+        for p in card["parameters"]
+        if p["example"]
+    }
     assert client.post("/api/calc/particles.terminal_velocity", json=values).status_code == 200
 
 
 def test_calc_gives_the_shape_of_the_command_line_and_more(client: httpx.Client) -> None:
     data = client.post("/api/calc/particles.terminal_velocity_stokes", json=SPHERE).json()
     # Stokes by hand: (2630 - 1020) · 9.80665 · (85e-6)² / (18 · 1.2e-3)
-    assert data["outputs"]["terminal_velocity"]["value"] == pytest.approx(1610 * 9.80665 * 85e-6**2 / 0.0216, rel=1e-9)
+    assert data["outputs"]["terminal_velocity"]["value"] == pytest.approx(
+        1610 * 9.80665 * 85e-6**2 / 0.0216, rel=1e-9
+    )
     assert data["outputs"]["terminal_velocity"]["unit"] == "m/s"
     assert data["shown"][0]["text"].endswith("mm/s")
     assert data["inputs"]["particle_diameter"] == {"value": pytest.approx(85e-6), "unit": "m"}
@@ -114,11 +129,22 @@ def test_a_value_may_come_as_value_and_unit(client: httpx.Client) -> None:
 )
 def test_bad_inputs_are_explained(client: httpx.Client, changed: dict[str, Any], says: str) -> None:
     body = json.dumps(SPHERE | changed)
-    answer = client.post("/api/calc/particles.terminal_velocity_stokes", content=body, headers={"content-type": "application/json"})
+    answer = client.post(
+        "/api/calc/particles.terminal_velocity_stokes",
+        content=body,
+        headers={"content-type": "application/json"},
+    )
     assert says in message(answer)
 
 
-LENGTH = {"name": "particle_diameter", "kind": "length", "unit": "m", "lower": 0.0, "open_lower": True, "units": ["um", "mm", "m", "inch"]}
+LENGTH = {
+    "name": "particle_diameter",
+    "kind": "length",
+    "unit": "m",
+    "lower": 0.0,
+    "open_lower": True,
+    "units": ["um", "mm", "m", "inch"],
+}
 
 
 @pytest.mark.parametrize(
@@ -132,10 +158,14 @@ LENGTH = {"name": "particle_diameter", "kind": "length", "unit": "m", "lower": 0
         ("85", "", "85 m", "85 m"),
     ],
 )
-def test_what_a_field_holds_is_read_and_said(client: httpx.Client, number: str, unit: str, shown: str, kept: str) -> None:
+def test_what_a_field_holds_is_read_and_said(
+    client: httpx.Client, number: str, unit: str, shown: str, kept: str
+) -> None:
     answer = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}).json()
     assert (answer["shown"], f"{answer['number']} {answer['unit']}") == (shown, kept)
-    french = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}, headers={"x-language": "fr"}).json()
+    french = client.post(
+        "/api/read", json=LENGTH | {"number": number, "unit_typed": unit}, headers={"x-language": "fr"}
+    ).json()
     assert french["shown"] == shown.replace(".", ",")
 
 
@@ -145,11 +175,21 @@ def test_every_quantity_of_every_card_is_understood() -> None:
         for p in thing.card.parameters:
             row = p.as_json()
             if p.kind and not p.series:
-                asked.setdefault((p.kind.name, p.kind.unit, p.kind.lower, p.kind.upper), (key, row, sum(p.ordinary()) / 2.0))
+                asked.setdefault(
+                    (p.kind.name, p.kind.unit, p.kind.lower, p.kind.upper),
+                    (key, row, sum(p.ordinary()) / 2.0),
+                )
     assert len(asked) > 80
     for key, row, value in asked.values():
         try:
-            found = read_entry(row | {"number": repr(value), "unit_typed": row["unit"], "units": [u["unit"] for u in row["units"]]})
+            found = read_entry(
+                row
+                | {
+                    "number": repr(value),
+                    "unit_typed": row["unit"],
+                    "units": [u["unit"] for u in row["units"]],
+                }
+            )
             assert found["shown"]
         except GranumError as fault:
             refused[f"{key} {row['name']}"] = fault.message
@@ -158,15 +198,29 @@ def test_every_quantity_of_every_card_is_understood() -> None:
 
 def test_several_values_are_read_and_what_is_not_understood_is_said(client: httpx.Client) -> None:
     series = LENGTH | {"series": "classes"}
-    assert client.post("/api/read", json=series | {"number": "2 4,5 8", "unit_typed": "um"}).json()["number"] == "2 4.5 8"
+    assert (
+        client.post("/api/read", json=series | {"number": "2 4,5 8", "unit_typed": "um"}).json()["number"]
+        == "2 4.5 8"
+    )
     mixed = client.post("/api/read", json=series | {"number": "2", "unit_typed": "mm, 850 um"}).json()
     assert "number" not in mixed, "values with units of their own stay as they were typed"
     assert mixed["shown"].endswith(("2 mm", "0.85 mm", "850 µm"))
     both = LENGTH | {"number": "10 20", "unit_typed": "um"}
     assert set(client.post("/api/read", json=both).json()) == {"problem"}
-    assert client.post("/api/read", json=both | {"several": True}).json()["shown"] == "10 · 20 µm", "as a formula takes them"
-    assert client.post("/api/read", json=both | {"several": True, "number": "1 200"}).json()["shown"] == "1200 µm"
-    for number, unit in (("eighty", ""), ("85", "kg"), ("-3", "um"), ("", "um"), ("85", "furlong per fortnight per")):
+    assert client.post("/api/read", json=both | {"several": True}).json()["shown"] == "10 · 20 µm", (
+        "as a formula takes them"
+    )
+    assert (
+        client.post("/api/read", json=both | {"several": True, "number": "1 200"}).json()["shown"]
+        == "1200 µm"
+    )
+    for number, unit in (
+        ("eighty", ""),
+        ("85", "kg"),
+        ("-3", "um"),
+        ("", "um"),
+        ("85", "furlong per fortnight per"),
+    ):
         told = client.post("/api/read", json=LENGTH | {"number": number, "unit_typed": unit}).json()
         assert set(told) == {"problem"}
         assert "particle_diameter" not in told["problem"]
@@ -189,10 +243,16 @@ def test_a_page_speaks_of_labels_not_of_python_names(client: httpx.Client) -> No
             {"particle_diameter": "eighty"},
             {"particle_diameter": ""},
         ):
-            answer = client.post("/api/calc/particles.terminal_velocity_stokes", json=SPHERE | changed, headers={"x-language": language})
+            answer = client.post(
+                "/api/calc/particles.terminal_velocity_stokes",
+                json=SPHERE | changed,
+                headers={"x-language": language},
+            )
             assert not names.search(message(answer)), message(answer)
         flagged = client.post(
-            "/api/calc/particles.terminal_velocity_stokes", json=SPHERE | {"particle_diameter": "5 mm"}, headers={"x-language": language}
+            "/api/calc/particles.terminal_velocity_stokes",
+            json=SPHERE | {"particle_diameter": "5 mm"},
+            headers={"x-language": language},
         )
         assert flagged.json()["flags"]
         assert not names.search(flagged.json()["flags"][0]["message"])
@@ -200,7 +260,9 @@ def test_a_page_speaks_of_labels_not_of_python_names(client: httpx.Client) -> No
 
 def test_errors_come_in_french_too(client: httpx.Client) -> None:
     given = SPHERE | {"particle_diameter": "-3 um"}
-    answer = client.post("/api/calc/particles.terminal_velocity_stokes", json=given, headers={"x-language": "fr"})
+    answer = client.post(
+        "/api/calc/particles.terminal_velocity_stokes", json=given, headers={"x-language": "fr"}
+    )
     assert "n'est pas possible" in message(answer)
 
 
@@ -212,31 +274,65 @@ def test_an_unknown_card_is_422_with_a_suggestion(client: httpx.Client) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b"null", b"\xff\xfe", b'{"a":', b"3", b"NaN"])
-@pytest.mark.parametrize("path", ["/api/calc/particles.reynolds_number", "/api/chart/particles.drag_chart", "/api/run", "/api/report"])
+@pytest.mark.parametrize(
+    "path",
+    ["/api/calc/particles.reynolds_number", "/api/chart/particles.drag_chart", "/api/run", "/api/report"],
+)
 def test_malformed_json_is_refused(client: httpx.Client, path: str, content: bytes) -> None:
     assert message(client.post(path, content=content, headers={"content-type": "application/json"}))
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"\x00\x01\x02", b"PK\x03\x04broken", b"time,volume\n1,2\n", b"time [s],filtrate_volume [m^3]\na,b\n", b"\xff" * 100]
+    "content",
+    [
+        b"",
+        b"\x00\x01\x02",
+        b"PK\x03\x04broken",
+        b"time,volume\n1,2\n",
+        b"time [s],filtrate_volume [m^3]\na,b\n",
+        b"\xff" * 100,
+    ],
 )
 @pytest.mark.parametrize("name", ["data.csv", "data.xlsx", "../../etc/passwd", "x" * 300])
 def test_malformed_uploads_are_refused(client: httpx.Client, content: bytes, name: str) -> None:
-    conditions = {"area": "0.05 m^2", "pressure_drop": "1 bar", "dynamic_viscosity": "1 cP", "dry_cake_per_filtrate": "20 kg/m^3"}
-    answer = client.post("/api/fit/filtration.leaf_test", files={"file": (name, content)}, data={"conditions": json.dumps(conditions)})
+    conditions = {
+        "area": "0.05 m^2",
+        "pressure_drop": "1 bar",
+        "dynamic_viscosity": "1 cP",
+        "dry_cake_per_filtrate": "20 kg/m^3",
+    }
+    answer = client.post(
+        "/api/fit/filtration.leaf_test",
+        files={"file": (name, content)},
+        data={"conditions": json.dumps(conditions)},
+    )
     assert message(answer)
     for odd in ("[", "[]", "3", '"text"'):
-        assert message(client.post("/api/fit/filtration.leaf_test", files={"file": (name, content)}, data={"conditions": odd}))
+        assert message(
+            client.post(
+                "/api/fit/filtration.leaf_test", files={"file": (name, content)}, data={"conditions": odd}
+            )
+        )
 
 
 def test_a_fit_of_exact_data_gives_the_resistances_back(client: httpx.Client) -> None:
-    # t/V = a V + b with a = η α W / (2 A² Δp), b = η R / (A Δp): times made by hand from α = 1e11 m/kg, R = 1e10 1/m.
+    # t/V = a V + b with a = η α W / (2 A² Δp), b = η R / (A Δp): times made by hand from α = 1e11 m/kg, R =
+    # 1e10 1/m.
     area, drop, viscosity, cake, alpha, medium = 0.05, 1e5, 1e-3, 20.0, 1e11, 1e10
     a, b = viscosity * alpha * cake / (2 * area**2 * drop), viscosity * medium / (area * drop)
     volumes = [0.0005 * (i + 1) for i in range(8)]
     table = "time [s],filtrate_volume [m^3]\n" + "".join(f"{a * v * v + b * v},{v}\n" for v in volumes)
-    conditions = {"area": area, "pressure_drop": drop, "dynamic_viscosity": viscosity, "dry_cake_per_filtrate": cake}
-    answer = client.post("/api/fit/filtration.leaf_test", files={"file": ("data.csv", table)}, data={"conditions": json.dumps(conditions)})
+    conditions = {
+        "area": area,
+        "pressure_drop": drop,
+        "dynamic_viscosity": viscosity,
+        "dry_cake_per_filtrate": cake,
+    }
+    answer = client.post(
+        "/api/fit/filtration.leaf_test",
+        files={"file": ("data.csv", table)},
+        data={"conditions": json.dumps(conditions)},
+    )
     assert answer.status_code == 200, answer.text[:400]
     data = answer.json()
     assert data["parameters"]["cake_resistance"]["value"] == pytest.approx(alpha, rel=1e-3)
@@ -275,7 +371,10 @@ def test_a_line_is_solved_and_reported(client: httpx.Client) -> None:
     assert "<svg" in page.text
 
 
-@pytest.mark.parametrize("case", ["", "a = ", 'title = "x"', "[units.a]\nmodel = 'no.such'", "\x00", "[mixture]\nliquids = ['nothing']"])
+@pytest.mark.parametrize(
+    "case",
+    ["", "a = ", 'title = "x"', "[units.a]\nmodel = 'no.such'", "\x00", "[mixture]\nliquids = ['nothing']"],
+)
 def test_a_bad_case_is_explained(client: httpx.Client, case: str) -> None:
     assert message(client.post("/api/run", json={"case": case}))
 
@@ -291,14 +390,20 @@ def test_a_case_is_shown_as_forms_and_edited_without_losing_comments(client: htt
     assert option["kind"], "a quantity of a law is a quantity of the form"
 
     def edit(table: str, name: str, key: str, text: str) -> httpx.Response:
-        return client.post("/api/case/edit", json={"case": case, "table": table, "name": name, "key": key, "text": text})
+        return client.post(
+            "/api/case/edit", json={"case": case, "table": table, "name": name, "key": key, "text": text}
+        )
 
     changed = edit("units", "mill", "holdup_mass", "2 tonne").json()["case"]
     assert changed == case.replace('holdup_mass = "1.6 tonne"', 'holdup_mass = "2 tonne"')
     law = edit("units", "mill", "mixing", '{"law": "plug_flow"}').json()["case"]
     assert 'mixing = {law = "plug_flow"}' in law
     assert "shaft_power" not in edit("units", "mill", "shaft_power", "").json()["case"]
-    for odd in (("units", "none", "a", "1"), ("streams", "product", "a", "1"), ("units", "mill", "mixing", "{law")):
+    for odd in (
+        ("units", "none", "a", "1"),
+        ("streams", "product", "a", "1"),
+        ("units", "mill", "mixing", "{law"),
+    ):
         assert message(edit(*odd))
     assert message(client.post("/api/case/form", json={"case": "a = "}))
 
@@ -307,13 +412,21 @@ def test_a_case_reaches_no_file_outside_the_workspace(client: httpx.Client, work
     case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
     secret = str(workspace.parent / "secret.toml")
     for named in (secret, "../secret.toml", "mine/../../secret.toml", "/etc/passwd"):
-        told = message(client.post("/api/run", json={"case": case.replace("[mixture]", f'[mixture]\nmaterials = ["{named}"]')}))
+        told = message(
+            client.post(
+                "/api/run", json={"case": case.replace("[mixture]", f'[mixture]\nmaterials = ["{named}"]')}
+            )
+        )
         assert "not in the workspace" in told
         fit = f'\n[fits.f]\ntest = "filtration.leaf_test"\ndata = "{named}"\ngives = {{}}\n'
         assert "not in the workspace" in message(client.post("/api/run", json={"case": case + fit}))
-        assert "not in the workspace" in message(client.post("/api/studies/choices", json={"case": case + fit}))
+        assert "not in the workspace" in message(
+            client.post("/api/studies/choices", json={"case": case + fit})
+        )
     assert "cannot be read" in message(
-        client.post("/api/run", json={"case": case.replace("[mixture]", '[mixture]\nmaterials = ["no.toml"]')})
+        client.post(
+            "/api/run", json={"case": case.replace("[mixture]", '[mixture]\nmaterials = ["no.toml"]')}
+        )
     )
 
 
@@ -333,7 +446,11 @@ def test_every_selection_guide_answers_its_own_example(client: httpx.Client) -> 
     assert guides
     for guide in guides:
         form = client.get(f"/api/cards/{guide}").json()
-        values = {p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip() for p in form["parameters"] if p["example"]}
+        values = {
+            p["name"]: f"{p['example']['number']} {p['example']['unit']}".strip()
+            for p in form["parameters"]
+            if p["example"]
+        }
         answer = client.post(f"/api/calc/{guide}", json=values)
         assert answer.status_code == 200, answer.text[:300]
         table = answer.json()["table"]
@@ -390,12 +507,16 @@ def test_another_file_is_overwritten_only_when_that_is_said(client: httpx.Client
 
 def test_the_lab_to_plant_example_is_studied_from_its_place(client: httpx.Client) -> None:
     place = "examples:lab-to-plant/line.toml"
-    case = client.get("/api/examples/lab-to-plant/line.toml").json()["text"].replace("steps = 16", "steps = 2")
+    case = (
+        client.get("/api/examples/lab-to-plant/line.toml").json()["text"].replace("steps = 16", "steps = 2")
+    )
     choices = client.post("/api/studies/choices", json={"case": case, "place": place}).json()
     assert [row["name"] for row in choices["declared"]] == ["sizes", "influence", "cheapest", "safe", "depth"]
     area = next(f for f in choices["figures"] if f["name"] == "press.area")
     assert area["quantity"]["units"][0]["unit"] == "m^2"
-    started = client.post("/api/studies", json={"case": case, "place": place, "declared": "depth"}).json()["id"]
+    started = client.post("/api/studies", json={"case": case, "place": place, "declared": "depth"}).json()[
+        "id"
+    ]
     for _wait in range(1200):
         found = client.get(f"/api/studies/{started}").json()
         if found["state"] == "done":
@@ -416,7 +537,11 @@ def test_every_trial_of_a_lab_test_has_its_columns_and_conditions(client: httpx.
         assert set(form["trial"]["values"]) <= names
         assert {re.sub(r" ?\[.*", "", head) for head in heads.split(",")} <= names
         given = set(form["trial"]["values"])
-        assert not [p["name"] for p in form["parameters"] if p["required"] and not p.get("series") and p["name"] not in given]
+        assert not [
+            p["name"]
+            for p in form["parameters"]
+            if p["required"] and not p.get("series") and p["name"] not in given
+        ]
     assert tried >= 8
 
 
@@ -426,7 +551,11 @@ def test_no_chart_in_a_file_offers_to_be_sent_away(client: httpx.Client) -> None
     drawn = page.count("Plotly.newPlot(")
     assert drawn
     assert page.count('"showSendToCloud": false') == drawn
-    others = [str(p) for p in APP.parent.rglob("*.py") if ".to_html(" in p.read_text(encoding="utf-8") and p.name != "charts.py"]
+    others = [
+        str(p)
+        for p in APP.parent.rglob("*.py")
+        if ".to_html(" in p.read_text(encoding="utf-8") and p.name != "charts.py"
+    ]
     assert not others, "charts become HTML in core.charts.as_html only"
 
 
@@ -500,7 +629,17 @@ def test_an_overloaded_server_says_so_and_slow_work_is_given_up() -> None:
         asyncio.run(slow())
 
 
-NAMES = st.sampled_from(["reynolds_number", "particle_diameter", "fluid_density", "superficial_velocity", "dynamic_viscosity", "x", ""])
+NAMES = st.sampled_from(
+    [
+        "reynolds_number",
+        "particle_diameter",
+        "fluid_density",
+        "superficial_velocity",
+        "dynamic_viscosity",
+        "x",
+        "",
+    ]
+)
 SCALARS = st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=12)
 VALUES = SCALARS | st.lists(SCALARS, max_size=3) | st.dictionaries(st.text(max_size=5), SCALARS, max_size=2)
 
@@ -508,12 +647,19 @@ VALUES = SCALARS | st.lists(SCALARS, max_size=3) | st.dictionaries(st.text(max_s
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     key=st.sampled_from(
-        ["particles.reynolds_number", "particles.size_summary", "comminution.energy_law", "particles.drag_coefficient_stokes"]
+        [
+            "particles.reynolds_number",
+            "particles.size_summary",
+            "comminution.energy_law",
+            "particles.drag_coefficient_stokes",
+        ]
     ),
     inputs=st.dictionaries(NAMES, VALUES, max_size=5),
 )
 def test_strange_inputs_are_never_a_fault(client: httpx.Client, key: str, inputs: dict[str, Any]) -> None:
-    answer = client.post(f"/api/calc/{key}", content=json.dumps(inputs), headers={"content-type": "application/json"})
+    answer = client.post(
+        f"/api/calc/{key}", content=json.dumps(inputs), headers={"content-type": "application/json"}
+    )
     assert answer.status_code < 500, answer.text[:300]
 
 
@@ -528,11 +674,20 @@ def test_exercises_give_the_printed_answers(exercise: dict[str, Any]) -> None:
 
 
 def test_exercises_and_quizzes_speak_both_languages(client: httpx.Client) -> None:
-    english, french = (client.get("/api/exercises", headers={"x-language": code}).json() for code in ("en", "fr"))
+    english, french = (
+        client.get("/api/exercises", headers={"x-language": code}).json() for code in ("en", "fr")
+    )
     assert {e["id"] for e in english["exercises"]} == {e["id"] for e in french["exercises"]}
-    assert all(a["statement"] != b["statement"] for a, b in zip(english["exercises"], french["exercises"], strict=True))
+    assert all(
+        a["statement"] != b["statement"]
+        for a, b in zip(english["exercises"], french["exercises"], strict=True)
+    )
     for quiz in english["quizzes"]:
-        assert any(o["right"] for o in quiz["options"]) if "options" in quiz else {i["group"] for i in quiz["items"]} == {0, 1}
+        assert (
+            any(o["right"] for o in quiz["options"])
+            if "options" in quiz
+            else {i["group"] for i in quiz["items"]} == {0, 1}
+        )
 
 
 def test_every_text_of_the_page_scripts_has_its_french() -> None:

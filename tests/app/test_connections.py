@@ -1,4 +1,6 @@
-"""Connections that ask for nothing, or never end asking, are closed; bodies that are too much are one message, at once."""
+"""Connections that ask for nothing, or never end asking, are closed; bodies that are too much are one
+message, at once.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +76,9 @@ def test_a_head_that_comes_byte_by_byte_is_not_waited_for(place: tuple[str, int]
         assert sent < 60
 
 
-def test_a_request_is_answered_however_long_it_takes_and_the_next_one_has_its_own_time(place: tuple[str, int]) -> None:
+def test_a_request_is_answered_however_long_it_takes_and_the_next_one_has_its_own_time(
+    place: tuple[str, int],
+) -> None:
     with socket.create_connection(place) as connection:
         for _turn in range(2):
             connection.sendall(ASK)
@@ -97,11 +101,15 @@ def nested(depth: int) -> bytes:
 
 
 EXCESSIVE = {
-    "deep": (nested(DEEPEST + 1), "nested"), "very deep": (b"[" * 200_000, "nested"), "deep lists": (b"[" * 900 + b"]" * 900, "nested"),
-    "digits": (b'{"a": ' + b"7" * 5000 + b"}", "digits"), "negative digits": (b"[-" + b"7" * 5000 + b"]", "digits"),
-    "keys": (json.dumps({f"k{i}": i for i in range(200_000)}).encode(), "keys"), "one key too many": (json.dumps(dict.fromkeys(map(str, range(MOST_KEYS + 1)))).encode(), "keys"),
+    "deep": (nested(DEEPEST + 1), "nested"),
+    "very deep": (b"[" * 200_000, "nested"),
+    "deep lists": (b"[" * 900 + b"]" * 900, "nested"),
+    "digits": (b'{"a": ' + b"7" * 5000 + b"}", "digits"),
+    "negative digits": (b"[-" + b"7" * 5000 + b"]", "digits"),
+    "keys": (json.dumps({f"k{i}": i for i in range(200_000)}).encode(), "keys"),
+    "one key too many": (json.dumps(dict.fromkeys(map(str, range(MOST_KEYS + 1)))).encode(), "keys"),
     "values": (json.dumps([0] * (MOST_VALUES + 1)).encode(), "values"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", EXCESSIVE)
@@ -128,6 +136,8 @@ def test_ordinary_json_passes() -> None:
 @pytest.mark.parametrize("kind", ["application/json", ""])
 def test_the_server_refuses_them_at_the_door(place: tuple[str, int], kind: str) -> None:
     for body, word in EXCESSIVE.values():
-        answer = httpx.post(f"http://{place[0]}:{place[1]}/", content=body, headers={"content-type": kind} if kind else {})
+        answer = httpx.post(
+            f"http://{place[0]}:{place[1]}/", content=body, headers={"content-type": kind} if kind else {}
+        )
         assert answer.status_code == 422
         assert word in answer.json()["error"]["message"]

@@ -1,4 +1,6 @@
-"""Requests nobody would write, made from the server's own description, and broken uploads: refused with a sentence, never a fault."""
+"""Requests nobody would write, made from the server's own description, and broken uploads: refused with a
+sentence, never a fault.
+"""
 
 from __future__ import annotations
 
@@ -62,9 +64,16 @@ ANYTHING = st.recursive(
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
-@given(key=st.sampled_from(KEYS), route=st.sampled_from(["calc", "chart", "spread"]), name=st.text(max_size=8), value=ANYTHING)
+@given(
+    key=st.sampled_from(KEYS),
+    route=st.sampled_from(["calc", "chart", "spread"]),
+    name=st.text(max_size=8),
+    value=ANYTHING,
+)
 def test_any_json_is_answered(client: httpx.Client, key: str, route: str, name: str, value: Any) -> None:
-    answer = client.post(f"/api/{route}/{key}", json={} if value != value else _without_nan({name: value, "pressure": value}))
+    answer = client.post(
+        f"/api/{route}/{key}", json={} if value != value else _without_nan({name: value, "pressure": value})
+    )
     assert answer.status_code < 500, answer.text[:300]
 
 
@@ -85,34 +94,68 @@ def _workbook(parts: dict[str, bytes]) -> bytes:
 
 
 UPLOADS = {
-    "empty": ("data.csv", b""), "zero bytes": ("data.csv", b"\x00" * 64), "no encoding": ("data.csv", b"\xff\xfe\xff\xfe time"), "one cell": ("data.csv", b"time"),
-    "only a header": ("data.csv", b"time [s],filtrate_volume [m^3]\n"), "words": ("data.csv", b"time [s],filtrate_volume [m^3]\na,b\n"),
-    "ragged": ("data.csv", b"time [s],filtrate_volume [m^3]\n1\n2,3,4\n"), "odd unit": ("data.csv", b"time [furlong],filtrate_volume [m^3]\n1,2\n2,3\n3,4\n"),
-    "nan": ("data.csv", b"time [s],filtrate_volume [m^3]\nnan,1\ninf,2\n1e400,3\n"), "twice": ("data.csv", b"time [s],time [s]\n1,2\n"),
-    "negative": ("data.csv", b"time [s],filtrate_volume [m^3]\n-1,-1\n-2,-2\n-3,-3\n"), "equal": ("data.csv", b"time [s],filtrate_volume [m^3]\n" + b"1,1\n" * 9),
-    "long line": ("data.csv", b"time [s]," + b"x" * 300_000), "many columns": ("data.csv", b",".join(b"c%d" % i for i in range(20_000))),
-    "quotes": ("data.csv", b'"time [s],filtrate_volume\n"""\n'), "no workbook": ("data.xlsx", b"time"), "empty workbook": ("data.xlsx", _workbook({})),
-    "broken workbook": ("data.xlsx", _workbook({"[Content_Types].xml": b"<", "xl/workbook.xml": b"<a"})), "other name": ("../../x.exe", b"MZ"), "no name": (".csv", b"1"),
-    "no sheet": ("data.xlsx", _workbook({"xl/workbook.xml": b"<workbook/>", "[Content_Types].xml": b"<Types/>"})),
-}  # fmt: skip
+    "empty": ("data.csv", b""),
+    "zero bytes": ("data.csv", b"\x00" * 64),
+    "no encoding": ("data.csv", b"\xff\xfe\xff\xfe time"),
+    "one cell": ("data.csv", b"time"),
+    "only a header": ("data.csv", b"time [s],filtrate_volume [m^3]\n"),
+    "words": ("data.csv", b"time [s],filtrate_volume [m^3]\na,b\n"),
+    "ragged": ("data.csv", b"time [s],filtrate_volume [m^3]\n1\n2,3,4\n"),
+    "odd unit": ("data.csv", b"time [furlong],filtrate_volume [m^3]\n1,2\n2,3\n3,4\n"),
+    "nan": ("data.csv", b"time [s],filtrate_volume [m^3]\nnan,1\ninf,2\n1e400,3\n"),
+    "twice": ("data.csv", b"time [s],time [s]\n1,2\n"),
+    "negative": ("data.csv", b"time [s],filtrate_volume [m^3]\n-1,-1\n-2,-2\n-3,-3\n"),
+    "equal": ("data.csv", b"time [s],filtrate_volume [m^3]\n" + b"1,1\n" * 9),
+    "long line": ("data.csv", b"time [s]," + b"x" * 300_000),
+    "many columns": ("data.csv", b",".join(b"c%d" % i for i in range(20_000))),
+    "quotes": ("data.csv", b'"time [s],filtrate_volume\n"""\n'),
+    "no workbook": ("data.xlsx", b"time"),
+    "empty workbook": ("data.xlsx", _workbook({})),
+    "broken workbook": ("data.xlsx", _workbook({"[Content_Types].xml": b"<", "xl/workbook.xml": b"<a"})),
+    "other name": ("../../x.exe", b"MZ"),
+    "no name": (".csv", b"1"),
+    "no sheet": (
+        "data.xlsx",
+        _workbook({"xl/workbook.xml": b"<workbook/>", "[Content_Types].xml": b"<Types/>"}),
+    ),
+}
 
 
 @pytest.mark.parametrize("upload", UPLOADS)
 def test_malformed_uploads_are_explained(client: httpx.Client, upload: str) -> None:
     for conditions in (
         "{}",
-        '{"area": "0.05 m2", "pressure_drop": "1 bar", "dynamic_viscosity": "1 cP", "dry_cake_per_filtrate": "20 kg/m3"}',
+        (
+            '{"area": "0.05 m2", "pressure_drop": "1 bar", "dynamic_viscosity": "1 cP", '
+            '"dry_cake_per_filtrate": "20 kg/m3"}'
+        ),
     ):
-        answer = client.post("/api/fit/filtration.leaf_test", files={"file": UPLOADS[upload]}, data={"conditions": conditions})
+        answer = client.post(
+            "/api/fit/filtration.leaf_test", files={"file": UPLOADS[upload]}, data={"conditions": conditions}
+        )
         assert answer.status_code in (409, 422), answer.text[:300]
         assert answer.json()["error"]["message"]
 
 
 @pytest.mark.parametrize(
-    "body", [b"", b"{", b"[" * 100_000, b'{"case": 1}', b'{"case": null}', b'{"case": "\\ud800"}', b"\xff\xfe", b'{"case": "a = 1e999999"}', b"null", b'"x"',
-     b'{"case":' * 500 + b"1" + b"}" * 500, b'{"case": ' + b"7" * 5000 + b"}", b"{" + b",".join(b'"k%d":1' % i for i in range(200_000)) + b"}"],
+    "body",
+    [
+        b"",
+        b"{",
+        b"[" * 100_000,
+        b'{"case": 1}',
+        b'{"case": null}',
+        b'{"case": "\\ud800"}',
+        b"\xff\xfe",
+        b'{"case": "a = 1e999999"}',
+        b"null",
+        b'"x"',
+        b'{"case":' * 500 + b"1" + b"}" * 500,
+        b'{"case": ' + b"7" * 5000 + b"}",
+        b"{" + b",".join(b'"k%d":1' % i for i in range(200_000)) + b"}",
+    ],
     ids=range(13),
-)  # fmt: skip
+)
 def test_malformed_bodies_are_refused(client: httpx.Client, body: bytes) -> None:
     for place in (
         "/api/run",

@@ -1,4 +1,6 @@
-"""Long work: studies with progress and cancel, limits of time and memory, a bounded queue, clients that leave."""
+"""Long work: studies with progress and cancel, limits of time and memory, a bounded queue, clients that
+leave.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,12 @@ from granum.core.errors import InputError
 from granum.core.i18n import language
 from granum.studies import Study, engine
 
-SPHERE = {"particle_diameter": "85 um", "particle_density": "2630 kg/m3", "fluid_density": "1020 kg/m3", "dynamic_viscosity": "1.2 cP"}
+SPHERE = {
+    "particle_diameter": "85 um",
+    "particle_density": "2630 kg/m3",
+    "fluid_density": "1020 kg/m3",
+    "dynamic_viscosity": "1.2 cP",
+}
 STOKES = {"card": "particles.terminal_velocity_stokes", "inputs": SPHERE, "varied": ["particle_diameter"]}
 
 
@@ -77,13 +84,24 @@ def test_choices_of_a_card_and_of_a_line(client: httpx.Client) -> None:
 @pytest.mark.parametrize(
     "study",
     [
-        {}, {"card": "no.card", "table": {"kind": "sweep"}}, STOKES | {"table": "sweep"}, STOKES | {"table": {"kind": "guess"}},
+        {},
+        {"card": "no.card", "table": {"kind": "sweep"}},
+        STOKES | {"table": "sweep"},
+        STOKES | {"table": {"kind": "guess"}},
         STOKES | {"table": {"kind": "sweep", "over": {"nothing": {"from": 1, "to": 2}}}},
-        STOKES | {"table": {"kind": "monte_carlo", "samples": 10**9, "uncertain": {"particle_diameter": {"distribution": "normal"}}}},
-        STOKES | {"table": {"kind": "sweep", "over": {"particle_diameter": {"from": 1, "to": 2, "steps": 1e300}}}},
+        STOKES
+        | {
+            "table": {
+                "kind": "monte_carlo",
+                "samples": 10**9,
+                "uncertain": {"particle_diameter": {"distribution": "normal"}},
+            }
+        },
+        STOKES
+        | {"table": {"kind": "sweep", "over": {"particle_diameter": {"from": 1, "to": 2, "steps": 1e300}}}},
         {"case": "title = ", "table": {"kind": "sweep"}},
     ],
-)  # fmt: skip
+)
 def test_a_study_that_cannot_be_is_explained(client: httpx.Client, study: dict[str, Any]) -> None:
     answer = finished(client, study)
     assert answer.status_code == 422
@@ -109,14 +127,23 @@ def test_what_nobody_asks_about_is_cancelled(crew: Crew, monkeypatch: pytest.Mon
         held.find("other")
 
 
-SPREAD = STOKES | {"table": {"kind": "monte_carlo", "samples": 20_000, "uncertain": {
-    "particle_diameter": {"distribution": "normal", "mean": "85 um", "standard_deviation": "1 um"}}}}  # fmt: skip
+SPREAD = STOKES | {
+    "table": {
+        "kind": "monte_carlo",
+        "samples": 20_000,
+        "uncertain": {
+            "particle_diameter": {"distribution": "normal", "mean": "85 um", "standard_deviation": "1 um"}
+        },
+    }
+}
 
 
 def test_a_stopped_study_gives_what_it_has_computed() -> None:
     """Stopped after one of its two chunks: marked as partial, with figures from the cases that were run."""
     said = [""]
-    found = tasks.TASKS["study"](SPREAD, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1]))
+    found = tasks.TASKS["study"](
+        SPREAD, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1])
+    )
     outcome = json.loads(found)
     run = outcome["counts"]["run"]
     assert not outcome["complete"]
@@ -125,23 +152,35 @@ def test_a_stopped_study_gives_what_it_has_computed() -> None:
     assert outcome["tables"][0]["rows"]
     assert said[1:3] == ["preparing the model", "0 of 20\u202f000"]
     with pytest.raises(Cancelled):  # nothing computed yet: nothing to show
-        tasks.TASKS["study"](SPREAD, Tell(lambda share, note: said.append(note), lambda: said[-1].startswith("0 of")))
+        tasks.TASKS["study"](
+            SPREAD, Tell(lambda share, note: said.append(note), lambda: said[-1].startswith("0 of"))
+        )
 
 
 @pytest.mark.parametrize(
     "table",
     [
         {"kind": "sweep", "over": {"particle_diameter": {"from": "20 um", "to": "80 um", "steps": 40}}},
-        {"kind": "map", "over": {name: {"from": "1e-3", "to": "2e-3", "steps": 8} for name in ("particle_diameter", "dynamic_viscosity")}},
+        {
+            "kind": "map",
+            "over": {
+                name: {"from": "1e-3", "to": "2e-3", "steps": 8}
+                for name in ("particle_diameter", "dynamic_viscosity")
+            },
+        },
         {"kind": "sobol", "samples": 16, "uncertain": SPREAD["table"]["uncertain"]},
     ],
     ids=lambda table: table["kind"],
-)  # fmt: skip
-def test_every_kind_of_study_shows_a_part_of_itself(table: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+)
+def test_every_kind_of_study_shows_a_part_of_itself(
+    table: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(engine.CHUNKS, "batched", 4)
     said = [""]
     wanted = STOKES | {"varied": list(table.get("over") or table["uncertain"]), "table": table}
-    found = tasks.TASKS["study"](wanted, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1]))
+    found = tasks.TASKS["study"](
+        wanted, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1])
+    )
     outcome = json.loads(found)
     assert not outcome["complete"]
     assert outcome["counts"]["run"] == 4
@@ -158,7 +197,9 @@ def test_what_a_killed_study_has_computed_is_collected(crew: Crew, tmp_path: Pat
         held.find("mine").future.result(timeout=1)
     counted: list[int] = []
     study = Study.of("monte_carlo", SPREAD["table"], app_studies.subject(SPREAD))
-    study.run(folder=tmp_path / "parts", progress=lambda p: counted.append(p.done), cancel=lambda: len(counted) > 1)
+    study.run(
+        folder=tmp_path / "parts", progress=lambda p: counted.append(p.done), cancel=lambda: len(counted) > 1
+    )
     outcome = json.loads(held.find("mine").future.result(timeout=100))
     assert (outcome["complete"], outcome["counts"]["run"]) == (False, counted[1])
     assert not (tmp_path / "parts").exists()
@@ -178,7 +219,11 @@ def test_a_request_can_be_asked_how_far_it_is(client: httpx.Client) -> None:
     case = client.get("/api/examples/humid-air/line.toml").json()["text"]
     seen: list[dict[str, Any]] = []
     with ThreadPoolExecutor(1) as pool:
-        answer = pool.submit(lambda: client.post("/api/run", json={"case": case}, headers={"x-job": "mine", "x-language": "fr"}))
+        answer = pool.submit(
+            lambda: client.post(
+                "/api/run", json={"case": case}, headers={"x-job": "mine", "x-language": "fr"}
+            )
+        )
         while not answer.done():
             seen.append(client.get("/api/progress/mine").json())
             time.sleep(0.02)
@@ -232,7 +277,9 @@ def test_time_and_queue_are_bounded(crew: Crew) -> None:
         crew.submit("rest", {"seconds": 0})
     with pytest.raises(Busy, match="given up"):
         slow.future.result(timeout=100)
-    assert json.loads(second.future.result(timeout=100))["outputs"]["terminal_velocity"]["value"] == pytest.approx(5.28e-3, rel=1e-2)
+    assert json.loads(second.future.result(timeout=100))["outputs"]["terminal_velocity"][
+        "value"
+    ] == pytest.approx(5.28e-3, rel=1e-2)
     with pytest.raises(Refused, match=r"no\.such"):
         crew.submit("chart", {"key": "no.such", "inputs": {}}).future.result(timeout=100)
 
@@ -240,7 +287,9 @@ def test_time_and_queue_are_bounded(crew: Crew) -> None:
 def test_memory_is_bounded(crew: Crew) -> None:
     with pytest.raises(Busy, match="memory"):
         crew.submit("fill", {"bytes": 3_000_000_000}).future.result(timeout=100)
-    assert json.loads(crew.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}  # the next job finds a new process
+    assert (
+        json.loads(crew.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}
+    )  # the next job finds a new process
 
 
 def test_a_worn_process_is_replaced_and_nothing_is_lost(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,6 @@
-"""Every page in a real browser, in both languages, with the outside world cut off: it works, says nothing to the console, and axe is content."""
+"""Every page in a real browser, in both languages, with the outside world cut off: it works, says nothing to
+the console, and axe is content.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ from tests.app.browsing import Page
 
 LANGUAGES = ("en", "fr")
 CASE = "examples:grinding-circuit/circuit.toml"
-SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"
+SPHERE = "particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 
 
 PLACES = {
@@ -45,7 +47,9 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     shown = page.one("[data-output=terminal_velocity]")
     assert shown.text.startswith(f"5{point}28")  # Stokes by hand: 5.282 mm/s
     page.write("#field-particle_diameter", f"42{point}5")
-    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32"))  # a quarter of it
+    page.until(
+        lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32")
+    )  # a quarter of it
     page.one("#field-particle_diameter").send_keys(Keys.ENTER)
     page.until(lambda: "42.5" in page.browser.current_url)
     page.write("#field-particle_diameter", "-3")
@@ -59,7 +63,9 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
 
 
 DIAMETER, TEMPERATURE = "#field-particle_diameter", "#field-temperature"
-TYPED = [  # typed, understood, number and unit afterwards, Stokes velocity in mm/s by hand: (2630 - 1020) · 9.80665 · d² / (18 · 1.2e-3)
+# typed, understood, number and unit afterwards, Stokes velocity in mm/s by hand: (2630 - 1020) · 9.80665 · d²
+# / (18 · 1.2e-3)
+TYPED = [
     ("85 um", "85 µm", "85", "um", 5.281),
     ("0.085 mm", "0.085 mm", "0.085", "mm", 5.281),
     ("1e-1", "0.1 mm", "0.1", "mm", 7.310),
@@ -77,16 +83,28 @@ def test_what_is_typed_key_by_key_is_what_is_calculated(page: Page, language: st
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}", language)
     for typed, echo, number, unit, velocity in TYPED:
         field = page.type(DIAMETER, typed)
-        page.until(lambda echo=echo: [e.text for e in page.all("[data-echo]")] == ["= " + echo.replace(".", point)])
+        page.until(
+            lambda echo=echo: [e.text for e in page.all("[data-echo]")] == ["= " + echo.replace(".", point)]
+        )
         assert page.leave(field) == (number.replace(".", point), unit)
-        raw = "fetch('/api/calc/particles.terminal_velocity_stokes', {method: 'POST', headers: {'content-type': 'application/json'}, body: arguments[0]})"
+        raw = (
+            "fetch('/api/calc/particles.terminal_velocity_stokes', {method: 'POST', headers: "
+            "{'content-type': 'application/json'}, body: arguments[0]})"
+        )
         values = dict(
             part.split("=")
-            for part in page.browser.execute_script("return decodeURIComponent(location.hash)").split("?")[1].replace("+", " ").split("&")
+            for part in page.browser.execute_script("return decodeURIComponent(location.hash)")
+            .split("?")[1]
+            .replace("+", " ")
+            .split("&")
         )
-        body = page.browser.execute_async_script(f"{raw}.then((r) => r.json()).then((d) => arguments[1](d))", json.dumps(values))
+        body = page.browser.execute_async_script(
+            f"{raw}.then((r) => r.json()).then((d) => arguments[1](d))", json.dumps(values)
+        )
         assert body["outputs"]["terminal_velocity"]["value"] * 1e3 == pytest.approx(velocity, rel=1e-4)
-        assert page.one("[data-output=terminal_velocity]").text == body["shown"][0]["text"].replace(".", point)
+        assert page.one("[data-output=terminal_velocity]").text == body["shown"][0]["text"].replace(
+            ".", point
+        )
     for typed in ("439 cm2", "eighty", "-5", "12 kg"):  # nothing is made of these
         page.type(DIAMETER, typed)
         page.until(lambda: page.one(".quantity .out").text and not page.fresh())
@@ -100,7 +118,10 @@ def test_a_temperature_below_zero_is_typed(page: Page, language: str) -> None:
     page.open("calculate/materials.ice_vapor_pressure", language)
     for typed, number in (("-5", "-5"), ("-12,5", "-12.5"), ("\u221212.5", "-12.5")):
         before = page.one("[data-output]").text
-        assert page.leave(page.type(TEMPERATURE, typed)) == (number.replace(".", "," if language == "fr" else "."), "degC")
+        assert page.leave(page.type(TEMPERATURE, typed)) == (
+            number.replace(".", "," if language == "fr" else "."),
+            "degC",
+        )
         assert (page.one("[data-output]").text == before) == (typed[0] != "-")
 
 
@@ -142,7 +163,9 @@ def test_a_unit_chosen_first_holds_for_the_number_that_follows(page: Page) -> No
         ),
     ],
 )
-def test_every_page_reads_quantities_alike(page: Page, place: str, selector: str, typed: str, left: tuple[str, str]) -> None:
+def test_every_page_reads_quantities_alike(
+    page: Page, place: str, selector: str, typed: str, left: tuple[str, str]
+) -> None:
     page.open(place)
     page.until(lambda: page.all(selector))
     page.browser.execute_script("document.querySelectorAll('[data-form]').forEach((d) => { d.open = true; })")
@@ -172,10 +195,16 @@ def test_a_study_takes_the_line_as_it_stands_on_the_screen(page: Page) -> None:
     page.leave(field)
     page.until(lambda: "case=" in page.browser.current_url)
     shared = page.browser.current_url
-    page.until(lambda: "case=" in next(a for a in page.all("a.button") if a.text == "Study").get_attribute("href"))
+    page.until(
+        lambda: "case=" in next(a for a in page.all("a.button") if a.text == "Study").get_attribute("href")
+    )
     next(a for a in page.all("a.button") if a.text == "Study").click()
     page.one("[data-changed]")
-    page.until(lambda: any("2.4 t" in e.text or "2400 kg" in e.text for e in page.all("option:checked, .varied .dim")))
+    page.until(
+        lambda: any(
+            "2.4 t" in e.text or "2400 kg" in e.text for e in page.all("option:checked, .varied .dim")
+        )
+    )
     page.browser.execute_script("localStorage.clear(); sessionStorage.clear()")
     page.browser.get("about:blank")
     page.browser.get(shared)  # as another person opens it
@@ -193,7 +222,9 @@ def test_conditions_of_an_example_never_meet_own_data(page: Page) -> None:
     assert "leaf_geankoplis.csv" in page.one("[data-trial]").text
     page.button("Français").click()
     page.one("[data-parameter=cake_resistance]")
-    assert "338" in [e.get_attribute("value") for e in page.all(".field input")], "nothing is lost with the language"
+    assert "338" in [e.get_attribute("value") for e in page.all(".field input")], (
+        "nothing is lost with the language"
+    )
     page.one("#table").send_keys("50,4\n")
     page.until(lambda: not page.all("[data-parameter]"))
     assert {e.get_attribute("value") for e in page.all(".field input")} == {""}
@@ -201,7 +232,9 @@ def test_conditions_of_an_example_never_meet_own_data(page: Page) -> None:
 
 def test_other_laws_follow_the_inputs(page: Page) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
-    page.until(lambda: next((s for s in page.all("details summary") if s.text == "What other laws give"), None)).click()
+    page.until(
+        lambda: next((s for s in page.all("details summary") if s.text == "What other laws give"), None)
+    ).click()
     before = page.until(lambda: page.all("[data-spread]:not(.stale)"))[0].text
     page.type(DIAMETER, "42.5")
     page.until(lambda: page.all("[data-spread]:not(.stale)") and page.one("[data-spread]").text != before)
@@ -223,7 +256,9 @@ def test_a_server_that_is_gone_is_said_once_and_found_again(page: Page) -> None:
     page.type(DIAMETER, "42.5")
     assert "reconnects" in page.one(".gone").text
     page.browser.execute_cdp_cmd("Network.emulateNetworkConditions", offline | {"offline": False})
-    page.until(lambda: not page.all(".gone") and page.one("[data-output=terminal_velocity]").text.startswith("1.32"))
+    page.until(
+        lambda: not page.all(".gone") and page.one("[data-output=terminal_velocity]").text.startswith("1.32")
+    )
     assert page.one(DIAMETER).get_attribute("value") == "42.5"
     page.browser.get_log("browser")
 
@@ -286,20 +321,32 @@ def test_three_cases_are_compared(page: Page) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_pasted_table_is_fitted(page: Page, language: str) -> None:
     page.open(
-        "lab/filtration.leaf_test?area=0.05+m%5E2&pressure_drop=1+bar&dynamic_viscosity=1+cP&dry_cake_per_filtrate=20+kg%2Fm%5E3", language
+        "lab/filtration.leaf_test?area=0.05+m%5E2&pressure_drop=1+bar&dynamic_viscosity=1+cP&dry_cake_per_filtrate=20+kg%2Fm%5E3",
+        language,
     )
     a, b = 4.0e6, 2000.0  # s/m⁶ and s/m³: α = 1e11 m/kg, R = 1e10 1/m
     rows = [
         f"{a * v * v + b * v + wiggle},{v}"
-        for v, wiggle in ((0.0005, 0.01), (0.001, -0.01), (0.0015, 0.01), (0.002, -0.02), (0.0025, 0.01), (0.003, 0.0))
+        for v, wiggle in (
+            (0.0005, 0.01),
+            (0.001, -0.01),
+            (0.0015, 0.01),
+            (0.002, -0.02),
+            (0.0025, 0.01),
+            (0.003, 0.0),
+        )
     ]
-    page.one("#table").send_keys("t / s,Filtrat (m3)\n" + "\n".join(rows))  # named otherwise: the columns are told what they are
+    page.one("#table").send_keys(
+        "t / s,Filtrat (m3)\n" + "\n".join(rows)
+    )  # named otherwise: the columns are told what they are
     for column, named in (("time", "t / s"), ("filtrate_volume", "Filtrat (m3)")):
         Select(page.one(f"#column-{column}")).select_by_visible_text(named)
     assert page.one("#table").get_attribute("value").startswith("time [s],filtrate_volume [m3]")
     row = page.one("[data-parameter=cake_resistance]")
     assert "10¹" in row.text or "× 10" in row.text
-    assert len(page.until(lambda: len(found := page.all(".plot .main-svg")) >= 2 and found)) >= 2  # fit and residuals
+    assert (
+        len(page.until(lambda: len(found := page.all(".plot .main-svg")) >= 2 and found)) >= 2
+    )  # fit and residuals
     page.settle()
     page.check()
 
@@ -310,7 +357,9 @@ def test_a_line_is_solved_and_its_diagram_answers_clicks(page: Page, language: s
     page.one(".diagram svg")
     page.settle()
     page.check()
-    page.browser.execute_script("document.querySelector('[data-stream]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+    page.browser.execute_script(
+        "document.querySelector('[data-stream]').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
+    )
     page.one(".card .plot .main-svg")
     unit = page.one("[data-unit=mill]")
     page.browser.execute_script("arguments[0].focus()", unit)
@@ -330,7 +379,9 @@ def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None
     page.settle()
     before = page.one("[data-figure='mill.residence_time']").text
     page.button("Keep to compare").click()
-    page.browser.execute_script("document.querySelector('[data-unit=mill]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+    page.browser.execute_script(
+        "document.querySelector('[data-unit=mill]').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
+    )
     page.write("[data-panel=mill] input[id$=holdup_mass]", "2.4")
     page.one("table[data-comparison]")
     page.settle()
@@ -384,7 +435,7 @@ HELD = """
       if (path === '/api/progress/' + window.job) return new Response(JSON.stringify({ state: 'running', share: 0.2, note: 'drawing', seconds: 3 }));
       return sent(path, request);
     };
-"""
+"""  # noqa: E501
 
 
 def test_what_the_server_is_doing_is_said_while_the_page_waits(page: Page) -> None:
@@ -410,7 +461,10 @@ def test_series_are_read_in_full_and_taken_along(page: Page) -> None:
     rows = page.all("[data-series] tbody tr")
     assert len(rows) == len(page.all("[data-series] tbody tr td:first-child")) > 100
     assert page.one("[data-series] .plot .main-svg .scatterlayer .trace")
-    page.browser.execute_script("URL.createObjectURL = (blob) => { blob.text().then((text) => { window.taken = text; }); return '#'; }")
+    page.browser.execute_script(
+        "URL.createObjectURL = (blob) => { blob.text().then((text) => { window.taken = text; }); "
+        "return '#'; }"
+    )
     page.button("Download as CSV").click()
     head, *lines = page.until(lambda: page.browser.execute_script("return window.taken")).strip().split("\n")
     assert head.startswith("superficial_velocity [")
@@ -424,7 +478,10 @@ def test_series_are_read_in_full_and_taken_along(page: Page) -> None:
     page.check()
 
 
-OFF = "The energy balance of unit 'mill' is off by 0.018 of its turnover: its temperatures and duties cannot be used."
+OFF = (
+    "The energy balance of unit 'mill' is off by 0.018 of its turnover: its temperatures and duties cannot "
+    "be used."
+)
 ANSWERED = """
     const sent = window.fetch;
     const told = arguments[0];
@@ -435,18 +492,23 @@ ANSWERED = """
       data.audit.energy_closure = null; // not a number
       return new Response(JSON.stringify(data));
     };
-"""
+"""  # noqa: E501
 
 
 @pytest.mark.parametrize(("answer", "told"), [(OFF, OFF), ("", "The balances do not close")])
-def test_figures_of_a_line_that_does_not_close_do_not_look_current(page: Page, answer: str, told: str) -> None:
+def test_figures_of_a_line_that_does_not_close_do_not_look_current(
+    page: Page, answer: str, told: str
+) -> None:
     page.open(f"lines/{quote(CASE, safe='')}")
     page.one(".diagram svg")
     assert not page.all(".stale")
     page.browser.execute_script(ANSWERED, answer)
     page.button("Solve").click()
     page.until(lambda: any(e.text.startswith(("▲ " + told, told)) for e in page.all("[role=alert]")))
-    fresh = "return [...document.querySelectorAll('section table, .diagram')].filter((e) => !e.closest('.stale')).length"
+    fresh = (
+        "return [...document.querySelectorAll('section table, .diagram')].filter((e) => "
+        "!e.closest('.stale')).length"
+    )
     page.until(lambda: page.browser.execute_script(fresh) == 0)
     assert bool(page.all("[data-old]")) == bool(answer), "what is left of the line before is called so"
     assert bool(page.all("[data-form=mill][open]")) == bool(answer), "the form of the unit at fault is open"
@@ -482,7 +544,9 @@ def test_a_question_is_marked(page: Page) -> None:
 def test_the_first_page_is_there_within_a_second_and_a_half(page: Page) -> None:
     page.open("calculate")  # everything is imported and compiled now: what counts is the way to the browser
     page.open("calculate")
-    painted = page.browser.execute_script("return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 0")
+    painted = page.browser.execute_script(
+        "return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 0"
+    )
     assert 0 < painted < 1500
 
 

@@ -1,6 +1,8 @@
-"""What is typed key by key is what is calculated, whatever is typed; nothing is guessed, and no other result looks like its answer.
+"""What is typed key by key is what is calculated, whatever is typed; nothing is guessed, and no other result
+looks like its answer.
 
-The short run makes a few turns. ``GRANUM_RANDOM_SAMPLES=1000 pytest -n 0 tests/app/test_typing.py`` goes through all cards.
+The short run makes a few turns. ``GRANUM_RANDOM_SAMPLES=1000 pytest -n 0 tests/app/test_typing.py`` goes
+through all cards.
 """
 
 from __future__ import annotations
@@ -17,8 +19,12 @@ from tests.app.typist import Typist, complaints
 from granum.core import registry
 
 SAMPLES = int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0"))
-QUICK = ("particles.terminal_velocity_stokes", "particles.drag_coefficient_haider_levenspiel", "materials.ice_vapor_pressure")
-STOKES = "calculate/particles.terminal_velocity_stokes?particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"
+QUICK = (
+    "particles.terminal_velocity_stokes",
+    "particles.drag_coefficient_haider_levenspiel",
+    "materials.ice_vapor_pressure",
+)
+STOKES = "calculate/particles.terminal_velocity_stokes?particle_diameter=85+um&particle_density=2630+kg%2Fm%5E3&fluid_density=1020+kg%2Fm%5E3&dynamic_viscosity=1.2+cP"  # noqa: E501
 MEAN = "calculate/particles.mean_diameter_moment_ratio"
 SHAPE = "calculate/particles.drag_coefficient_haider_levenspiel"
 DIAMETER = "#field-particle_diameter"
@@ -27,7 +33,9 @@ CASE = f"lines/{quote('examples:grinding-circuit/circuit.toml', safe='')}"
 
 def test_whatever_is_typed_the_result_is_that_of_the_text_on_the_screen(page: Page) -> None:
     rng = random.Random(16)
-    every = sorted(key for key, thing in registry.everything().items() if thing.card.sort in ("formula", "procedure"))
+    every = sorted(
+        key for key, thing in registry.everything().items() if thing.card.sort in ("formula", "procedure")
+    )
     typist, done = Typist(page, seed=16), 0
     while done < max(SAMPLES, 6):
         typist.card(rng.choice(every if SAMPLES else QUICK), rng.choice(("en", "fr")))
@@ -50,7 +58,9 @@ def test_whatever_is_typed_the_result_is_that_of_the_text_on_the_screen(page: Pa
         (MEAN, "#field-class_sizes", "0,5 mm", ""),
     ],
 )
-def test_numbers_that_may_be_read_in_two_ways_are_not_guessed(page: Page, place: str, selector: str, typed: str, echo: str) -> None:
+def test_numbers_that_may_be_read_in_two_ways_are_not_guessed(
+    page: Page, place: str, selector: str, typed: str, echo: str
+) -> None:
     page.open(place)
     field = page.type(selector, typed)
     if echo:
@@ -65,7 +75,9 @@ def test_numbers_that_may_be_read_in_two_ways_are_not_guessed(page: Page, place:
 
 
 def test_a_fluid_in_words_stands_in_place_of_its_properties(page: Page) -> None:
-    """Water of 20 °C has 1.0016 mPa s (IAPWS); what was typed for its density before is gone, and what is no fluid is told at its field."""
+    """Water of 20 °C has 1.0016 mPa s (IAPWS); what was typed for its density before is gone, and what is no
+    fluid is told at its field.
+    """
     page.open(STOKES)
     page.write("#field-fluid", "watr at 20 °C")
     page.until(lambda: page.one("#field-fluid-note .out").text)
@@ -83,7 +95,9 @@ def test_a_result_of_other_inputs_is_not_kept_to_compare(page: Page) -> None:
 
 
 def test_a_study_has_as_many_cases_as_were_typed(page: Page) -> None:
-    page.open(f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{STOKES.partition('?')[2]}")
+    page.open(
+        f"studies/{quote('card:particles.terminal_velocity_stokes', safe='')}?{STOKES.partition('?')[2]}"
+    )
     for typed in ("ten", "1 2", ""):
         page.type("[data-part=steps]", typed)
         page.button("Run the study").click()

@@ -18,10 +18,58 @@ from granum.core.parameters import Parameter
 from granum.core.units import from_si, pretty_unit, to_si
 
 ODD = (
-    "", "-", "e5", "1e", "--5", "1..2", "5 mm 3", "12 %", "-5", "0", "1e400", "1/2", "½", "1_000", "١٢", "５", "nan", "inf", "(5)", "[5]", "~5",
-    "5±3", "5 ± 0.2 mm", "3-7", "10 20", "2;4", "0, 10, 20 °C", "= 5", "5 furlong", "5 kg", "439 cm2", "85 um", "20 °C", "-300 °C", "1 e3", "5.", "five",
-    "1 1/2 in", "1\u202f200,5", "1,200", "5 %%", "5'", '5"', "{", "<b>5</b>", "5\u00a0m", "0 K", "5 mesh", "1e-400", "5 m m", "5 1",
-)  # fmt: skip
+    "",
+    "-",
+    "e5",
+    "1e",
+    "--5",
+    "1..2",
+    "5 mm 3",
+    "12 %",
+    "-5",
+    "0",
+    "1e400",
+    "1/2",
+    "½",
+    "1_000",
+    "١٢",
+    "５",
+    "nan",
+    "inf",
+    "(5)",
+    "[5]",
+    "~5",
+    "5±3",
+    "5 ± 0.2 mm",
+    "3-7",
+    "10 20",
+    "2;4",
+    "0, 10, 20 °C",
+    "= 5",
+    "5 furlong",
+    "5 kg",
+    "439 cm2",
+    "85 um",
+    "20 °C",
+    "-300 °C",
+    "1 e3",
+    "5.",
+    "five",
+    "1 1/2 in",
+    "1\u202f200,5",
+    "1,200",
+    "5 %%",
+    "5'",
+    '5"',
+    "{",
+    "<b>5</b>",
+    "5\u00a0m",
+    "0 K",
+    "5 mesh",
+    "1e-400",
+    "5 m m",
+    "5 1",
+)
 RECORDED = """
     if (!window.answers) {
       window.answers = [];
@@ -47,11 +95,13 @@ SEEN = """
       outputs: [...document.querySelectorAll('[data-output]')].map((e) => [e.dataset.output, e.textContent, fresh(e)]),
       answers: window.answers, link: location.hash, busy: Boolean(document.querySelector('[aria-busy=true]')),
     };
-"""
+"""  # noqa: E501
 
 
 def ordinary(rng: random.Random, p: Parameter, language: str, menu: str) -> tuple[str, float]:
-    """A text as somebody writes a value in the parameter's ordinary range, and the value it means beside a menu of units, SI."""
+    """A text as somebody writes a value in the parameter's ordinary range, and the value it means beside a
+    menu of units, SI.
+    """
     assert p.kind is not None
     low, high = p.ordinary()
     unit = rng.choice(p.units)
@@ -62,10 +112,14 @@ def ordinary(rng: random.Random, p: Parameter, language: str, menu: str) -> tupl
         text = text.replace(".", ",")
     if unit == "dimensionless":
         if rng.random() < 0.3 and p.kind.upper == 1.0:
-            return f"{_plain(100 * number)}{rng.choice((' %', '%'))}".replace(".", rng.choice(".,")), float(_plain(100 * number)) / 100
+            return f"{_plain(100 * number)}{rng.choice((' %', '%'))}".replace(".", rng.choice(".,")), float(
+                _plain(100 * number)
+            ) / 100
         return text, float(number) / (100.0 if menu in ("%", "percent") else 1.0)
     written = rng.choice((unit, pretty_unit(unit), pretty_unit(unit).replace("²", "2").replace("³", "3")))
-    return f"{text}{' ' if written[0].isdigit() else rng.choice(('', ' '))}{written}", float(to_si(number, unit, p.kind))
+    return f"{text}{' ' if written[0].isdigit() else rng.choice(('', ' '))}{written}", float(
+        to_si(number, unit, p.kind)
+    )
 
 
 def _plain(number: float) -> str:
@@ -79,7 +133,11 @@ def _scientific(number: float) -> str:
 
 def _printed(number: float) -> str:
     text = _plain(number)
-    return text.replace("-", "\u2212") if abs(number) < 1000 or "." in text or "e" in text else f"{int(number):,}".replace(",", " ")
+    return (
+        text.replace("-", "\u2212")
+        if abs(number) < 1000 or "." in text or "e" in text
+        else f"{int(number):,}".replace(",", " ")
+    )
 
 
 class Typist:
@@ -95,8 +153,12 @@ class Typist:
         self.page.open(f"calculate/{key}", language)
         self.page.browser.execute_script(RECORDED)
         thing = registry.find(key).card
-        shown = {row["name"] for row in card_form(key)["parameters"] if row.get("kind") and not row["options"]}
-        self.fields = [p for p in thing.parameters if p.name in shown and self.page.all(f"input#field-{p.name}")]
+        shown = {
+            row["name"] for row in card_form(key)["parameters"] if row.get("kind") and not row["options"]
+        }
+        self.fields = [
+            p for p in thing.parameters if p.name in shown and self.page.all(f"input#field-{p.name}")
+        ]
 
     def turn(self) -> None:
         """One text into one field, and all that must hold while and after it is typed."""
@@ -104,7 +166,11 @@ class Typist:
         menu = self.page.browser.execute_script(
             "return document.querySelector(arguments[0])?.value ?? ''", f"input#field-{p.name} ~ select"
         )
-        text, value = ordinary(self.rng, p, self.language, menu) if self.rng.random() < 0.6 else (self.rng.choice(ODD), None)
+        text, value = (
+            ordinary(self.rng, p, self.language, menu)
+            if self.rng.random() < 0.6
+            else (self.rng.choice(ODD), None)
+        )
         self.log.append(f"{self.key} {self.language} {p.name} {text!r}")
         self.page.browser.execute_script("window.answers.length = 0; window.reading = {}")
         field = self.page.type(f"input#field-{p.name}", text)
@@ -126,7 +192,9 @@ class Typist:
         if refused:
             assert field.get_attribute("value") == text, "what is not understood stays as it was typed"
         elif before is not None:
-            assert _close(self.understood(p), before), f"{text!r} was {before}, after the field was left {self.understood(p)}"
+            assert _close(self.understood(p), before), (
+                f"{text!r} was {before}, after the field was left {self.understood(p)}"
+            )
         self.consistent(told)
         if told and self.rng.random() < 0.7:
             self.page.button("Undo" if self.language == "en" else "Annuler").click()
@@ -155,7 +223,9 @@ class Typist:
         values = dict(parse_qsl(urlsplit(seen["link"]).fragment.partition("?")[2]))
         last = seen["answers"][-1]
         given = {name: text for name, text in last["given"].items() if text}
-        assert _same(given, values, registry.find(self.key).card.parameters), f"result of {given}, on the screen is {values}"
+        assert _same(given, values, registry.find(self.key).card.parameters), (
+            f"result of {given}, on the screen is {values}"
+        )
         texts = dict(last["shown"])
         assert all(text == texts.get(name, text) for name, text in fresh if name in texts)
 
@@ -171,7 +241,9 @@ def _same(one: dict[str, str], other: dict[str, str], parameters: tuple[Paramete
     for p in parameters:
         if p.name in one and one[p.name] != other[p.name]:
             try:
-                if not np.array_equal(convert(one[p.name], p, several=True), convert(other[p.name], p, several=True)):
+                if not np.array_equal(
+                    convert(one[p.name], p, several=True), convert(other[p.name], p, several=True)
+                ):
                     return False
             except (GranumError, ValueError):
                 return False

@@ -1,4 +1,6 @@
-"""Files no one writes by hand: one message, quickly. The costs are bounded by refusing before parsing, so no time is asserted."""
+"""Files no one writes by hand: one message, quickly. The costs are bounded by refusing before parsing, so no
+time is asserted.
+"""
 
 from __future__ import annotations
 
@@ -15,14 +17,22 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.estimation import tables
 
-COLUMNS = [Parameter("time", KINDS["Time"], series="points"), Parameter("volume", KINDS["Volume"], series="points")]
+COLUMNS = [
+    Parameter("time", KINDS["Time"], series="points"),
+    Parameter("volume", KINDS["Volume"], series="points"),
+]
 
 
 @pytest.mark.parametrize(
     "text",
-    ["a = " + "[" * 20_000 + "]" * 20_000, "a = " + "{a=" * 20_000 + "1" + "}" * 20_000, ".".join("a" * 500_000) + " = 1",
-     "[" + ".".join(["'a'"] * 400_000) + "]", "a = " + "9" * 5000],
-)  # fmt: skip
+    [
+        "a = " + "[" * 20_000 + "]" * 20_000,
+        "a = " + "{a=" * 20_000 + "1" + "}" * 20_000,
+        ".".join("a" * 500_000) + " = 1",
+        "[" + ".".join(["'a'"] * 400_000) + "]",
+        "a = " + "9" * 5000,
+    ],
+)
 def test_a_case_beyond_reason_is_one_message(text: str) -> None:
     with pytest.raises(CaseError, match="not valid TOML") as found:
         parsed(text, "case.toml")

@@ -43,9 +43,9 @@ def test_a_right_case_solves_and_closes() -> None:
 
 
 def test_specification_in_a_case() -> None:
-    text = (
-        GOOD
-        + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "14400 kg/h"\nlower = 0\nupper = "95 %"\n'
+    text = GOOD + (
+        '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = '
+        '"14400 kg/h"\nlower = 0\nupper = "95 %"\n'
     )
     run = read_text(text).solve()
     assert run.found["split.side_fraction"] == pytest.approx(0.75, abs=1e-9)
@@ -81,9 +81,9 @@ def test_unconverged_names_stream_and_unit_and_keeps_the_last_iterate() -> None:
 
 
 def test_infeasible_specification_says_which() -> None:
-    text = (
-        GOOD
-        + '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "0.1 kg/h"\nlower = 0\nupper = 0.9\n'
+    text = GOOD + (
+        '[specifications.flow]\nvary = "split.side_fraction"\nso_that = "mix.mass_flow"\nequals = "0.1 '
+        'kg/h"\nlower = 0\nupper = 0.9\n'
     )
     with pytest.raises(ConvergenceError, match=r"mix\.mass_flow"):
         read_text(text).solve()
@@ -139,10 +139,18 @@ upper = {upper}
 
 
 def test_two_specifications_on_one_parameter_or_one_result_are_refused() -> None:
-    again = SECOND.format(vary="split.side_fraction", so_that="heat.temperature", equals="60 degC", lower=0.1, upper=0.9)
+    again = SECOND.format(
+        vary="split.side_fraction", so_that="heat.temperature", equals="60 degC", lower=0.1, upper=0.9
+    )
     with pytest.raises(CaseError, match=r"'circulation' and 'second' both vary 'split\.side_fraction'"):
         read_text(TWO + again)
-    twice = SECOND.format(vary="heat.temperature", so_that="mix.mass_flow", equals="3 kg/s", lower='"20 degC"', upper='"90 degC"')
+    twice = SECOND.format(
+        vary="heat.temperature",
+        so_that="mix.mass_flow",
+        equals="3 kg/s",
+        lower='"20 degC"',
+        upper='"90 degC"',
+    )
     with pytest.raises(CaseError, match="over-specified"):
         read_text(TWO + twice)
     with pytest.raises(CaseError, match="'lower' must be below 'upper'"):
@@ -150,14 +158,22 @@ def test_two_specifications_on_one_parameter_or_one_result_are_refused() -> None
 
 
 def test_two_independent_specifications_are_met() -> None:
-    more = SECOND.format(vary="heat.temperature", so_that="heat.heat_duty", equals="200 kW", lower='"26 degC"', upper='"95 degC"')
+    more = SECOND.format(
+        vary="heat.temperature",
+        so_that="heat.heat_duty",
+        equals="200 kW",
+        lower='"26 degC"',
+        upper='"95 degC"',
+    )
     run = read_text(TWO + more).solve()
     assert run.figure("mix.mass_flow") == pytest.approx(4.0, rel=1e-8)
     assert run.figure("heat.heat_duty") == pytest.approx(2e5, rel=1e-8)
 
 
 def test_specification_out_of_reach_says_what_can_be_reached() -> None:
-    with pytest.raises(ConvergenceError, match=r"out of reach: it is 1 at split.side_fraction = 0 and 10 at 0.9"):
+    with pytest.raises(
+        ConvergenceError, match=r"out of reach: it is 1 at split.side_fraction = 0 and 10 at 0.9"
+    ):
         read_text(TWO.replace('"4 kg/s"', '"40 kg/s"')).solve()
 
 

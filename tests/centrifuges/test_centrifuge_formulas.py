@@ -11,14 +11,20 @@ from granum.centrifuges.formulas import field as fi
 from granum.centrifuges.formulas import laboratory as la
 from granum.centrifuges.formulas import spinning as sp
 from granum.core.constants import STANDARD_GRAVITY as g
-from granum.particles.formulas.drag import drag_coefficient_allen, drag_coefficient_newton, drag_coefficient_stokes
+from granum.particles.formulas.drag import (
+    drag_coefficient_allen,
+    drag_coefficient_newton,
+    drag_coefficient_stokes,
+)
 from granum.particles.formulas.terminal import terminal_velocity
 
 
 def test_customary_constants_of_the_field():
     # 1.118e-5 r[cm] N², 0.011 m r N², K = (2πN/60)² D/2g
     assert fi.centrifugal_effect("10 cm", "3000 rpm") == pytest.approx(1.118e-5 * 10 * 3000**2, rel=5e-4)
-    assert fi.centrifugal_force(2.0, 0.3, "1500 rpm", 2000.0, 1e-9) == pytest.approx(0.011 * 2 * 0.3 * 1500**2, rel=5e-3)
+    assert fi.centrifugal_force(2.0, 0.3, "1500 rpm", 2000.0, 1e-9) == pytest.approx(
+        0.011 * 2 * 0.3 * 1500**2, rel=5e-3
+    )
     assert fi.centrifugal_force(1.0, 0.1, 100.0, 2500.0, 1000.0) == pytest.approx(0.6 * 1000)
     assert fi.centrifugal_force(1.0, 0.1, 100.0, 800.0, 1000.0) < 0
     w = fi.rotation_speed_for_effect(1000.0, 0.25)
@@ -34,13 +40,21 @@ def test_customary_constants_of_the_field():
 @pytest.mark.parametrize(
     ("drag", "rule"),
     [
-        (drag_coefficient_stokes, lambda v, K: fi.settling_velocity_centrifugal_stokes(v, K, 1e-6, 1000.0, 1e-3)),
+        (
+            drag_coefficient_stokes,
+            lambda v, K: fi.settling_velocity_centrifugal_stokes(v, K, 1e-6, 1000.0, 1e-3),
+        ),
         (drag_coefficient_allen, fi.settling_velocity_centrifugal_allen),
         (drag_coefficient_newton, fi.settling_velocity_centrifugal_newton),
     ],
 )
 def test_three_regimes_follow_from_their_drag_laws(drag, rule):
-    case = {"particle_diameter": 1e-4, "particle_density": 2500.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
+    case = {
+        "particle_diameter": 1e-4,
+        "particle_density": 2500.0,
+        "fluid_density": 1000.0,
+        "dynamic_viscosity": 1e-3,
+    }
     still = terminal_velocity(**case, drag=drag)
     spun = fi.settling_velocity_centrifugal(**case, radius=0.2, rotation_speed=150.0, drag=drag)
     assert rule(still, fi.centrifugal_effect(0.2, 150.0)) == pytest.approx(spun, rel=1e-8)
@@ -60,7 +74,9 @@ def test_laboratory_rotors():
     t = 300.0
     path = solve_ivp(lambda _t, r: s * 500.0**2 * r, (0, t), [0.05], rtol=1e-10)
     assert path.y[0, -1] == pytest.approx(0.05 * np.exp(s * 500.0**2 * t), rel=1e-8)
-    assert la.pelleted_fraction(s, t, 500.0, 0.05, 0.1) == pytest.approx((0.1 - 0.1 * np.exp(-s * 250000 * t)) / 0.05)
+    assert la.pelleted_fraction(s, t, 500.0, 0.05, 0.1) == pytest.approx(
+        (0.1 - 0.1 * np.exp(-s * 250000 * t)) / 0.05
+    )
     whole = la.pelleting_time(0.05, 0.1, 500.0, s)
     assert la.pelleted_fraction(s, whole * 1.0001, 500.0, 0.05, 0.1) == pytest.approx(1.0)
     # Svedberg's equation for hemoglobin: about 6.0 to 6.8e4 g/mol by its own s, D and v
@@ -74,12 +90,14 @@ def test_geankoplis_examples_of_section_14_4():
     assert sigma == pytest.approx(196.3, rel=0.002)
     d = cl.cut_size_centrifuge("0.002832 m^3/hour", sigma, 1461, 801, "100 cP", flow_multiple=2.0)
     assert d == pytest.approx(0.746e-6, rel=0.002)
-    # 14.4-2: oil 919.5 and water phase 980.3 kg/m3, overflow radii 10.160 and 10.414 mm: printed interface at 13.75 mm
+    # 14.4-2: oil 919.5 and water phase 980.3 kg/m3, overflow radii 10.160 and 10.414 mm: printed interface at
+    # 13.75 mm
     assert cl.radius_interface(10.414e-3, 10.160e-3, 980.3, 919.5) == pytest.approx(13.75e-3, rel=0.005)
 
 
 def test_scale_up_keeps_the_cut():
-    # crystals of 2 µm, 0.0104 m3/s in a bowl turning at 60 000 rpm (Brasch and Whyman, example 13.4); another machine at the same cut
+    # crystals of 2 µm, 0.0104 m3/s in a bowl turning at 60 000 rpm (Brasch and Whyman, example 13.4); another
+    # machine at the same cut
     bowl = cl.sigma_factor_tubular(0.5, "12 mm", "50.5 mm", "60000 rpm")
     mud = {"particle_density": 1455.0, "fluid_density": 998.0, "dynamic_viscosity": 1.013e-3}
     flow = cl.volume_flow_centrifuge(2e-6, bowl, **mud)
@@ -92,7 +110,9 @@ def test_scale_up_keeps_the_cut():
 def test_neutral_zone_balances_the_pressures():
     rH, rL, heavy, light, w = 0.06, 0.05, 1050.0, 900.0, 300.0
     ri = cl.radius_interface(rH, rL, heavy, light)
-    assert fi.liquid_pressure_bowl(ri, rH, w, heavy) == pytest.approx(fi.liquid_pressure_bowl(ri, rL, w, light), rel=1e-10)
+    assert fi.liquid_pressure_bowl(ri, rH, w, heavy) == pytest.approx(
+        fi.liquid_pressure_bowl(ri, rL, w, light), rel=1e-10
+    )
     assert cl.radius_heavy_dam(ri, rL, heavy, light) == pytest.approx(rH, rel=1e-12)
 
 
@@ -108,7 +128,9 @@ def test_sigma_conventions_agree_with_particle_paths():
         (cl.sigma_factor_tubular_half_thickness, (r1 + r2) / 2, 2.0),
         (cl.sigma_factor_tubular_half_area, np.sqrt((r1**2 + r2**2) / 2), 2.0),
     ):
-        found = cl.cut_size_centrifuge(Q, sigma(L, r1, r2, w), 1000 + excess, 1000.0, eta, flow_multiple=multiple)
+        found = cl.cut_size_centrifuge(
+            Q, sigma(L, r1, r2, w), 1000 + excess, 1000.0, eta, flow_multiple=multiple
+        )
         assert found == pytest.approx(critical(start), rel=1e-10)
     half = critical(np.sqrt((r1**2 + r2**2) / 2))
     vg = half**2 * excess * g / (18 * eta)
@@ -125,8 +147,15 @@ def test_sigma_conventions_agree_with_particle_paths():
     assert cl.sigma_factor_scroll(L, 0.1, 0.2, w, 0.3) > cl.sigma_factor_scroll(L, 0.1, 0.2, w)
 
 
-BASKET = {"radius_outer": 0.5, "cake_radius": 0.42, "rotation_speed": 110.0, "liquid_density": 1050.0, "dynamic_viscosity": 1.3e-3,
-          "cake_permeability": 4e-13, "medium_resistance": 3e10}  # fmt: skip
+BASKET = {
+    "radius_outer": 0.5,
+    "cake_radius": 0.42,
+    "rotation_speed": 110.0,
+    "liquid_density": 1050.0,
+    "dynamic_viscosity": 1.3e-3,
+    "cake_permeability": 4e-13,
+    "medium_resistance": 3e10,
+}
 
 
 def test_basket_flow_loading_and_spin_off():
@@ -136,7 +165,12 @@ def test_basket_flow_loading_and_spin_off():
     ro, rc = 0.5, 0.42
     volume = np.pi * (ro**2 - rc**2) * h
     log_mean, mean = 2 * np.pi * h * (ro - rc) / np.log(ro / rc), np.pi * h * (ro + rc)
-    by_mccabe = 1050 * 110**2 * (ro**2 - ri**2) / (2 * 1.3e-3 * (volume / 4e-13 / (log_mean * mean) + 3e10 / (2 * np.pi * ro * h)))
+    by_mccabe = (
+        1050
+        * 110**2
+        * (ro**2 - ri**2)
+        / (2 * 1.3e-3 * (volume / 4e-13 / (log_mean * mean) + 3e10 / (2 * np.pi * ro * h)))
+    )
     assert pytest.approx(by_mccabe, rel=1e-12) == Q
     critical = sp.filtrate_flow_critical(basket_height=h, **BASKET)
     faster = sp.filtrate_flow_critical(basket_height=h, **{**BASKET, "rotation_speed": 220.0})
@@ -146,7 +180,9 @@ def test_basket_flow_loading_and_spin_off():
     v = 0.12
 
     def grow(_t, y):
-        flow = sp.filtrate_flow_basket(basket_height=h, radius_inner=ri, **{**BASKET, "cake_radius": float(np.sqrt(y[0]))})
+        flow = sp.filtrate_flow_basket(
+            basket_height=h, radius_inner=ri, **{**BASKET, "cake_radius": float(np.sqrt(y[0]))}
+        )
         return [-v * flow / (np.pi * h)]
 
     t = sp.loading_time_basket(radius_inner=ri, cake_volume_per_filtrate=v, **BASKET)
@@ -154,7 +190,10 @@ def test_basket_flow_loading_and_spin_off():
     assert np.sqrt(out.y[0, -1]) == pytest.approx(rc, rel=1e-6)
 
     def fall(_t, y):
-        return [sp.filtrate_flow_basket(basket_height=h, radius_inner=float(np.sqrt(y[0])), **BASKET) / (np.pi * h)]
+        return [
+            sp.filtrate_flow_basket(basket_height=h, radius_inner=float(np.sqrt(y[0])), **BASKET)
+            / (np.pi * h)
+        ]
 
     shallow = 0.41  # short of the cake, into which trial steps of the integration would reach
     t = sp.spin_off_time(radius_inner=ri, **BASKET) - sp.spin_off_time(radius_inner=shallow, **BASKET)
@@ -164,18 +203,23 @@ def test_basket_flow_loading_and_spin_off():
 
 def test_drainage_by_hand_and_limits():
     # 200 µm, ε = 0.4, r = 0.4 m, 130 rad/s, 1100 kg/m3, 0.072 N/m: N_cap = 0.7344
-    assert sp.irreducible_saturation_spinning(2e-4, 0.4, 0.4, 130.0, 1100.0, 0.072) == pytest.approx(0.0139 * 0.734420**-0.86, rel=1e-5)
+    assert sp.irreducible_saturation_spinning(2e-4, 0.4, 0.4, 130.0, 1100.0, 0.072) == pytest.approx(
+        0.0139 * 0.734420**-0.86, rel=1e-5
+    )
     t = np.geomspace(1e-4, 1e4, 50)
     S = np.asarray(sp.cake_saturation_spinning(t, 2e-4, 0.4, 0.05, 0.4, 130.0, 1100.0, 1e-3, 0.1))
     assert S[0] == 1.0
     assert np.all(np.diff(S) <= 0)
     assert S[-1] == pytest.approx(0.1, abs=0.01)
     assert cl.hoop_stress_bowl(0.3, 0.01, 300.0, 0.0) == pytest.approx(7850 * 90**2)
-    assert cl.sigma_factor_bottle(1e-4, 0.08, 0.12, 300.0) == pytest.approx(1e-4 * 9e4 / (2 * g * np.log(1.2)))
+    assert cl.sigma_factor_bottle(1e-4, 0.08, 0.12, 300.0) == pytest.approx(
+        1e-4 * 9e4 / (2 * g * np.log(1.2))
+    )
 
 
 def test_contact_liquid_by_hand():
-    # d_h = 2·0.42·2e-4/(3·0.58) = 9.655e-5 m, field 1050·167.5²·0.23 = 6.7756e6, N_c = 0.877, rise 4·0.072/(6.7756e6·9.655e-5·0.04)
+    # d_h = 2·0.42·2e-4/(3·0.58) = 9.655e-5 m, field 1050·167.5²·0.23 = 6.7756e6, N_c = 0.877, rise
+    # 4·0.072/(6.7756e6·9.655e-5·0.04)
     S = sp.irreducible_saturation_leung(2e-4, 0.42, 0.04, 0.23, 167.5, 1050.0, 0.072)
     rise = 0.288 / (6.77559e6 * 9.6552e-5 * 0.04)
     assert pytest.approx(rise + 0.075 * (1 - rise), rel=1e-4) == S

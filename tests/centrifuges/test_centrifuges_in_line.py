@@ -1,4 +1,6 @@
-"""Centrifuges as equipment: closed balances, cut sizes that mean what they say, a peeler's cycle by hand, gradients."""
+"""Centrifuges as equipment: closed balances, cut sizes that mean what they say, a peeler's cycle by hand,
+gradients.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,12 @@ import numpy as np
 import pytest
 
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
-from granum.centrifuges.equipment.screens import ScrollScreen, SlidingCakeScreen, TumblingScreen, VibratingScreen
+from granum.centrifuges.equipment.screens import (
+    ScrollScreen,
+    SlidingCakeScreen,
+    TumblingScreen,
+    VibratingScreen,
+)
 from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
 from granum.centrifuges.formulas import conveying
 from granum.core.constants import ZERO_CELSIUS
@@ -19,7 +26,10 @@ from granum.streams.stream import Stream
 EDGES = tuple(np.geomspace(1e-7, 1e-3, 41))
 M = Mixture(
     solids=(Species("salt crystal", (("salt", 1.0),), (2100.0,), (900.0,)),),
-    liquids=(Species("water", (("water", 1.0),), (1000.0,), (4186.0,)), Species("salt", (("salt", 1.0),), (1900.0,), (900.0,))),
+    liquids=(
+        Species("water", (("water", 1.0),), (1000.0,), (4186.0,)),
+        Species("salt", (("salt", 1.0),), (1900.0,), (900.0,)),
+    ),
     gases=(Species("air", (("air", 1.0),), heat_capacity=(1005.0,), molar_mass=0.029),),
     size_edges=EDGES,
     liquid_viscosity=lambda fractions, temperature: 1.2e-3,
@@ -28,21 +38,47 @@ M = Mixture(
 
 def stream(solid=0.0, water=0.0, salt=0.0, median=2e-4, temperature=ZERO_CELSIUS + 30):
     shares = np.exp(-0.5 * (np.log(M.sizes / median) / 0.5) ** 2)
-    return Stream(solid * jnp.asarray(shares / shares.sum())[None], jnp.array([water, salt]), jnp.zeros(1), jnp.asarray(temperature),
-                  jnp.asarray(1e5), M)  # fmt: skip
+    return Stream(
+        solid * jnp.asarray(shares / shares.sum())[None],
+        jnp.array([water, salt]),
+        jnp.zeros(1),
+        jnp.asarray(temperature),
+        jnp.asarray(1e5),
+        M,
+    )
 
 
 SETTLING = {
     "tubular": TubularBowl(radius_inner=0.02, radius_outer=0.06, rotation_speed="15000 rpm", bowl_length=0.7),
-    "discs": DiscStack(radius_inner=0.05, radius_outer=0.15, rotation_speed="7000 rpm", disc_number=80, disc_angle="40 degree"),
-    "decanter": ScrollDecanter(radius_inner=0.12, radius_outer=0.18, rotation_speed="3000 rpm", bowl_length=0.8, beach_length=0.2),
+    "discs": DiscStack(
+        radius_inner=0.05,
+        radius_outer=0.15,
+        rotation_speed="7000 rpm",
+        disc_number=80,
+        disc_angle="40 degree",
+    ),
+    "decanter": ScrollDecanter(
+        radius_inner=0.12, radius_outer=0.18, rotation_speed="3000 rpm", bowl_length=0.8, beach_length=0.2
+    ),
     "basket": SolidBasket(radius_inner=0.45, radius_outer=0.6, rotation_speed="1200 rpm", bowl_length=0.6),
 }
 COMMON = {"cake_resistance": 3e8, "void_fraction": 0.42}
 FILTERING = {
-    "peeler": Peeler(radius_outer=0.6, cake_radius=0.5, radius_inner=0.47, rotation_speed="1000 rpm", basket_height=0.6, **COMMON),
+    "peeler": Peeler(
+        radius_outer=0.6,
+        cake_radius=0.5,
+        radius_inner=0.47,
+        rotation_speed="1000 rpm",
+        basket_height=0.6,
+        **COMMON,
+    ),
     "scroll_screen": ScrollScreen(
-        radius_outer=0.25, rotation_speed="1600 rpm", basket_length=0.4, scroll_pitch=0.08, differential_speed="25 rpm", **COMMON
+        radius_outer=0.25,
+        rotation_speed="1600 rpm",
+        basket_length=0.4,
+        scroll_pitch=0.08,
+        differential_speed="25 rpm",
+        **COMMON,
     ),
     "sliding_screen": SlidingCakeScreen(
         radius_outer=0.25,
@@ -53,7 +89,9 @@ FILTERING = {
         stay_time=8.0,
         **COMMON,
     ),
-    "pusher": Pusher(radius_outer=0.25, cake_radius=0.21, rotation_speed="1600 rpm", basket_length=0.4, **COMMON),
+    "pusher": Pusher(
+        radius_outer=0.25, cake_radius=0.21, rotation_speed="1600 rpm", basket_length=0.4, **COMMON
+    ),
 }
 
 
@@ -137,22 +175,37 @@ def test_thin_cake_of_a_scroll_screen_by_hand():
     assert np.pi * (0.25**2 - inner**2) * 0.4 == pytest.approx(held, rel=1e-9)
     # twice the feed, twice the cake; a faster basket leaves it drier
     double = stream(1.0, 1.2, 0.4)
-    assert 0.25**2 - float(unit.inner_radius(double)) ** 2 == pytest.approx(2 * (0.25**2 - inner**2), rel=1e-9)
+    assert 0.25**2 - float(unit.inner_radius(double)) ** 2 == pytest.approx(
+        2 * (0.25**2 - inner**2), rel=1e-9
+    )
     fast = ScrollScreen(
-        radius_outer=0.25, rotation_speed="2400 rpm", basket_length=0.4, scroll_pitch=0.08, differential_speed="25 rpm", **COMMON
+        radius_outer=0.25,
+        rotation_speed="2400 rpm",
+        basket_length=0.4,
+        scroll_pitch=0.08,
+        differential_speed="25 rpm",
+        **COMMON,
     )
     assert float(fast(feed).cake.moisture_dry_basis) < float(unit(feed).cake.moisture_dry_basis)
 
 
 def test_what_moves_a_cake_over_a_cone():
-    # resultant of ω²r and the shake at the edge of the friction cone, by components along and across a wall of 13°
+    # resultant of ω²r and the shake at the edge of the friction cone, by components along and across a wall
+    # of 13°
     g, f, w, r = np.radians(13.0), np.radians(25.0), 300 * np.pi / 30, 0.5
     a = conveying.vibration_acceleration_least(w, r, g, f)
     along, across = w**2 * r * np.sin(g) + a * np.cos(g), w**2 * r * np.cos(g) - a * np.sin(g)
     assert along / across == pytest.approx(np.tan(f), rel=1e-12)
     assert conveying.vibration_acceleration_least(w, r, f, g) == 0.0
     coal = stream(5.0, 1.5, 0.0, median=3e-3)
-    cone = {"radius_outer": r, "rotation_speed": w, "basket_length": 0.6, "cone_angle": g, "friction_angle": f, **COMMON}
+    cone = {
+        "radius_outer": r,
+        "rotation_speed": w,
+        "basket_length": 0.6,
+        "cone_angle": g,
+        "friction_angle": f,
+        **COMMON,
+    }
     shaken = VibratingScreen(vibration_acceleration=1.2 * a, **cone)
     weak = VibratingScreen(vibration_acceleration=0.8 * a, **cone)
     tumbled = TumblingScreen(tumbling_angle="13 degree", **cone)

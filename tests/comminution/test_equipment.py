@@ -50,10 +50,13 @@ def test_every_machine_closes_its_balances(feed) -> None:
     deck, fine, finest = (LogisticPartition(d, 4.0) for d in (1.2e-3, 6e-4, 2e-4))
     breakage = AustinBreakage(0.5, 0.8, 4.0)
     for unit in (
-        Screen(deck, 0.1), DoubleDeckScreen(deck, fine, 0.1), TripleDeckScreen(deck, fine, finest, 0.05),
-        BallMill(AustinSelection(0.01, 0.9), breakage, 1600.0, shaft_power=1.5e5), BondMill(5e4, 5e4),
+        Screen(deck, 0.1),
+        DoubleDeckScreen(deck, fine, 0.1),
+        TripleDeckScreen(deck, fine, finest, 0.05),
+        BallMill(AustinSelection(0.01, 0.9), breakage, 1600.0, shaft_power=1.5e5),
+        BondMill(5e4, 5e4),
         ConeCrusher(5e-4, 2e-3, breakage, shaft_power=1e4),
-    ):  # fmt: skip
+    ):
         assert_closed(unit, feed)
 
 
@@ -99,7 +102,9 @@ def test_bond_mill_reaches_the_size_it_was_sized_for(feed) -> None:
     figures = unit.operate(feed=feed).figures
     # 80 % size of the product up to the width of a root-two class
     assert float(figures.product_size) == pytest.approx(0.4 * f80, rel=0.05)
-    assert float(figures.specific_energy) == pytest.approx(4.2e4 * (np.sqrt(1e-4 / (0.4 * f80)) - np.sqrt(1e-4 / f80)), rel=1e-9)
+    assert float(figures.specific_energy) == pytest.approx(
+        4.2e4 * (np.sqrt(1e-4 / (0.4 * f80)) - np.sqrt(1e-4 / f80)), rel=1e-9
+    )
     np.testing.assert_allclose(BondMill(0.0, 4.2e4)(feed).product.solid, feed.solid, atol=1e-12)
 
 
@@ -127,9 +132,12 @@ def test_closed_circuit_equals_an_independent_calculation(run) -> None:
             cumulative.append(0.5 * y**0.8 + 0.5 * y**4.0)
         a[:j, j] += rate[j] * np.diff(cumulative)
     nodes, weights = np.polynomial.legendre.leggauss(40)
-    stays = np.array([
-        0.5 * np.sum(weights * (1 - 2.0 ** -((0.5 * (u + l) + 0.5 * (u - l) * nodes) / 300e-6) ** 4.0)) for l, u in pairwise(edges)
-    ])  # fmt: skip
+    stays = np.array(
+        [
+            0.5 * np.sum(weights * (1 - 2.0 ** -(((0.5 * (u + l) + 0.5 * (u - l) * nodes) / 300e-6) ** 4.0)))
+            for l, u in pairwise(edges)
+        ]
+    )
     load = np.zeros(n)
     for _ in range(400):
         into = fresh + load
@@ -141,7 +149,9 @@ def test_closed_circuit_equals_an_independent_calculation(run) -> None:
 
 
 def test_circulating_load_does_not_depend_on_the_classes() -> None:
-    """Laws of single sizes: the load of the example with 3 t converges with the square of the class width, whatever the classes."""
+    """Laws of single sizes: the load of the example with 3 t converges with the square of the class width,
+    whatever the classes.
+    """
 
     def load(classes: int) -> float:
         edges = np.geomspace(8e-6, 4.096e-3, classes + 1)

@@ -10,7 +10,12 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from granum.comminution import population
-from granum.comminution.breakage import AustinBreakage, AustinSelection, BroadbentCallcottBreakage, WhitenClassification
+from granum.comminution.breakage import (
+    AustinBreakage,
+    AustinSelection,
+    BroadbentCallcottBreakage,
+    WhitenClassification,
+)
 from granum.comminution.lab_tests.batch_grinding import BatchGrinding
 from granum.comminution.lab_tests.grinding_kinetics import GrindingKinetics
 from granum.comminution.lab_tests.partition_test import PartitionTest
@@ -51,7 +56,8 @@ def test_matrix_exponential_equals_reids_solution() -> None:
 
 
 def test_two_classes_against_the_solution_on_paper() -> None:
-    # Austin's convention: all fragments of the second class fall into the first; of the third, B(y) = y² with y = 1/√2, so half each
+    # Austin's convention: all fragments of the second class fall into the first; of the third, B(y) = y² with
+    # y = 1/√2, so half each
     edges = 1e-3 * np.array([0.0, 1.0, np.sqrt(2.0), 2.0])
     a = population.rate_matrix(edges, AustinSelection(0.1, 2.0), AustinBreakage(1.0, 2.0, 4.0), "root_two")
     s2, s3, t = 0.2, 0.4, 3.0
@@ -62,16 +68,25 @@ def test_two_classes_against_the_solution_on_paper() -> None:
 
 @pytest.mark.parametrize("edges", [[0.0, 0.3, 0.5, 0.55, 1.3, 2.0, 7.0], [0.1, 0.4, 4.0]])
 def test_power_laws_are_exact_at_every_limit_of_any_grid(edges: list[float]) -> None:
-    """With S = k x^a and B = (x/y)^a the oversize obeys dR/dt = -k x^a R (Kapur): R(x, t) = R(x, 0) exp(-k x^a t)."""
+    """With S = k x^a and B = (x/y)^a the oversize obeys dR/dt = -k x^a R (Kapur): R(x, t) = R(x, 0) exp(-k
+    x^a t).
+    """
     limits, feed, k, a, t = 1e-3 * np.array(edges), np.linspace(1.0, 3.0, len(edges) - 1), 0.004, 1.3, 150.0
-    mass = population.batch_operator(population.rate_matrix(limits, AustinSelection(k, a), AustinBreakage(1.0, a, 4.0)), t) @ feed
+    mass = (
+        population.batch_operator(
+            population.rate_matrix(limits, AustinSelection(k, a), AustinBreakage(1.0, a, 4.0)), t
+        )
+        @ feed
+    )
     over = np.cumsum(feed[::-1])[::-1]
     over[1:] *= np.exp(-k * np.array(edges[1:-1]) ** a * t)
     np.testing.assert_allclose(np.cumsum(np.asarray(mass)[::-1])[::-1], over, rtol=1e-11)
 
 
 def test_batch_converges_with_the_square_of_the_class_width_to_the_continuous_solution() -> None:
-    """1 to 1.41 mm for 5 min, share below 0.3 mm: against the continuous equation integrated by SciPy on 240 fine classes."""
+    """1 to 1.41 mm for 5 min, share below 0.3 mm: against the continuous equation integrated by SciPy on
+    240 fine classes.
+    """
 
     def share(below_top: int, split: int) -> float:
         limits = 3e-4 * (10.0 / 3.0 * np.sqrt(2.0)) ** (np.arange(-below_top, split + 1) / split)
@@ -86,13 +101,19 @@ def test_batch_converges_with_the_square_of_the_class_width_to_the_continuous_so
     x = 3e-4 * np.exp((np.arange(n) + 0.5) * step)  # what is finer than 0.3 mm does not come back
     rate = 0.01 * (x / 1e-3) ** 0.9
     upper, lower = np.exp(step / 2), np.exp(-step / 2)
-    cumulative = lambda y: np.where(y >= 1.0, 1.0, 0.5 * np.minimum(y, 1.0) ** 0.8 + 0.5 * np.minimum(y, 1.0) ** 4.0)  # noqa: E731
+    cumulative = lambda y: np.where(  # noqa: E731
+        y >= 1.0, 1.0, 0.5 * np.minimum(y, 1.0) ** 0.8 + 0.5 * np.minimum(y, 1.0) ** 4.0
+    )
     ratio = x[:, None] / x[None, :]
     gain = np.triu(cumulative(ratio * upper) - cumulative(ratio * lower)) * rate
     start = np.clip(np.log(x * upper / 1e-3) / step, 0.0, 1.0)
-    path = solve_ivp(lambda _t, m: gain @ m - rate * m, (0.0, 300.0), start / start.sum(), rtol=1e-9, atol=1e-14)
+    path = solve_ivp(
+        lambda _t, m: gain @ m - rate * m, (0.0, 300.0), start / start.sum(), rtol=1e-9, atol=1e-14
+    )
     expected = 1.0 - path.y[:, -1].sum()
-    assert expected == pytest.approx(0.463, abs=5e-4)  # the figure of an independent solution of the same equation
+    assert expected == pytest.approx(
+        0.463, abs=5e-4
+    )  # the figure of an independent solution of the same equation
     errors = [share(2 * k, 4 * k) - expected for k in (1, 2, 4)]
     assert abs(errors[0]) < 0.02
     assert 3.0 < errors[0] / errors[1] < 5.5
@@ -104,7 +125,9 @@ def test_tanks_in_series_run_from_the_mixed_mill_to_plug_flow() -> None:
     plug = population.PlugFlow().operator(matrix(), tau)
     one = population.TanksInSeries(1).operator(matrix(), tau)
     assert float(one[-1, -1]) == pytest.approx(1.0 / (1.0 + float(SELECTION(EDGES[-1])) * tau), rel=1e-12)
-    far = [float(abs(population.TanksInSeries(n).operator(matrix(), tau) - plug).max()) for n in (1, 4, 16, 64)]
+    far = [
+        float(abs(population.TanksInSeries(n).operator(matrix(), tau) - plug).max()) for n in (1, 4, 16, 64)
+    ]
     assert far[0] > far[1] > far[2] > far[3]
     assert far[3] < 0.01
     for law in (population.PlugFlow(), population.TanksInSeries(3), population.LargeAndTwoSmall()):
@@ -117,21 +140,31 @@ def test_tanks_in_series_run_from_the_mixed_mill_to_plug_flow() -> None:
 
 def test_washout_curves_have_the_mean_residence_time() -> None:
     tau, t = 100.0, np.linspace(0.0, 4000.0, 400_001)
-    for law in (population.TanksInSeries(1), population.TanksInSeries(4), population.LargeAndTwoSmall(0.7), population.PlugFlow()):
+    for law in (
+        population.TanksInSeries(1),
+        population.TanksInSeries(4),
+        population.LargeAndTwoSmall(0.7),
+        population.PlugFlow(),
+    ):
         w = np.asarray(law(tau, t))
         assert w[0] == pytest.approx(1.0)
         assert float(np.trapezoid(w, t)) == pytest.approx(tau, rel=1e-3)
         # linear kinetics of one class: the operator is the Laplace transform of the residence times
         k = 0.02
         a = jnp.array([[0.0, k], [0.0, -k]])
-        assert float(law.operator(a, tau)[1, 1]) == pytest.approx(1.0 - k * float(np.trapezoid(w * np.exp(-k * t), t)), rel=1e-3)
+        assert float(law.operator(a, tau)[1, 1]) == pytest.approx(
+            1.0 - k * float(np.trapezoid(w * np.exp(-k * t), t)), rel=1e-3
+        )
 
 
 def test_falloff_halves_the_rate_and_gradients_are_finite() -> None:
     law = AustinSelection(0.01, 1.0, falloff_size=5e-3, falloff_exponent=3.0)
     assert float(law(5e-3)) == pytest.approx(0.5 * 0.01 * 5.0)
     slope = jax.grad(
-        lambda s: (population.batch_operator(population.rate_matrix(EDGES, AustinSelection(s, 0.9), BREAKAGE), 60.0) @ FEED)[3]
+        lambda s: (
+            population.batch_operator(population.rate_matrix(EDGES, AustinSelection(s, 0.9), BREAKAGE), 60.0)
+            @ FEED
+        )[3]
     )(0.01)
     assert np.isfinite(slope)
     assert slope > 0
@@ -176,15 +209,25 @@ def test_grinding_kinetics_find_the_functions_that_made_noisy_data() -> None:
     # the data come from Reid's closed solution, the fit from the matrix exponential
     curves = np.array([np.cumsum(np.asarray(population.reid_solution(a, feed, t))) for t in times])
     rng = np.random.default_rng(2)
-    noisy = np.clip(curves + rng.normal(0.0, 0.002, curves.shape) * (curves > 1e-6) * (curves < 1 - 1e-6), 0.0, 1.0)
+    noisy = np.clip(
+        curves + rng.normal(0.0, 0.002, curves.shape) * (curves > 1e-6) * (curves < 1 - 1e-6), 0.0, 1.0
+    )
     noisy = np.maximum.accumulate(noisy, axis=1)
     rows = [np.repeat(times, 12), np.tile(sizes, 4)]
-    truth = {"selection_rate": 0.01, "selection_exponent": 0.9, "fines_share": 0.55, "fines_exponent": 0.75, "coarse_exponent": 4.2}
+    truth = {
+        "selection_rate": 0.01,
+        "selection_exponent": 0.9,
+        "fines_share": 0.55,
+        "fines_exponent": 0.75,
+        "coarse_exponent": 4.2,
+    }
     fit = GrindingKinetics(*rows, noisy.ravel(), breakage_convention="root_two").fit()
     for name, value in truth.items():
         assert abs(fit[name].value - value) < 4.0 * fit[name].standard_error
     assert len(GrindingKinetics(*rows, noisy.ravel()).chart().data) == 8
-    single = GrindingKinetics(*rows, noisy.ravel()).fit()  # as laws of single sizes: faster, and fragments closer to their parent
+    single = GrindingKinetics(
+        *rows, noisy.ravel()
+    ).fit()  # as laws of single sizes: faster, and fragments closer to their parent
     assert single["selection_rate"].value > 1.2 * fit["selection_rate"].value
     keep = rows[1] != sizes[4]
     gap = GrindingKinetics(*(r[keep] for r in rows), noisy.ravel()[keep], breakage_convention="root_two")

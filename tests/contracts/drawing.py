@@ -19,9 +19,13 @@ from granum.core.parameters import Parameter
 from granum.core.results import Result
 
 # GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
-EVERYTHING = registry.everything(tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS)
+EVERYTHING = registry.everything(
+    tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS
+)
 FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
-ELEMENTWISE = {k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))}
+ELEMENTWISE = {
+    k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))
+}
 SETS = int(os.environ.get("GRANUM_RANDOM_SETS", "1000"))
 """Sets of random inputs a card; the long run gives 1000000."""
 BLOCK = 10_000  # of them in one array
@@ -35,10 +39,14 @@ def drawn(parameters: Iterable[Parameter]) -> list[Parameter]:
 
 
 def ordinary(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
-    """Values from the ordinary range: log-uniform where it is positive and spans more than a factor of three."""
+    """Values from the ordinary range: log-uniform where it is positive and spans more than a factor of
+    three.
+    """
     low, high = p.ordinary()
     u = rng.uniform(0.02, 0.98, count)
-    return np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
+    return (
+        np.exp(np.log(low) + u * np.log(high / low)) if low > 0 and high / low > 3 else low + u * (high - low)
+    )
 
 
 def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
@@ -48,7 +56,9 @@ def draw(f: Formula, count: int, seed: int = 0) -> dict[str, np.ndarray]:
 
 
 def quickly(f: Formula, inputs: Mapping[str, np.ndarray]) -> AbstractContextManager[object]:
-    """Step by step where the formula has no loop, since compiling it takes longer than running it; its example runs compiled anyway."""
+    """Step by step where the formula has no loop, since compiling it takes longer than running it; its
+    example runs compiled anyway.
+    """
     program = str(jax.make_jaxpr(lambda kw: f(**kw))({n: jnp.asarray(v[0]) for n, v in inputs.items()}))
     return nullcontext() if "while[" in program or "scan[" in program else jax.disable_jit()
 
@@ -61,7 +71,9 @@ def wide(p: Parameter, rng: np.random.Generator, count: int) -> np.ndarray:
     scale = max(map(abs, p.ordinary())) * 10.0 ** rng.uniform(-DECADES, DECADES, count)
     if np.isfinite(low) and np.isfinite(high):
         near = (high - low) * 10.0 ** rng.uniform(-DECADES, 0.0, count)
-        return np.where(rng.random(count) < 0.5, low + near, high - near).clip(np.nextafter(low, high), np.nextafter(high, low))
+        return np.where(rng.random(count) < 0.5, low + near, high - near).clip(
+            np.nextafter(low, high), np.nextafter(high, low)
+        )
     if np.isfinite(low):
         return low + np.maximum(scale, abs(low) * 1e-15)
     if np.isfinite(high):
@@ -81,7 +93,9 @@ def random_inputs(parameters: Iterable[Parameter], count: int, seed: int) -> dic
 
 
 def rows(parameters: Iterable[Parameter], count: int, seed: int) -> dict[str, np.ndarray]:
-    """A row of values for each series: shares that add up to one; all rising, all falling or as they come; edges one more than classes."""
+    """A row of values for each series: shares that add up to one; all rising, all falling or as they come;
+    edges one more than classes.
+    """
     rng = np.random.default_rng(seed)
     order, shared, far = rng.integers(3), rng.random() < 0.8, rng.random() < 0.3
     found = {}
@@ -97,7 +111,9 @@ def rows(parameters: Iterable[Parameter], count: int, seed: int) -> dict[str, np
 
 
 def wrong(result: Result, inputs: Mapping[str, Any]) -> list[str]:
-    """What is wrong in an answer: a number outside its own bounds, an infinite one, or none without a flag."""
+    """What is wrong in an answer: a number outside its own bounds, an infinite one, or none without a
+    flag.
+    """
     return amiss(result.card, result.value, result.flags, inputs)
 
 
@@ -107,7 +123,9 @@ def amiss(card: Card, answer: Any, bits: np.ndarray, inputs: Mapping[str, Any]) 
     for p, value in figures(card.outputs, answer):
         array = np.asarray(value, dtype=float)
         low, high = limits(p)
-        flags = np.broadcast_to(bits, array.shape) if bits.shape in ((), array.shape) else np.asarray(bits.any())
+        flags = (
+            np.broadcast_to(bits, array.shape) if bits.shape in ((), array.shape) else np.asarray(bits.any())
+        )
         for word, bad in (
             ("outside its bounds", (array < low) | (array > high)),
             ("infinite", np.isinf(array)),
@@ -116,5 +134,8 @@ def amiss(card: Card, answer: Any, bits: np.ndarray, inputs: Mapping[str, Any]) 
             if bad.any():
                 at = int(np.argmax(bad.ravel()))
                 given = {n: float(np.ravel(v)[at]) for n, v in inputs.items() if np.size(v) == array.size}
-                found.append(f"{card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} at {given}")
+                found.append(
+                    f"{card.key}: {p.name} {word} {int(bad.sum())} times, first {array.ravel()[at]} "
+                    f"at {given}"
+                )
     return found

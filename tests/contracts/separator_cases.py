@@ -11,7 +11,13 @@ from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.fluidization.equipment.bed import FluidizedBed
 from granum.fluidization.equipment.liquid import LiquidFluidizedBed
 from granum.settling.equipment.api_separator import ApiSeparator
-from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier, GritChamber, Lamella, RectangularClarifier
+from granum.settling.equipment.clarifiers import (
+    CircularClarifier,
+    Clarifier,
+    GritChamber,
+    Lamella,
+    RectangularClarifier,
+)
 from granum.settling.equipment.thickener import Thickener
 from granum.settling.velocities import Vesilind
 from granum.streams.mixture import Mixture, Species
@@ -50,30 +56,92 @@ def dusty(x, mean, spread) -> Stream:
     gas, dust = 10.0 ** (-1.0 + 2.5 * x[0]), 10.0 ** (-3.0 + 3.5 * x[1])
     parts = jnp.exp(-0.5 * ((jnp.linspace(0.0, 1.0, CLASSES) - mean) / (0.02 + spread)) ** 2) + 1e-12
     return empty(DUST, 280.0 + 300.0 * x[2]).replace(
-        solid=gas * dust * (parts / jnp.sum(parts))[None, :], gas=jnp.stack([gas]), pressure=jnp.asarray(1.0e5) + 2e5 * x[3]
+        solid=gas * dust * (parts / jnp.sum(parts))[None, :],
+        gas=jnp.stack([gas]),
+        pressure=jnp.asarray(1.0e5) + 2e5 * x[3],
     )
 
 
-# each from a random stream and three numbers from 0 to 1; the section follows the flow over two or three decades of loading
+# each from a random stream and three numbers from 0 to 1; the section follows the flow over two or three
+# decades of loading
 UNITS = {
-    "clarifier": (slurry, lambda f, a, b, c: Clarifier(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b)),
-    "circular": (slurry, lambda f, a, b, c: CircularClarifier(jnp.sqrt(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), 2.0 + 3.0 * c, 20.0 + 300.0 * b)),
-    "rectangular": (slurry, lambda f, a, b, c: RectangularClarifier(
-        jnp.sqrt(5.0 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), jnp.sqrt(0.2 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), 2.0 + 3.0 * c,
-        20.0 + 300.0 * b)),
+    "clarifier": (
+        slurry,
+        lambda f, a, b, c: Clarifier(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b),
+    ),
+    "circular": (
+        slurry,
+        lambda f, a, b, c: CircularClarifier(
+            jnp.sqrt(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)), 2.0 + 3.0 * c, 20.0 + 300.0 * b
+        ),
+    ),
+    "rectangular": (
+        slurry,
+        lambda f, a, b, c: RectangularClarifier(
+            jnp.sqrt(5.0 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)),
+            jnp.sqrt(0.2 * f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a)),
+            2.0 + 3.0 * c,
+            20.0 + 300.0 * b,
+        ),
+    ),
     **{
-        f"lamella {way}": (slurry, lambda f, a, b, c, way=way: Lamella(
-            f.slurry_volume_flow / 10.0 ** (-4.0 + 2.0 * a), 1.0 + 2.0 * b, 1.25, 0.03 + 0.07 * c, 20.0 + 300.0 * b, 0.8 + 0.5 * c, flow_direction=way))
+        f"lamella {way}": (
+            slurry,
+            lambda f, a, b, c, way=way: Lamella(
+                f.slurry_volume_flow / 10.0 ** (-4.0 + 2.0 * a),
+                1.0 + 2.0 * b,
+                1.25,
+                0.03 + 0.07 * c,
+                20.0 + 300.0 * b,
+                0.8 + 0.5 * c,
+                flow_direction=way,
+            ),
+        )
         for way in ("countercurrent", "cocurrent", "crosscurrent")
     },
-    "grit": (slurry, lambda f, a, b, c: GritChamber(5.0 + 20.0 * a, 0.5 + 2.0 * b, f.slurry_volume_flow / (0.05 + 0.5 * c), 200.0 + 500.0 * a)),
-    "thickener": (slurry, lambda f, a, b, c: Thickener(f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b, Vesilind(1e-3, 0.01 + 0.1 * c))),
-    "api": (slurry, lambda f, a, b, c: ApiSeparator(10.0 + 30.0 * a, 2.0 + 4.0 * b, f.slurry_volume_flow / 10.0 ** (-2.5 + c))),
-    "hydrocyclone": (slurry, lambda f, a, b, c: Hydrocyclone(0.05 + 0.4 * a, (0.05 + 0.4 * a) * (0.06 + 0.24 * b), jnp.maximum(f.slurry_volume_flow / (0.05 + 0.4 * a) ** 2 / (1.0 + 2.0 * c), 1.0))),
+    "grit": (
+        slurry,
+        lambda f, a, b, c: GritChamber(
+            5.0 + 20.0 * a, 0.5 + 2.0 * b, f.slurry_volume_flow / (0.05 + 0.5 * c), 200.0 + 500.0 * a
+        ),
+    ),
+    "thickener": (
+        slurry,
+        lambda f, a, b, c: Thickener(
+            f.slurry_volume_flow / 10.0 ** (-4.5 + 2.5 * a), 20.0 + 300.0 * b, Vesilind(1e-3, 0.01 + 0.1 * c)
+        ),
+    ),
+    "api": (
+        slurry,
+        lambda f, a, b, c: ApiSeparator(
+            10.0 + 30.0 * a, 2.0 + 4.0 * b, f.slurry_volume_flow / 10.0 ** (-2.5 + c)
+        ),
+    ),
+    "hydrocyclone": (
+        slurry,
+        lambda f, a, b, c: Hydrocyclone(
+            0.05 + 0.4 * a,
+            (0.05 + 0.4 * a) * (0.06 + 0.24 * b),
+            jnp.maximum(f.slurry_volume_flow / (0.05 + 0.4 * a) ** 2 / (1.0 + 2.0 * c), 1.0),
+        ),
+    ),
     "gas cyclone": (dusty, lambda f, a, b, c: GasCyclone(jnp.sqrt(f.gas_volume_flow / (0.5 + 2.0 * a)))),
-    "fluidized bed": (dusty, lambda f, a, b, c: FluidizedBed(f.gas_volume_flow / 10.0 ** (-3.0 + 3.5 * a), 10.0 ** (1.0 + 3.0 * b), 0.4 + 0.15 * c)),
-    "liquid bed": (slurry, lambda f, a, b, c: LiquidFluidizedBed(f.slurry_volume_flow / 10.0 ** (-4.0 + 3.0 * a), 10.0 ** (4.0 * b), 10.0 ** (-4.0 + 1.5 * c), 2500.0)),
-}  # fmt: skip
+    "fluidized bed": (
+        dusty,
+        lambda f, a, b, c: FluidizedBed(
+            f.gas_volume_flow / 10.0 ** (-3.0 + 3.5 * a), 10.0 ** (1.0 + 3.0 * b), 0.4 + 0.15 * c
+        ),
+    ),
+    "liquid bed": (
+        slurry,
+        lambda f, a, b, c: LiquidFluidizedBed(
+            f.slurry_volume_flow / 10.0 ** (-4.0 + 3.0 * a),
+            10.0 ** (4.0 * b),
+            10.0 ** (-4.0 + 1.5 * c),
+            2500.0,
+        ),
+    ),
+}
 
 
 def case_of(name: str) -> Case:

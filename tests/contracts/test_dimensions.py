@@ -1,8 +1,10 @@
 """Every equation keeps its dimensions: in other base units its result is the same quantity.
 
-Metre, kilogram, second, kelvin, mole and dollar are each replaced by a unit of another size. Inputs and physical constants are converted by the
-dimensions of their kinds; the result must then convert by those of its own. What does not is a wrong kind, or an equation whose numbers belong to
-fixed units: ``fixed_units.toml`` lists these with the reason. Cards that take laws, series or an inner iteration are left out.
+Metre, kilogram, second, kelvin, mole and dollar are each replaced by a unit of another size. Inputs and
+physical constants are converted by the dimensions of their kinds; the result must then convert by those of
+its own. What does not is a wrong kind, or an equation whose numbers belong to fixed units:
+``fixed_units.toml`` lists these with the reason. Cards that take laws, series or an inner iteration are left
+out.
 """
 
 from __future__ import annotations
@@ -21,9 +23,24 @@ import pytest
 from granum.core import constants, flags, registry, units
 from granum.core.formulas import Formula
 
-BASE = {"[length]": 1.37, "[mass]": 0.71, "[time]": 1.93, "[temperature]": 1.21, "[substance]": 0.83, "[currency]": 1.11}
-CONSTANTS = {"STANDARD_GRAVITY": "m/s^2", "GAS_CONSTANT": "J/(mol*K)", "BOLTZMANN": "J/K", "AVOGADRO": "1/mol", "STEFAN_BOLTZMANN": "W/(m^2*K^4)",
-             "STANDARD_ATMOSPHERE": "Pa", "ZERO_CELSIUS": "K", "DARCY": "m^2"}  # fmt: skip
+BASE = {
+    "[length]": 1.37,
+    "[mass]": 0.71,
+    "[time]": 1.93,
+    "[temperature]": 1.21,
+    "[substance]": 0.83,
+    "[currency]": 1.11,
+}
+CONSTANTS = {
+    "STANDARD_GRAVITY": "m/s^2",
+    "GAS_CONSTANT": "J/(mol*K)",
+    "BOLTZMANN": "J/K",
+    "AVOGADRO": "1/mol",
+    "STEFAN_BOLTZMANN": "W/(m^2*K^4)",
+    "STANDARD_ATMOSPHERE": "Pa",
+    "ZERO_CELSIUS": "K",
+    "DARCY": "m^2",
+}
 VALUES = {name: getattr(constants, name) for name in CONSTANTS}
 REASONS = tomllib.loads((Path(__file__).parent / "fixed_units.toml").read_text(encoding="utf-8"))
 FIXED = {card for cards in REASONS.values() for card in cards}
@@ -45,14 +62,18 @@ def numbers(f: Formula) -> dict[str, Any]:
             continue
         low, high = p.ordinary()
         found[p.name] = (
-            np.array([low + share * (high - low) for share in (0.37, 0.71)]) if p.required or not given else np.full(2, float(p.default))
+            np.array([low + share * (high - low) for share in (0.37, 0.71)])
+            if p.required or not given
+            else np.full(2, float(p.default))
         )
     return found
 
 
 def called(f: Formula, inputs: dict[str, Any]) -> Any:
     with flags.inside(f):
-        return f.function(*(jnp.asarray(inputs[p.name]) if p.name in inputs else p.default for p in f.card.parameters))
+        return f.function(
+            *(jnp.asarray(inputs[p.name]) if p.name in inputs else p.default for p in f.card.parameters)
+        )
 
 
 def evaluated(f: Formula, inputs: dict[str, Any]) -> list[np.ndarray]:
@@ -89,7 +110,11 @@ def departure(f: Formula, patch: pytest.MonkeyPatch) -> float:
 
 @pytest.mark.parametrize("domain", registry.DOMAINS)
 def test_every_equation_keeps_its_dimensions(domain: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    cards = {key: f for key, f in registry.everything((domain,)).items() if isinstance(f, Formula) and key.startswith(f"{domain}.")}
+    cards = {
+        key: f
+        for key, f in registry.everything((domain,)).items()
+        if isinstance(f, Formula) and key.startswith(f"{domain}.")
+    }
     wrong = {key: departure(f, monkeypatch) for key, f in cards.items() if key not in FIXED and suitable(f)}
     assert not {key: off for key, off in wrong.items() if off > 1e-6}
 

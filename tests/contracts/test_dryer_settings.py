@@ -1,4 +1,6 @@
-"""Dryers at random ordinary settings: a solution without contradiction, or the dryer's own words that there is none."""
+"""Dryers at random ordinary settings: a solution without contradiction, or the dryer's own words that there
+is none.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.contracts.dryer_settings import BY_BALANCE, HUMID_GAS, MORE_AIR_DRIES, NUMBERS, PRODUCT, WITH_CELLS, Setting
+from tests.contracts.dryer_settings import (
+    BY_BALANCE,
+    HUMID_GAS,
+    MORE_AIR_DRIES,
+    NUMBERS,
+    PRODUCT,
+    WITH_CELLS,
+    Setting,
+)
 
 from granum.core.kinds import kind_of
 from granum.drying.contact.dryer import PLAIN
@@ -41,14 +51,21 @@ def general(inlets: dict[str, Stream], out: Any, figures: Any) -> dict[str, Any]
     found = closure(inlets.values(), outlets, power)
     largest = jnp.max(jnp.stack([s.mass_flow for s in inlets.values()]))
     humid = HumidMixture(outlets[0].mixture)
-    saturation = jnp.stack([jnp.where(s.gas_flow > 1e-9 * largest, humid.relative_humidity(s), 0.0) for s in outlets])
-    least = jnp.min(jnp.stack([jnp.min(part, initial=0.0) for s in outlets for part in (s.solid, s.liquid, s.gas)]))
+    saturation = jnp.stack(
+        [jnp.where(s.gas_flow > 1e-9 * largest, humid.relative_humidity(s), 0.0) for s in outlets]
+    )
+    least = jnp.min(
+        jnp.stack([jnp.min(part, initial=0.0) for s in outlets for part in (s.solid, s.liquid, s.gas)])
+    )
     hints = get_type_hints(type(figures), include_extras=True)
     kept = [_possible(kind_of(hints[n]), jnp.asarray(v)) for n, v in figures._asdict().items()]
     return {
-        "mass": found.mass <= CLOSURE, "energy": found.energy <= CLOSURE, "flows": least / largest >= LEAST, "saturation": jnp.all(saturation <= SATURATED),
+        "mass": found.mass <= CLOSURE,
+        "energy": found.energy <= CLOSURE,
+        "flows": least / largest >= LEAST,
+        "saturation": jnp.all(saturation <= SATURATED),
         **dict(zip(figures._asdict(), kept, strict=True)),
-    }  # fmt: skip
+    }
 
 
 def _possible(kind: Any, value: Any) -> Any:
@@ -66,9 +83,18 @@ def convective(setting: Setting, out: Any) -> dict[str, Any]:
     X, left = feed.moisture_dry_basis, product.moisture_dry_basis
     kinetics = getattr(setting.unit, "kinetics", None)
     most = jnp.max(jnp.stack([feed.temperature, *(g.temperature for g in gases)]))
-    at = Meeting(jnp.stack([left]), most + jnp.zeros(1), gas.temperature + jnp.zeros(1), Y + jnp.zeros(1), jnp.ones(1), matter)
+    at = Meeting(
+        jnp.stack([left]),
+        most + jnp.zeros(1),
+        gas.temperature + jnp.zeros(1),
+        Y + jnp.zeros(1),
+        jnp.ones(1),
+        matter,
+    )
     rest = 0.0 if kinetics is None else kinetics.equilibrium(at)[0]
-    moist = at._replace(humidity=jnp.maximum(gone, Y) + jnp.zeros(1), gas_temperature=feed.temperature + jnp.zeros(1))
+    moist = at._replace(
+        humidity=jnp.maximum(gone, Y) + jnp.zeros(1), gas_temperature=feed.temperature + jnp.zeros(1)
+    )
     wettest = 0.0 if kinetics is None else kinetics.equilibrium(moist)[0]
     condenses = matter.relative_humidity(feed.temperature, jnp.maximum(gone, Y)) > 0.9
     wet_bulbs = [by_itself(matter, left, g).wet_bulb[0] for g in gases]
@@ -76,7 +102,8 @@ def convective(setting: Setting, out: Any) -> dict[str, Any]:
     return {
         "drier than equilibrium": left >= jnp.minimum(rest, X) * (1.0 - SLACK) - SLACK,
         "wetter than the feed": condenses | (left <= jnp.maximum(X, wettest) + SLACK),
-        "too hot": (left > X + SLACK) | ((product.temperature <= most + 0.01) & (out.exhaust.temperature <= most + 0.01)),
+        "too hot": (left > X + SLACK)
+        | ((product.temperature <= most + 0.01) & (out.exhaust.temperature <= most + 0.01)),
         "too cold": (product.temperature >= lowest) & (out.exhaust.temperature >= lowest),
     }
 
@@ -93,11 +120,17 @@ def by_itself(matter: Matter, X: Any, gas: Stream) -> Meeting:
 
 
 def judged(build: Any, product: Any, x: Any, more: Any) -> tuple[Any, dict[str, Any], Any, Any]:
-    """Whether it refuses, what is in order, its moisture, and whether the feed dries without drinking from a gas that it meets."""
+    """Whether it refuses, what is in order, its moisture, and whether the feed dries without drinking from a
+    gas that it meets.
+    """
     setting = build(x, product, more)
     out, figures, lost = told(setting.unit, setting.inlets)
     found = general(setting.inlets, out, figures)
-    if set(setting.inlets) >= {"feed", "gas"} and hasattr(out, "exhaust") and hasattr(setting.unit, "kinetics"):
+    if (
+        set(setting.inlets) >= {"feed", "gas"}
+        and hasattr(out, "exhaust")
+        and hasattr(setting.unit, "kinetics")
+    ):
         found |= convective(setting, out)
     left, feed = out.product.moisture_dry_basis, setting.inlets.get("feed", out.product)
     dries = left < feed.moisture_dry_basis
@@ -109,8 +142,12 @@ def judged(build: Any, product: Any, x: Any, more: Any) -> tuple[Any, dict[str, 
     return lost, found, left, dries
 
 
-def outcome(name: str, build: Any, product: str, count: int, seed: int = 11) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
-    """Of so many settings, each run again with more air: which the unit refuses, which of the others are wrong and in what, and the settings."""
+def outcome(
+    name: str, build: Any, product: str, count: int, seed: int = 11
+) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
+    """Of so many settings, each run again with more air: which the unit refuses, which of the others are
+    wrong and in what, and the settings.
+    """
     rows = np.random.default_rng(seed).random((count, NUMBERS))
 
     def both(x: Any) -> Any:
@@ -121,22 +158,38 @@ def outcome(name: str, build: Any, product: str, count: int, seed: int = 11) -> 
     bad = {what: ~np.asarray(ok) & ~lost for what, ok in found.items()}
     if name in MORE_AIR_DRIES:
         left, dries = np.asarray(left), np.asarray(dry).all(axis=1) & ~lost.any(axis=1)
-        bad["wetter with more air"] = np.stack([dries & (left[:, 1] > left[:, 0] + SLACK * (1.0 + left[:, 0]))] * 2, axis=1)
+        bad["wetter with more air"] = np.stack(
+            [dries & (left[:, 1] > left[:, 0] + SLACK * (1.0 + left[:, 0]))] * 2, axis=1
+        )
     return lost, bad, rows
 
 
 ALL = WITH_CELLS | BY_BALANCE | HUMID_GAS
-QUICK = ("drum", "tray", "heat pump", "humidifier", "coil", "two airs", "burner")  # those that compile within a second or three
+QUICK = (
+    "drum",
+    "tray",
+    "heat pump",
+    "humidifier",
+    "coil",
+    "two airs",
+    "burner",
+)  # those that compile within a second or three
 CASES = [
-    (name, product) for name in (ALL if SAMPLES else QUICK) for product in (PRODUCT if SAMPLES and name in WITH_CELLS else ("surface",))
+    (name, product)
+    for name in (ALL if SAMPLES else QUICK)
+    for product in (PRODUCT if SAMPLES and name in WITH_CELLS else ("surface",))
 ]
 
 
 @pytest.mark.parametrize(("name", "product"), CASES)
 def test_settings(name: str, product: str) -> None:
     lost, bad, rows = outcome(name, ALL[name], product, SAMPLES or 60)
-    print(f"{name}, {product}: {lost.size} tried, {lost.sum()} refused by the unit, {bad['saturation'].sum()} for their streams")
-    # gas beyond saturation is refused by the line, which names the stream and the cure: an outlet asked for may need more air than there is
+    print(
+        f"{name}, {product}: {lost.size} tried, {lost.sum()} refused by the unit, "
+        f"{bad['saturation'].sum()} for their streams"
+    )
+    # gas beyond saturation is refused by the line, which names the stream and the cure: an outlet asked for
+    # may need more air than there is
     wrong = {what: rows[no.any(axis=1)] for what, no in bad.items() if no.any() and what != "saturation"}
     assert not wrong, {what: (len(found), found[0]) for what, found in wrong.items()}
     assert lost.mean() < 0.3

@@ -1,9 +1,10 @@
 """What every piece of equipment keeps, at one ordinary setting of the smallest case that holds it.
 
-Balances of each component and of energy close; nothing comes out where nothing goes in; the derivative with respect to a parameter is finite and
-that of central differences; a unit says the same called alone and in a line; limits have a source. Random settings of the same cases, and species
-in another order, are in ``test_unit_fuzz`` and ``test_separator_fuzz``; dryers and units for humid gas are in ``test_dryer_settings``. Those
-under ``LONG`` are tried in the long run only (``GRANUM_RANDOM_SAMPLES``).
+Balances of each component and of energy close; nothing comes out where nothing goes in; the derivative with
+respect to a parameter is finite and that of central differences; a unit says the same called alone and in a
+line; limits have a source. Random settings of the same cases, and species in another order, are in
+``test_unit_fuzz`` and ``test_separator_fuzz``; dryers and units for humid gas are in ``test_dryer_settings``.
+Those under ``LONG`` are tried in the long run only (``GRANUM_RANDOM_SAMPLES``).
 """
 
 from __future__ import annotations
@@ -23,16 +24,38 @@ from granum.flowsheet import Flowsheet, solve
 from granum.flowsheet.findings import CLOSURE, LEAST, findings
 
 STEP = 1e-5
-HUMID = {"streams.adiabatic_humidifier", "streams.condenser_cooler", "streams.dehumidifying_coil", "streams.humid_mixer"}
+HUMID = {
+    "streams.adiabatic_humidifier",
+    "streams.condenser_cooler",
+    "streams.dehumidifying_coil",
+    "streams.humid_mixer",
+}
 LONG = {  # slow to compile, or solved by the code of a neighbor that is tried
-    "centrifuges.scroll_screen", "centrifuges.sliding_screen", "centrifuges.tumbling_screen",
-    "crystallization.batch_crystallizer", "crystallization.classified_crystallizer", "crystallization.jacketed_batch_crystallizer",
-    "crystallization.plug_flow_crystallizer", "crystallization.vacuum_batch_crystallizer", "crystallization.vacuum_crystallizer",
-    "filtration.candle_filter", "filtration.deep_bed_filter", "filtration.nutsche", "filtration.plate_and_frame_press",
-    "filtration.pressure_leaf_filter", "filtration.rotary_disc_filter", "settling.clarifier_thickener",
-}  # fmt: skip
+    "centrifuges.scroll_screen",
+    "centrifuges.sliding_screen",
+    "centrifuges.tumbling_screen",
+    "crystallization.batch_crystallizer",
+    "crystallization.classified_crystallizer",
+    "crystallization.jacketed_batch_crystallizer",
+    "crystallization.plug_flow_crystallizer",
+    "crystallization.vacuum_batch_crystallizer",
+    "crystallization.vacuum_crystallizer",
+    "filtration.candle_filter",
+    "filtration.deep_bed_filter",
+    "filtration.nutsche",
+    "filtration.plate_and_frame_press",
+    "filtration.pressure_leaf_filter",
+    "filtration.rotary_disc_filter",
+    "settling.clarifier_thickener",
+}
 ALONE = ("fluidization.fluidized_bed", "cyclones.gas_cyclone", "filtration.rotary_vacuum_drum")
-GROUPS = (unit_cases.mills, unit_cases.filters, unit_cases.centrifuges, unit_cases.basics, unit_cases.crystallizers)
+GROUPS = (
+    unit_cases.mills,
+    unit_cases.filters,
+    unit_cases.centrifuges,
+    unit_cases.basics,
+    unit_cases.crystallizers,
+)
 
 
 @cache
@@ -58,7 +81,9 @@ def setting() -> np.ndarray:
 
 
 class Outcome(NamedTuple):
-    """What came of one row: closures of the unit, whether it says that it has no solution, its outlets by name, all its figures."""
+    """What came of one row: closures of the unit, whether it says that it has no solution, its outlets by
+    name, all its figures.
+    """
 
     mass: Any
     energy: Any
@@ -76,9 +101,14 @@ def outcome(case: Case, row: Any, there: Any) -> Outcome:
     solution = solve(line, sheets=True)
     found = findings(line, solution)
     products = [solution.streams[n] for n in line.products]
-    numbers = [jnp.ravel(jnp.asarray(v, dtype=float)) for v in jax.tree.leaves((products, solution.powers, solution.sheets["unit"][0]))]
+    numbers = [
+        jnp.ravel(jnp.asarray(v, dtype=float))
+        for v in jax.tree.leaves((products, solution.powers, solution.sheets["unit"][0]))
+    ]
     flows = jnp.stack([s.mass_flow for s in products])
-    return Outcome(found.mass[0], found.energy[0], jnp.min(found.lowest), found.lost[0], flows, jnp.concatenate(numbers))
+    return Outcome(
+        found.mass[0], found.energy[0], jnp.min(found.lowest), found.lost[0], flows, jnp.concatenate(numbers)
+    )
 
 
 def test_every_card_has_a_case_or_is_humid() -> None:

@@ -33,7 +33,9 @@ def test_declaration_is_complete(key: str) -> None:
     assert not missing, f"not in the bibliography: {missing}"
     for p in (*card.parameters, *card.outputs):
         assert quantity_in(p.name), f"'{p.name}' is not in the glossary"
-        assert p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty, f"'{p.name}' has no kind"
+        assert (
+            p.kind or p.law or p.choices or p.sort or p.optional or p.default is not inspect.Parameter.empty
+        ), f"'{p.name}' has no kind"
         if p.kind and isinstance(p.default, int | float):
             assert p.kind.contains(float(p.default)), f"the default of '{p.name}' lies outside its own bounds"
     assert card.english_summary.endswith("."), "the docstring starts with one sentence"
@@ -41,7 +43,9 @@ def test_declaration_is_complete(key: str) -> None:
     for text in (card.given_title, card.english_summary):
         assert not text or text in catalog("fr"), f"no French for: {text}"
     known = {*card.inputs, *(p.name for p in card.outputs)}
-    body = inspect.getsource(EVERYTHING[key].function if isinstance(EVERYTHING[key], Formula) else EVERYTHING[key])
+    body = inspect.getsource(
+        EVERYTHING[key].function if isinstance(EVERYTHING[key], Formula) else EVERYTHING[key]
+    )
     for name in card.fitted:
         assert name in known or f"{name}=" in body, f"fitted range of '{name}' is never checked"
 
@@ -61,10 +65,15 @@ def test_docstring_has_an_example(key: str) -> None:
 @pytest.mark.parametrize("module", sorted({thing.card.module for thing in EVERYTHING.values()}))
 def test_docstring_examples_run(module: str) -> None:
     found = importlib.import_module(module)
-    finder, runner = doctest.DocTestFinder(), doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    finder, runner = (
+        doctest.DocTestFinder(),
+        doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE),
+    )
     for name, item in vars(found).items():
         target = item.function if isinstance(item, Formula) else item
-        if getattr(target, "__module__", None) == module and (inspect.isfunction(target) or inspect.isclass(target)):
+        if getattr(target, "__module__", None) == module and (
+            inspect.isfunction(target) or inspect.isclass(target)
+        ):
             for test in finder.find(target, name, globs={**vars(found)}):
                 runner.run(test)
     assert runner.failures == 0
@@ -88,7 +97,9 @@ def agree(f: Formula, inputs: dict[str, np.ndarray]) -> None:
     batched = leaves(f(**inputs))
     single = [leaves(f(**{n: float(v[i]) for n, v in inputs.items()})) for i in range(3)]
     # one program gives the mapped values and the gradients: compilation is most of this test
-    (_, out), gradient = jax.jit(jax.vmap(jax.value_and_grad(total, has_aux=True)))(jax.tree.map(jnp.asarray, inputs))
+    (_, out), gradient = jax.jit(jax.vmap(jax.value_and_grad(total, has_aux=True)))(
+        jax.tree.map(jnp.asarray, inputs)
+    )
     for k, (whole, mapped) in enumerate(zip(batched, leaves(out), strict=True)):
         assert whole.dtype == np.float64
         assert np.all(np.isfinite(whole)), f"not finite at ordinary values: {inputs}"
@@ -102,7 +113,9 @@ def agree(f: Formula, inputs: dict[str, np.ndarray]) -> None:
         ahead, behind = (float(total({**point, name: x + s * h})[0]) for s in (1, -1))
         difference = (ahead - behind) / (2 * h)
         scale = max(abs(difference), value / max(abs(x), 1e-12) * 1e-3, 1e-300)
-        assert abs(float(gradient[name][0]) - difference) <= 2e-5 * scale, f"d/d{name}: {gradient[name]} against {difference}"
+        assert abs(float(gradient[name][0]) - difference) <= 2e-5 * scale, (
+            f"d/d{name}: {gradient[name]} against {difference}"
+        )
 
 
 @pytest.mark.parametrize("key", [k for k, f in ELEMENTWISE.items() if f.fitted])
@@ -119,7 +132,10 @@ def edges(f: Formula, inputs: dict[str, float]) -> None:
             continue
         p = f.card.parameter(name)
         assert p.kind is not None
-        for edge, beyond in ((low, low - 0.01 * max(abs(low), 1e-9)), (high, high * 1.01 if high > 0 else high * 0.99)):
+        for edge, beyond in (
+            (low, low - 0.01 * max(abs(low), 1e-9)),
+            (high, high * 1.01 if high > 0 else high * 0.99),
+        ):
             if not np.isfinite(edge) or not p.kind.contains(beyond):
                 continue
             # as arrays, since a single value at which nothing exists (saturated gas above boiling) raises
@@ -127,4 +143,6 @@ def edges(f: Formula, inputs: dict[str, float]) -> None:
             if name in {o.name for o in f.card.outputs}:
                 continue  # what comes out may lie beyond
             at_edge = f.evaluate(**{**inputs, name: np.array([edge])}).notices
-            assert not any(n["name"] == name and n["card"] == f.key and n["flag"] == "extrapolated" for n in at_edge)
+            assert not any(
+                n["name"] == name and n["card"] == f.key and n["flag"] == "extrapolated" for n in at_edge
+            )

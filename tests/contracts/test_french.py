@@ -32,9 +32,16 @@ def fields(text: str) -> set[str]:
     return {name for _t, name, _s, _c in Formatter().parse(text) if name}
 
 
-@pytest.mark.parametrize("package", sorted(p.name for p in SOURCE.iterdir() if p.is_dir() and not p.name.startswith("__")))
+@pytest.mark.parametrize(
+    "package", sorted(p.name for p in SOURCE.iterdir() if p.is_dir() and not p.name.startswith("__"))
+)
 def test_messages_have_french(package: str) -> None:
-    found = extract_from_dir(str(SOURCE / package), [("**.py", "python"), ("**.j2", "jinja2")], keywords={"_": None}, comment_tags=())
+    found = extract_from_dir(
+        str(SOURCE / package),
+        [("**.py", "python"), ("**.j2", "jinja2")],
+        keywords={"_": None},
+        comment_tags=(),
+    )
     messages = {m for _f, _n, m, _c, _x in found if isinstance(m, str)}
     missing = sorted(m for m in messages if m not in catalog("fr"))
     assert not missing, f"{len(missing)} messages without French: {missing}"
@@ -50,7 +57,9 @@ def test_titles_and_descriptions_of_the_examples_have_french() -> None:
 
 
 def test_french_keeps_the_placeholders() -> None:
-    wrong = [m for m, french in catalog("fr").items() if "{" in m and m in MESSAGES and fields(m) != fields(french)]
+    wrong = [
+        m for m, french in catalog("fr").items() if "{" in m and m in MESSAGES and fields(m) != fields(french)
+    ]
     assert not wrong
 
 
@@ -78,5 +87,7 @@ def test_limits_have_french_and_a_known_source() -> None:
     assert {limit.name for limit in limits} - set(catalog("fr")) == set()
     assert [limit for limit in limits if not cite(limit.source)] == []
     assert [
-        limit for limit in limits if not isinstance(limit.low, str) and not isinstance(limit.high, str) and not limit.low <= limit.high
+        limit
+        for limit in limits
+        if not isinstance(limit.low, str) and not isinstance(limit.high, str) and not limit.low <= limit.high
     ] == []

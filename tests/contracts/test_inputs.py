@@ -1,4 +1,6 @@
-"""What every input of every card must hold: odd values are taken or refused in one sentence, counts have bounds."""
+"""What every input of every card must hold: odd values are taken or refused in one sentence, counts have
+bounds.
+"""
 
 from __future__ import annotations
 
@@ -51,14 +53,47 @@ def nested(depth: int) -> list[Any]:
 
 # what no quantity can be
 ODD: dict[str, Any] = {
-    "empty list": [], "empty array": np.array([]), "rows without values": np.ones((3, 0)), "empty text": "", "word": "abc", "table": {"a": 1},
-    "object": object(), "bytes": b"12", "complex": 1j, "true": True, "truth of NumPy": np.bool_(True), "ragged": [1, [2, 3]], "words": ["a", "b"],
-    "nan": float("nan"), "nan of NumPy": np.float64("nan"), "nan as array": np.array(np.nan), "inf": float("inf"), "-inf": -np.inf, "digits": 10**5000,
-    "text of digits": "9" * 5000, "set": {1, 2}, "hostile": Hostile(), "opaque": Opaque(), "array of words": np.array(["a"]), "array of None": np.array([None]),
-    "dates": np.array(["1970-01-01"], dtype="datetime64[s]"), "complex array": np.array([1j]), "truths": np.array([True, False]), "list of None": [None],
-    "nan in a list": [1.0, float("nan")], "class": int, "generator": iter(()), "signaling": Decimal("sNaN"), "truths of JAX": jnp.array([True]),
-    "complex of JAX": jnp.array([1j]), "brackets": "[" * 3000, "braces": "{" * 3000, "deep": nested(80), "records": np.zeros(2, dtype=[("a", float)]), "module": np,
-}  # fmt: skip
+    "empty list": [],
+    "empty array": np.array([]),
+    "rows without values": np.ones((3, 0)),
+    "empty text": "",
+    "word": "abc",
+    "table": {"a": 1},
+    "object": object(),
+    "bytes": b"12",
+    "complex": 1j,
+    "true": True,
+    "truth of NumPy": np.bool_(True),
+    "ragged": [1, [2, 3]],
+    "words": ["a", "b"],
+    "nan": float("nan"),
+    "nan of NumPy": np.float64("nan"),
+    "nan as array": np.array(np.nan),
+    "inf": float("inf"),
+    "-inf": -np.inf,
+    "digits": 10**5000,
+    "text of digits": "9" * 5000,
+    "set": {1, 2},
+    "hostile": Hostile(),
+    "opaque": Opaque(),
+    "array of words": np.array(["a"]),
+    "array of None": np.array([None]),
+    "dates": np.array(["1970-01-01"], dtype="datetime64[s]"),
+    "complex array": np.array([1j]),
+    "truths": np.array([True, False]),
+    "list of None": [None],
+    "nan in a list": [1.0, float("nan")],
+    "class": int,
+    "generator": iter(()),
+    "signaling": Decimal("sNaN"),
+    "truths of JAX": jnp.array([True]),
+    "complex of JAX": jnp.array([1j]),
+    "brackets": "[" * 3000,
+    "braces": "{" * 3000,
+    "deep": nested(80),
+    "records": np.zeros(2, dtype=[("a", float)]),
+    "module": np,
+}
 
 
 def shapes() -> dict[str, tuple[Parameter, bool]]:
@@ -67,7 +102,17 @@ def shapes() -> dict[str, tuple[Parameter, bool]]:
     for key, card in CARDS.items():
         for p in card.parameters:
             several = card.sort == "formula"
-            sort = (p.kind, p.series is None, p.law, p.choices, p.sort, p.within, p.optional, p.default is None, several)
+            sort = (
+                p.kind,
+                p.series is None,
+                p.law,
+                p.choices,
+                p.sort,
+                p.within,
+                p.optional,
+                p.default is None,
+                several,
+            )
             found.setdefault(sort, (f"{key} {p.name}", p, several))
     return {name: (p, several) for name, p, several in found.values()}
 
@@ -76,7 +121,9 @@ def test_odd_values_are_refused_in_one_sentence() -> None:
     taken, raw = [], []
     for place, (p, several) in shapes().items():
         for name, value in ODD.items():
-            if (p.sort is str and isinstance(value, str)) or (p.sort is bool and name in ("true", "truth of NumPy")):
+            if (p.sort is str and isinstance(value, str)) or (
+                p.sort is bool and name in ("true", "truth of NumPy")
+            ):
                 continue
             try:
                 convert(value, p, " for it", several)
@@ -127,7 +174,12 @@ def test_a_word_that_has_a_unit_is_declared_in_it() -> None:
 def test_a_temperature_difference_takes_kelvins() -> None:
     """Conduction through the dry layer alone: λ ρ ε L²/(2 k ΔT), with a film that does not resist."""
     front: Any = registry.find("drying.drying_time_receding_front")
-    inputs = {"thickness": "4 cm", "void_fraction": 0.36, "heat_transfer_coefficient": 1e12, "thermal_conductivity": 0.2}
+    inputs = {
+        "thickness": "4 cm",
+        "void_fraction": 0.36,
+        "heat_transfer_coefficient": 1e12,
+        "thermal_conductivity": 0.2,
+    }
     time = front(**inputs, temperature_difference="44 K", liquid_density=998.0, heat_of_vaporization=2.4e6)
     assert time == pytest.approx(2.4e6 * 998.0 * 0.36 * 0.04**2 / (2 * 0.2 * 44.0), rel=1e-9)
 
@@ -136,7 +188,9 @@ def test_every_count_of_a_case_file_has_bounds() -> None:
     tables = [t for t in vars(schema).values() if isinstance(t, type) and issubclass(t, schema.BaseModel)]
     for table in tables:
         for name, found in table.model_fields.items():
-            if found.annotation is int or (int in typing.get_args(found.annotation) and str not in typing.get_args(found.annotation)):
+            if found.annotation is int or (
+                int in typing.get_args(found.annotation) and str not in typing.get_args(found.annotation)
+            ):
                 limits = {type(m) for m in found.metadata}
                 assert {Ge, Le} <= limits, f"'{name}' of {table.__name__} has no bounds"
 
@@ -160,8 +214,15 @@ def test_what_is_refused_by_a_card_is_refused_when_it_is_called() -> None:
         reynolds(**{**good, "particle_diameter": [1e-3, 2e-3], "velocity": np.ones(3)})
     backwash: Any = registry.find("filtration.backwash_velocity")
     with pytest.raises(InputError, match="beside its series"):
-        backwash(bed_expansion=np.full(7, 0.3), class_sizes=[1e-3, 8e-4, 6e-4], class_fractions=[0.3, 0.4, 0.3], particle_density=2650.0,
-                 fluid_density=1000.0, dynamic_viscosity=1e-3, void_fraction_settled=0.42)  # fmt: skip
+        backwash(
+            bed_expansion=np.full(7, 0.3),
+            class_sizes=[1e-3, 8e-4, 6e-4],
+            class_fractions=[0.3, 0.4, 0.3],
+            particle_density=2650.0,
+            fluid_density=1000.0,
+            dynamic_viscosity=1e-3,
+            void_fraction_settled=0.42,
+        )
 
 
 def test_titles_name_no_author_who_does_not_exist() -> None:
@@ -179,4 +240,6 @@ def test_titles_name_no_author_who_does_not_exist() -> None:
         assert all(found["en"] and found["fr"] for found in qualifiers)
     assert not unknown
     assert CARDS["particles.wall_factor_di_felice"].title.endswith("(Di Felice)")
-    assert not any("Retained" in card.title or "–Power" in card.title or "Mean–" in card.title for card in CARDS.values())
+    assert not any(
+        "Retained" in card.title or "–Power" in card.title or "Mean–" in card.title for card in CARDS.values()
+    )

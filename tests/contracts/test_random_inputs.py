@@ -1,7 +1,9 @@
-"""Random valid inputs into every formula: a value within the bounds of its own kind, or none and a flag; the bounds of inputs flagged.
+"""Random valid inputs into every formula: a value within the bounds of its own kind, or none and a flag; the
+bounds of inputs flagged.
 
-A run takes 1000 sets a card, of those with series fewer. Step by step, since compiling takes longer than running once; every
-example runs compiled anyway. ``GRANUM_RANDOM_SETS=1000000 pytest -n 0 tests/contracts/test_random_inputs.py`` is the long search.
+A run takes 1000 sets a card, of those with series fewer. Step by step, since compiling takes longer than
+running once; every example runs compiled anyway. ``GRANUM_RANDOM_SETS=1000000 pytest -n
+0 tests/contracts/test_random_inputs.py`` is the long search.
 """
 
 from __future__ import annotations
@@ -12,7 +14,17 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
-from tests.contracts.drawing import BLOCK, ELEMENTWISE, FORMULAS, SETS, draw, quickly, random_inputs, rows, wrong
+from tests.contracts.drawing import (
+    BLOCK,
+    ELEMENTWISE,
+    FORMULAS,
+    SETS,
+    draw,
+    quickly,
+    random_inputs,
+    rows,
+    wrong,
+)
 
 from granum.core import flags
 from granum.core.errors import GranumError
@@ -21,11 +33,17 @@ from granum.core.formulas import Formula
 WITH_SERIES = {k: f for k, f in FORMULAS.items() if any(p.series and p.kind for p in f.card.parameters)}
 ROWS = max(SETS // 100, 1)  # one call each, as a card with series takes one value of the others
 POINTS = 6
-LONG = {"particles.settling_distance", "drying.primary_drying", "drying.freeze_drying_limit"}  # hundreds of steps: compiled is quicker
+LONG = {
+    "particles.settling_distance",
+    "drying.primary_drying",
+    "drying.freeze_drying_limit",
+}  # hundreds of steps: compiled is quicker
 
 
 def beyond(f: Formula, inputs: dict[str, np.ndarray]) -> str | None:
-    """Put an ordinary set first and one outside the bounds of an input second; the name of that input, if any has a lower bound."""
+    """Put an ordinary set first and one outside the bounds of an input second; the name of that input, if any
+    has a lower bound.
+    """
     for name, values in draw(f, 1).items():
         inputs[name][:2] = values[0]
     for p in f.card.parameters:
@@ -61,7 +79,10 @@ def test_a_row_of_values_gives_figures_within_their_bounds_or_one_message(key: s
         single = random_inputs(f.card.parameters, 1, seed)
         return {n: float(v[0]) for n, v in single.items()} | rows(f.card.parameters, POINTS, seed)
 
-    with quickly(f, {n: [v] for n, v in drawn(0).items()}), np.errstate(all="ignore"):  # NumPy rows, whose powers may overflow
+    with (
+        quickly(f, {n: [v] for n, v in drawn(0).items()}),
+        np.errstate(all="ignore"),
+    ):  # NumPy rows, whose powers may overflow
         for seed in range(ROWS):
             inputs = drawn(seed)
             try:

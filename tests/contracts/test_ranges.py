@@ -1,4 +1,6 @@
-"""Ranges are data: what a docstring says of a range is declared, and what is declared is told where it is left."""
+"""Ranges are data: what a docstring says of a range is declared, and what is declared is told where it is
+left.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ RANGED = {k: t for k, t in EVERYTHING.items() if t.card.fitted}
 LAWS = {k: t for k, t in RANGED.items() if t.card.sort == "law" and hasattr(t, "evaluate")}
 NUMBER = r"[−-]?\d[\d.,]*(?:e[−-]?\d+| 000)?(?: ?[%°µ][a-zA-Z]*)?"
 SAID = re.compile(
-    rf"(?:(?:below|above|up to|down to|at least|at most|less than|more than|from|between|under|over|within|beyond) {NUMBER})|(?:{NUMBER} (?:to|and|–|…) {NUMBER})"
+    rf"(?:(?:below|above|up to|down to|at least|at most|less than|more "
+    rf"than|from|between|under|over|within|beyond) {NUMBER})|(?:{NUMBER} (?:to|and|–|…) {NUMBER})"
     rf"|[<>≤≥] ?{NUMBER}"
 )
 # Numbers that are no range of the relation: what is usual for an input, an example, a property of the result.
@@ -25,7 +28,9 @@ OTHER = tomllib.loads((Path(__file__).parent / "ranges_said.toml").read_text(enc
 
 def prose(key: str) -> str:
     """The docstring without its executed examples."""
-    return " ".join(line for line in EVERYTHING[key].card.doc.splitlines() if not line.lstrip().startswith((">>>", "...")))
+    return " ".join(
+        line for line in EVERYTHING[key].card.doc.splitlines() if not line.lstrip().startswith((">>>", "..."))
+    )
 
 
 SPEAKING = [k for k, t in EVERYTHING.items() if t.card.sort in ("formula", "law") and SAID.search(prose(k))]
@@ -33,7 +38,9 @@ SPEAKING = [k for k, t in EVERYTHING.items() if t.card.sort in ("formula", "law"
 
 def test_a_range_in_words_is_declared() -> None:
     silent = {k: SAID.findall(prose(k)) for k in SPEAKING if k not in RANGED and k not in OTHER}
-    assert not silent, f"Declare the range (fitted=…), or say in ranges_said.toml what the numbers are: {silent}"
+    assert not silent, (
+        f"Declare the range (fitted=…), or say in ranges_said.toml what the numbers are: {silent}"
+    )
 
 
 def test_no_excuse_without_need() -> None:
@@ -61,5 +68,13 @@ def test_a_law_tells_where_an_input_leaves_its_range(key: str) -> None:
             continue
         for beyond in (low - 0.01 * max(abs(low), 1e-9), high * 1.01 if high > 0 else high * 0.99):
             if np.isfinite(beyond) and p.kind.contains(beyond):
-                told = law.evaluate(**{**inside, name: np.array([beyond]) if name in {a.name for a in law.card.arguments} else beyond})
-                assert any(n["name"] == name and n["card"] == key and n["flag"] == "extrapolated" for n in told.notices)
+                told = law.evaluate(
+                    **{
+                        **inside,
+                        name: np.array([beyond]) if name in {a.name for a in law.card.arguments} else beyond,
+                    }
+                )
+                assert any(
+                    n["name"] == name and n["card"] == key and n["flag"] == "extrapolated"
+                    for n in told.notices
+                )

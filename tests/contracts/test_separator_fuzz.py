@@ -1,4 +1,6 @@
-"""Settlers, fluidized beds and cyclones at random ordinary settings: balances close, streams hold nothing negative, figures keep their bounds."""
+"""Settlers, fluidized beds and cyclones at random ordinary settings: balances close, streams hold nothing
+negative, figures keep their bounds.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ def test_light_solids_in_a_hydrocyclone_go_with_the_liquid_and_are_told() -> Non
     unit = Hydrocyclone(0.1, 0.015)
     out = unit(feed)
     share = out.underflow.solid / feed.solid
-    np.testing.assert_allclose(share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12)  # oil divides like the water
+    np.testing.assert_allclose(
+        share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12
+    )  # oil divides like the water
     alone = unit(feed.replace(solid=feed.solid.at[1].set(0.0)))
     assert float(jnp.max(alone.underflow.solid[0])) > 0.0
     check = {c.name: c.ok for c in unit.operate(feed=feed).checks}
@@ -49,5 +53,7 @@ def test_a_feed_thicker_than_the_underflow_passes_and_is_told() -> None:
     figures, thinner = run(feed)
     assert all(np.isfinite(float(x)) for x in figures)
     assert float(thinner) > 1.0
-    with pytest.raises(ApplicabilityError, match="underflow concentration = 20 g/L is outside what is possible"):
+    with pytest.raises(
+        ApplicabilityError, match="underflow concentration = 20 g/L is outside what is possible"
+    ):
         unit(feed)

@@ -1,6 +1,8 @@
-"""Units at random ordinary settings, empty feeds among them: a solution that conserves and keeps its bounds, or one word of the unit itself.
+"""Units at random ordinary settings, empty feeds among them: a solution that conserves and keeps its bounds,
+or one word of the unit itself.
 
-GRANUM_RANDOM_SAMPLES tries every unit so often, with few and with many size classes; otherwise some of each kind, a hundred times.
+GRANUM_RANDOM_SAMPLES tries every unit so often, with few and with many size classes; otherwise some of each
+kind, a hundred times.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ def cumulative(solid: np.ndarray) -> np.ndarray:
 def coarser(found: Tried) -> np.ndarray:
     """By how much the product of a mill has less below some size than its feed, as a share of the feed."""
     feed, product = found.feeds["feed"].solid, found.products["product"].solid
-    return (cumulative(feed) - cumulative(product)).max(axis=(1, 2)) / np.maximum(feed.sum(axis=(1, 2)), 1e-300)
+    return (cumulative(feed) - cumulative(product)).max(axis=(1, 2)) / np.maximum(
+        feed.sum(axis=(1, 2)), 1e-300
+    )
 
 
 def wetter(found: Tried, name: str) -> np.ndarray:
@@ -45,7 +49,10 @@ def judge(case: Case, name: str, found: Tried) -> None:
     """What physics demands of each kind of unit besides the balances."""
     ok = ~found.refused
     out = found.products
-    nothing = sum(s.solid.sum(axis=(1, 2)) + s.liquid.sum(axis=1) + s.gas.sum(axis=1) for s in found.feeds.values()) == 0.0
+    nothing = (
+        sum(s.solid.sum(axis=(1, 2)) + s.liquid.sum(axis=1) + s.gas.sum(axis=1) for s in found.feeds.values())
+        == 0.0
+    )
     for s in out.values():
         assert not any(part[nothing & ok].any() for part in (s.solid, s.liquid, s.gas))
     if name.startswith(("mill", "bond", "cone")):

@@ -11,7 +11,12 @@ import numpy as np
 from tests.contracts.unit_search import Case, shares
 
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
-from granum.centrifuges.equipment.screens import ScrollScreen, SlidingCakeScreen, TumblingScreen, VibratingScreen
+from granum.centrifuges.equipment.screens import (
+    ScrollScreen,
+    SlidingCakeScreen,
+    TumblingScreen,
+    VibratingScreen,
+)
 from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
 from granum.comminution.breakage import AustinBreakage, AustinSelection, BroadbentCallcottBreakage
 from granum.comminution.equipment.mills import BallMill, BondMill, ConeCrusher
@@ -30,8 +35,20 @@ from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import NaturalCooling, PowerCooling
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
-from granum.filtration.equipment.batch import CandleFilter, ChamberPress, MembranePress, Nutsche, PlateAndFramePress, PressureLeafFilter
-from granum.filtration.equipment.continuous import HorizontalBeltFilter, PrecoatDrum, RotaryDiscFilter, RotaryVacuumDrum
+from granum.filtration.equipment.batch import (
+    CandleFilter,
+    ChamberPress,
+    MembranePress,
+    Nutsche,
+    PlateAndFramePress,
+    PressureLeafFilter,
+)
+from granum.filtration.equipment.continuous import (
+    HorizontalBeltFilter,
+    PrecoatDrum,
+    RotaryDiscFilter,
+    RotaryVacuumDrum,
+)
 from granum.filtration.equipment.deep_bed import DeepBedFilter
 from granum.particles.partition import (
     BypassedPartition,
@@ -53,7 +70,10 @@ from granum.streams.stream import Stream, empty
 def slurries(classes: int, smallest: float, largest: float) -> Mixture:
     """Two solids in water, ethanol or both, and air."""
     return Mixture(
-        solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)), Species("coal", (("coal", 1.0),), (1400.0,), (1200.0,))),
+        solids=(
+            Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),
+            Species("coal", (("coal", 1.0),), (1400.0,), (1200.0,)),
+        ),
         liquids=(
             Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),
             Species("ethanol", (("ethanol", 1.0),), (806.0, -0.85), (2300.0, 8.0)),
@@ -63,19 +83,24 @@ def slurries(classes: int, smallest: float, largest: float) -> Mixture:
             Species("argon", (("argon", 1.0),), (1.7,), (520.0,), molar_mass=0.03995),
         ),
         size_edges=tuple(np.geomspace(smallest, largest, classes + 1)),
-        liquid_viscosity=lambda w, T: 1e-3 * jnp.exp(-0.02 * (T - 293.15)) * (1.0 + 1.5 * w[1] * w[0] + 0.2 * w[1]),
+        liquid_viscosity=lambda w, T: (
+            1e-3 * jnp.exp(-0.02 * (T - 293.15)) * (1.0 + 1.5 * w[1] * w[0] + 0.2 * w[1])
+        ),
         gas_viscosity=lambda T: 1.8e-5 * (T / 293.15) ** 0.7,
     )
 
 
 def slurry(mixture: Mixture, x: Any, solids: tuple[float, float] = (-3.0, 0.3)) -> Stream:
-    """1 g/s to 100 kg/s of liquid with solids over liquid between powers of ten, a tenth of them or none of the second kind, and some gas."""
+    """1 g/s to 100 kg/s of liquid with solids over liquid between powers of ten, a tenth of them or none of
+    the second kind, and some gas.
+    """
     liquid = 10.0 ** (-3.0 + 5.0 * x[0])
     solid = liquid * 10.0 ** (solids[0] + (solids[1] - solids[0]) * x[1])
     classes = len(mixture.sizes)
     second, ethanol = 0.3 * x[3], jnp.where(x[6] > 0.5, 2.0 * x[6] - 1.0, 0.0)
     return empty(mixture, 280.0 + 60.0 * x[2]).replace(
-        solid=solid * jnp.stack([(1.0 - second) * shares(x[4], x[5], classes), second * shares(x[5], x[4], classes)]),
+        solid=solid
+        * jnp.stack([(1.0 - second) * shares(x[4], x[5], classes), second * shares(x[5], x[4], classes)]),
         liquid=liquid * jnp.stack([1.0 - ethanol, ethanol]),
         gas=1e-3 * liquid * jnp.stack([x[7], 1.0 - x[7]]),
     )
@@ -85,7 +110,10 @@ def with_wash(mixture: Mixture, x: Any) -> dict[str, Stream]:
     """A slurry, and liquid to wash its cake: up to some five void volumes."""
     feed = slurry(mixture, x)
     wash = feed.solid_flow * 10.0 ** (-2.0 + 2.5 * x[7])
-    return {"feed": feed, "wash": empty(mixture, 290.0 + 40.0 * x[6]).replace(liquid=wash * jnp.stack([0.9, 0.1]))}
+    return {
+        "feed": feed,
+        "wash": empty(mixture, 290.0 + 40.0 * x[6]).replace(liquid=wash * jnp.stack([0.9, 0.1])),
+    }
 
 
 def alone(mixture: Mixture, x: Any) -> dict[str, Stream]:
@@ -117,36 +145,95 @@ def mills(classes: int) -> dict[str, Case]:
     cut = lambda u: 10.0 ** (-5.5 + 3.5 * u[0])
     return {
         **{
-            f"mill {name}": Case(rocks, alone, lambda f, u, law=law, way=way: BallMill(
-                selection(u), breakage(u), holdup(f, u), law, 1e5 * u[0] * f["feed"].mass_flow, way))
+            f"mill {name}": Case(
+                rocks,
+                alone,
+                lambda f, u, law=law, way=way: BallMill(
+                    selection(u), breakage(u), holdup(f, u), law, 1e5 * u[0] * f["feed"].mass_flow, way
+                ),
+            )
             for name, law, way in (
-                ("mixed", TanksInSeries(1), "continuous"), ("tanks", TanksInSeries(3), "continuous"), ("plug", PlugFlow(), "continuous"),
-                ("shell", LargeAndTwoSmall(0.7), "continuous"))
+                ("mixed", TanksInSeries(1), "continuous"),
+                ("tanks", TanksInSeries(3), "continuous"),
+                ("plug", PlugFlow(), "continuous"),
+                ("shell", LargeAndTwoSmall(0.7), "continuous"),
+            )
         },
-        "bond": Case(wide, alone, lambda f, u: BondMill(f["feed"].solid_flow * 10.0 ** (2.0 + 3.5 * u[0]), 3e4 + 5e4 * u[1], 0.9 + u[2])),
-        "cone": Case(wide, alone, lambda f, u: ConeCrusher(
-            2e-3 + 0.02 * u[0], 0.025 + 0.1 * u[1], BroadbentCallcottBreakage(), 1.0 + 3.0 * u[2], 1e4 * u[3] * f["feed"].mass_flow)),
-        **{f"screen {n}": Case(rocks, alone, lambda f, u, deck=deck: Screen(deck(cut(u), u), 0.3 * u[4])) for n, deck in decks.items()},
-        "two decks": Case(rocks, alone, lambda f, u: DoubleDeckScreen(decks["whiten"](cut(u), u), decks["logistic"](0.3 * cut(u), u), 0.3 * u[4])),
-        "three decks": Case(rocks, alone, lambda f, u: TripleDeckScreen(
-            decks["whiten"](cut(u), u), decks["logistic"](0.3 * cut(u), u), decks["ideal"](0.1 * cut(u), u), 0.3 * u[4])),
+        "bond": Case(
+            wide,
+            alone,
+            lambda f, u: BondMill(
+                f["feed"].solid_flow * 10.0 ** (2.0 + 3.5 * u[0]), 3e4 + 5e4 * u[1], 0.9 + u[2]
+            ),
+        ),
+        "cone": Case(
+            wide,
+            alone,
+            lambda f, u: ConeCrusher(
+                2e-3 + 0.02 * u[0],
+                0.025 + 0.1 * u[1],
+                BroadbentCallcottBreakage(),
+                1.0 + 3.0 * u[2],
+                1e4 * u[3] * f["feed"].mass_flow,
+            ),
+        ),
         **{
-            f"sized screen {deck} {wet}": Case(rocks, alone, lambda f, u, deck=deck, wet=wet: SizedScreen(
-                3e-4 * 10.0 ** (2.0 * u[0]), f["feed"].solid_flow * 10.0 ** (-2.0 + 3.0 * u[1]), 1e-4 * 10.0 ** (2.0 * u[0]) * u[2], 0.4 * u[3],
-                deck, wet, 1000.0 + 1200.0 * u[4], liquid_split_oversize=0.2 * u[5]))
+            f"screen {n}": Case(rocks, alone, lambda f, u, deck=deck: Screen(deck(cut(u), u), 0.3 * u[4]))
+            for n, deck in decks.items()
+        },
+        "two decks": Case(
+            rocks,
+            alone,
+            lambda f, u: DoubleDeckScreen(
+                decks["whiten"](cut(u), u), decks["logistic"](0.3 * cut(u), u), 0.3 * u[4]
+            ),
+        ),
+        "three decks": Case(
+            rocks,
+            alone,
+            lambda f, u: TripleDeckScreen(
+                decks["whiten"](cut(u), u),
+                decks["logistic"](0.3 * cut(u), u),
+                decks["ideal"](0.1 * cut(u), u),
+                0.3 * u[4],
+            ),
+        ),
+        **{
+            f"sized screen {deck} {wet}": Case(
+                rocks,
+                alone,
+                lambda f, u, deck=deck, wet=wet: SizedScreen(
+                    3e-4 * 10.0 ** (2.0 * u[0]),
+                    f["feed"].solid_flow * 10.0 ** (-2.0 + 3.0 * u[1]),
+                    1e-4 * 10.0 ** (2.0 * u[0]) * u[2],
+                    0.4 * u[3],
+                    deck,
+                    wet,
+                    1000.0 + 1200.0 * u[4],
+                    liquid_split_oversize=0.2 * u[5],
+                ),
+            )
             for deck, wet in ((1, "dry"), (3, "wet"))
         },
-    }  # fmt: skip
+    }
 
 
 def _cake(f: dict[str, Stream], u: Any) -> tuple:
-    return f["feed"].solid_flow * 10.0 ** (0.5 + 3.0 * u[0]), 1e4 * 10.0 ** (1.7 * u[1]), 10.0 ** (8.0 + 4.0 * u[2]), 0.35 + 0.25 * u[3]
+    return (
+        f["feed"].solid_flow * 10.0 ** (0.5 + 3.0 * u[0]),
+        1e4 * 10.0 ** (1.7 * u[1]),
+        10.0 ** (8.0 + 4.0 * u[2]),
+        0.35 + 0.25 * u[3],
+    )
 
 
 def _more(u: Any) -> dict[str, Any]:
     return {
-        "medium_resistance": 10.0 ** (9.0 + 2.0 * u[4]), "compressibility": 0.9 * u[5], "solids_recovery": 0.9 + 0.1 * u[4], "surface_tension": 0.02 + 0.05 * u[5],
-    }  # fmt: skip
+        "medium_resistance": 10.0 ** (9.0 + 2.0 * u[4]),
+        "compressibility": 0.9 * u[5],
+        "solids_recovery": 0.9 + 0.1 * u[4],
+        "surface_tension": 0.02 + 0.05 * u[5],
+    }
 
 
 def filters(classes: int) -> dict[str, Case]:
@@ -154,22 +241,92 @@ def filters(classes: int) -> dict[str, Case]:
     batch = lambda u: {"deliquoring_time": 1800.0 * u[5], **_more(u)}
     bed = slurries(classes, 5e-7, 1e-4)
     return {
-        "drum": Case(fine, with_wash, lambda f, u: RotaryVacuumDrum(*_cake(f, u), rotation_speed=0.02 + 0.18 * u[4], **_more(u))),
-        "disc": Case(fine, with_wash, lambda f, u: RotaryDiscFilter(*_cake(f, u), rotation_speed=0.02 + 0.18 * u[4], wash_share=0.2 * u[5], **_more(u))),
-        "belt": Case(fine, with_wash, lambda f, u: HorizontalBeltFilter(*_cake(f, u), belt_length=3.0 + 27.0 * u[4], belt_speed=0.02 + 0.48 * u[5], **_more(u))),
-        "precoat": Case(fine, with_wash, lambda f, u: PrecoatDrum(*_cake(f, u), rotation_speed=0.02 + 0.18 * u[4], precoat_thickness=0.05 + 0.07 * u[5], precoat_permeability=10.0 ** (-14.0 + 2.0 * u[2]),
-                                                                   knife_advance=10.0 ** (-5.0 + 1.3 * u[3]), **_more(u))),
-        "frame": Case(fine, with_wash, lambda f, u: PlateAndFramePress(*_cake(f, u), chamber_depth=0.02 + 0.03 * u[4], **batch(u))),
-        "chamber": Case(fine, with_wash, lambda f, u: ChamberPress(*_cake(f, u), chamber_depth=0.02 + 0.03 * u[4], **batch(u))),
-        "membrane": Case(fine, with_wash, lambda f, u: MembranePress(*_cake(f, u), chamber_depth=0.02 + 0.03 * u[4], void_fraction_squeezed=0.3 + 0.2 * u[3], squeezing_time=300.0 + 1500.0 * u[4],
-                                                                     consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]), **batch(u))),
-        "nutsche": Case(fine, with_wash, lambda f, u: Nutsche(*_cake(f, u), full_cake_thickness=0.01 + 0.29 * u[4], **batch(u))),
-        "leaf": Case(fine, with_wash, lambda f, u: PressureLeafFilter(*_cake(f, u), full_cake_thickness=0.01 + 0.03 * u[4], **batch(u))),
-        "candle": Case(fine, with_wash, lambda f, u: CandleFilter(*_cake(f, u), full_cake_thickness=0.01 + 0.03 * u[4], candle_radius=0.01 + 0.04 * u[5], **batch(u))),
-        "deep bed": Case(bed, thin, lambda f, u: DeepBedFilter(f["feed"].slurry_volume_flow / (HOUR_RATE * 10.0 ** (1.5 * u[0])), 0.3 + 1.7 * u[1],
-                                                               3e-4 + 1.7e-3 * u[2], void_fraction=0.35 + 0.15 * u[3], attachment_efficiency=u[4],
-                                                               bed_expansion=0.1 + 0.4 * u[5])),
-    }  # fmt: skip
+        "drum": Case(
+            fine,
+            with_wash,
+            lambda f, u: RotaryVacuumDrum(*_cake(f, u), rotation_speed=0.02 + 0.18 * u[4], **_more(u)),
+        ),
+        "disc": Case(
+            fine,
+            with_wash,
+            lambda f, u: RotaryDiscFilter(
+                *_cake(f, u), rotation_speed=0.02 + 0.18 * u[4], wash_share=0.2 * u[5], **_more(u)
+            ),
+        ),
+        "belt": Case(
+            fine,
+            with_wash,
+            lambda f, u: HorizontalBeltFilter(
+                *_cake(f, u), belt_length=3.0 + 27.0 * u[4], belt_speed=0.02 + 0.48 * u[5], **_more(u)
+            ),
+        ),
+        "precoat": Case(
+            fine,
+            with_wash,
+            lambda f, u: PrecoatDrum(
+                *_cake(f, u),
+                rotation_speed=0.02 + 0.18 * u[4],
+                precoat_thickness=0.05 + 0.07 * u[5],
+                precoat_permeability=10.0 ** (-14.0 + 2.0 * u[2]),
+                knife_advance=10.0 ** (-5.0 + 1.3 * u[3]),
+                **_more(u),
+            ),
+        ),
+        "frame": Case(
+            fine,
+            with_wash,
+            lambda f, u: PlateAndFramePress(*_cake(f, u), chamber_depth=0.02 + 0.03 * u[4], **batch(u)),
+        ),
+        "chamber": Case(
+            fine,
+            with_wash,
+            lambda f, u: ChamberPress(*_cake(f, u), chamber_depth=0.02 + 0.03 * u[4], **batch(u)),
+        ),
+        "membrane": Case(
+            fine,
+            with_wash,
+            lambda f, u: MembranePress(
+                *_cake(f, u),
+                chamber_depth=0.02 + 0.03 * u[4],
+                void_fraction_squeezed=0.3 + 0.2 * u[3],
+                squeezing_time=300.0 + 1500.0 * u[4],
+                consolidation_coefficient=10.0 ** (-9.0 + 3.0 * u[5]),
+                **batch(u),
+            ),
+        ),
+        "nutsche": Case(
+            fine,
+            with_wash,
+            lambda f, u: Nutsche(*_cake(f, u), full_cake_thickness=0.01 + 0.29 * u[4], **batch(u)),
+        ),
+        "leaf": Case(
+            fine,
+            with_wash,
+            lambda f, u: PressureLeafFilter(*_cake(f, u), full_cake_thickness=0.01 + 0.03 * u[4], **batch(u)),
+        ),
+        "candle": Case(
+            fine,
+            with_wash,
+            lambda f, u: CandleFilter(
+                *_cake(f, u),
+                full_cake_thickness=0.01 + 0.03 * u[4],
+                candle_radius=0.01 + 0.04 * u[5],
+                **batch(u),
+            ),
+        ),
+        "deep bed": Case(
+            bed,
+            thin,
+            lambda f, u: DeepBedFilter(
+                f["feed"].slurry_volume_flow / (HOUR_RATE * 10.0 ** (1.5 * u[0])),
+                0.3 + 1.7 * u[1],
+                3e-4 + 1.7e-3 * u[2],
+                void_fraction=0.35 + 0.15 * u[3],
+                attachment_efficiency=u[4],
+                bed_expansion=0.1 + 0.4 * u[5],
+            ),
+        ),
+    }
 
 
 HOUR_RATE = 1.0 / 3600.0
@@ -182,20 +339,116 @@ def centrifuges(classes: int) -> dict[str, Case]:
     basket = lambda u: (*bowl(u), 10.0 ** (8.0 + 3.0 * u[2]), 0.35 + 0.25 * u[3])
     more = lambda u: {"medium_resistance": 10.0 ** (9.0 + 2.0 * u[4]), "solids_recovery": 0.9 + 0.1 * u[5]}
     return {
-        "tubular": Case(fine, alone, lambda f, u: TubularBowl(*settling(u), bowl_length=0.2 + 1.8 * u[3], sediment_solids_fraction=0.2 + 0.4 * u[4])),
-        "disc stack": Case(fine, alone, lambda f, u: DiscStack(*settling(u), disc_number=20.0 + 180.0 * u[3], disc_angle=0.6 + 0.3 * u[5], sediment_solids_fraction=0.2 + 0.4 * u[4])),
-        "decanter": Case(fine, alone, lambda f, u: ScrollDecanter(*settling(u), bowl_length=0.5 + 1.5 * u[3], beach_length=0.4 * u[5], sediment_solids_fraction=0.2 + 0.4 * u[4])),
-        "solid basket": Case(fine, alone, lambda f, u: SolidBasket(*settling(u), bowl_length=0.2 + 0.8 * u[3], working_share=0.5 + 0.45 * u[5], sediment_solids_fraction=0.2 + 0.4 * u[4])),
-        "peeler": Case(fine, with_wash, lambda f, u: Peeler(*basket(u), cake_radius=0.85 * bowl(u)[0], basket_height=0.2 + 0.8 * u[4], radius_inner=0.8 * bowl(u)[0], drainage_time=10.0 + 590.0 * u[5], **more(u))),
-        "pusher": Case(fine, with_wash, lambda f, u: Pusher(*basket(u), cake_radius=0.9 * bowl(u)[0], basket_length=0.2 + 0.8 * u[4], feed_share=0.15 + 0.25 * u[5], **more(u))),
-        "scroll screen": Case(fine, with_wash, lambda f, u: ScrollScreen(*basket(u), basket_length=0.2 + 0.8 * u[4], scroll_pitch=0.05 + 0.1 * u[5], differential_speed=1.0 + 9.0 * u[3], **more(u))),
-        "sliding screen": Case(fine, with_wash, lambda f, u: SlidingCakeScreen(*basket(u), basket_length=0.2 + 0.8 * u[4], cone_angle=0.2 + 0.4 * u[5], friction_angle=0.3 + 0.4 * u[3],
-                                                                                stay_time=1.0 + 19.0 * u[2], **more(u))),
-        "shaken screen": Case(fine, with_wash, lambda f, u: VibratingScreen(*basket(u), basket_length=0.2 + 0.8 * u[4], cone_angle=0.2 + 0.4 * u[5], friction_angle=0.3 + 0.4 * u[3], vibration_acceleration=20.0 + 180.0 * u[2],
-                                                                            stay_time=1.0 + 19.0 * u[2], **more(u))),
-        "tumbling screen": Case(fine, with_wash, lambda f, u: TumblingScreen(*basket(u), basket_length=0.2 + 0.8 * u[4], cone_angle=0.2 + 0.4 * u[5], friction_angle=0.3 + 0.4 * u[3], tumbling_angle=0.03 + 0.17 * u[2],
-                                                                             stay_time=1.0 + 19.0 * u[2], **more(u))),
-    }  # fmt: skip
+        "tubular": Case(
+            fine,
+            alone,
+            lambda f, u: TubularBowl(
+                *settling(u), bowl_length=0.2 + 1.8 * u[3], sediment_solids_fraction=0.2 + 0.4 * u[4]
+            ),
+        ),
+        "disc stack": Case(
+            fine,
+            alone,
+            lambda f, u: DiscStack(
+                *settling(u),
+                disc_number=20.0 + 180.0 * u[3],
+                disc_angle=0.6 + 0.3 * u[5],
+                sediment_solids_fraction=0.2 + 0.4 * u[4],
+            ),
+        ),
+        "decanter": Case(
+            fine,
+            alone,
+            lambda f, u: ScrollDecanter(
+                *settling(u),
+                bowl_length=0.5 + 1.5 * u[3],
+                beach_length=0.4 * u[5],
+                sediment_solids_fraction=0.2 + 0.4 * u[4],
+            ),
+        ),
+        "solid basket": Case(
+            fine,
+            alone,
+            lambda f, u: SolidBasket(
+                *settling(u),
+                bowl_length=0.2 + 0.8 * u[3],
+                working_share=0.5 + 0.45 * u[5],
+                sediment_solids_fraction=0.2 + 0.4 * u[4],
+            ),
+        ),
+        "peeler": Case(
+            fine,
+            with_wash,
+            lambda f, u: Peeler(
+                *basket(u),
+                cake_radius=0.85 * bowl(u)[0],
+                basket_height=0.2 + 0.8 * u[4],
+                radius_inner=0.8 * bowl(u)[0],
+                drainage_time=10.0 + 590.0 * u[5],
+                **more(u),
+            ),
+        ),
+        "pusher": Case(
+            fine,
+            with_wash,
+            lambda f, u: Pusher(
+                *basket(u),
+                cake_radius=0.9 * bowl(u)[0],
+                basket_length=0.2 + 0.8 * u[4],
+                feed_share=0.15 + 0.25 * u[5],
+                **more(u),
+            ),
+        ),
+        "scroll screen": Case(
+            fine,
+            with_wash,
+            lambda f, u: ScrollScreen(
+                *basket(u),
+                basket_length=0.2 + 0.8 * u[4],
+                scroll_pitch=0.05 + 0.1 * u[5],
+                differential_speed=1.0 + 9.0 * u[3],
+                **more(u),
+            ),
+        ),
+        "sliding screen": Case(
+            fine,
+            with_wash,
+            lambda f, u: SlidingCakeScreen(
+                *basket(u),
+                basket_length=0.2 + 0.8 * u[4],
+                cone_angle=0.2 + 0.4 * u[5],
+                friction_angle=0.3 + 0.4 * u[3],
+                stay_time=1.0 + 19.0 * u[2],
+                **more(u),
+            ),
+        ),
+        "shaken screen": Case(
+            fine,
+            with_wash,
+            lambda f, u: VibratingScreen(
+                *basket(u),
+                basket_length=0.2 + 0.8 * u[4],
+                cone_angle=0.2 + 0.4 * u[5],
+                friction_angle=0.3 + 0.4 * u[3],
+                vibration_acceleration=20.0 + 180.0 * u[2],
+                stay_time=1.0 + 19.0 * u[2],
+                **more(u),
+            ),
+        ),
+        "tumbling screen": Case(
+            fine,
+            with_wash,
+            lambda f, u: TumblingScreen(
+                *basket(u),
+                basket_length=0.2 + 0.8 * u[4],
+                cone_angle=0.2 + 0.4 * u[5],
+                friction_angle=0.3 + 0.4 * u[3],
+                tumbling_angle=0.03 + 0.17 * u[2],
+                stay_time=1.0 + 19.0 * u[2],
+                **more(u),
+            ),
+        ),
+    }
 
 
 def basics(classes: int) -> dict[str, Case]:
@@ -206,59 +459,133 @@ def basics(classes: int) -> dict[str, Case]:
         "heater": Case(fine, alone, lambda f, u: Heater(275.0 + 90.0 * u[0])),
         "tank": Case(fine, alone, lambda f, u: StirredTank(10.0 ** (-1.0 + 3.0 * u[0]))),
         **{
-            f"agglomerator {name}": Case(fine, alone, lambda f, u, law=law: Agglomerator(
-                law(u), f["feed"].solid_flow * 10.0 ** (1.0 + 2.5 * u[1]), 10.0 ** (-3.0 + 4.0 * u[2])))
-            for name, law in (("constant", lambda u: ConstantKernel(10.0 ** (-19.0 + 6.0 * u[0]))), ("sum", lambda u: SumKernel(10.0 ** (-9.0 + 6.0 * u[0]))))
+            f"agglomerator {name}": Case(
+                fine,
+                alone,
+                lambda f, u, law=law: Agglomerator(
+                    law(u), f["feed"].solid_flow * 10.0 ** (1.0 + 2.5 * u[1]), 10.0 ** (-3.0 + 4.0 * u[2])
+                ),
+            )
+            for name, law in (
+                ("constant", lambda u: ConstantKernel(10.0 ** (-19.0 + 6.0 * u[0]))),
+                ("sum", lambda u: SumKernel(10.0 ** (-9.0 + 6.0 * u[0]))),
+            )
         },
-        "clarifier-thickener": Case(fine, lambda m, x: {"feed": slurry(m, x, (-4.0, -1.5))}, lambda f, u: ClarifierThickener(
-            f["feed"].slurry_volume_flow / 10.0 ** (-5.0 + 2.0 * u[0]) , 2.0 + 3.0 * u[1], f["feed"].slurry_volume_flow * (0.02 + 0.6 * u[2]),
-            Vesilind(10.0 ** (-4.0 + 1.5 * u[3]), 0.005 + 0.05 * u[4]), PowerStress(30.0 + 70.0 * u[5], 5.0, 3.0), concentration_maximum=600.0, cells=20)),
-    }  # fmt: skip
+        "clarifier-thickener": Case(
+            fine,
+            lambda m, x: {"feed": slurry(m, x, (-4.0, -1.5))},
+            lambda f, u: ClarifierThickener(
+                f["feed"].slurry_volume_flow / 10.0 ** (-5.0 + 2.0 * u[0]),
+                2.0 + 3.0 * u[1],
+                f["feed"].slurry_volume_flow * (0.02 + 0.6 * u[2]),
+                Vesilind(10.0 ** (-4.0 + 1.5 * u[3]), 0.005 + 0.05 * u[4]),
+                PowerStress(30.0 + 70.0 * u[5], 5.0, 3.0),
+                concentration_maximum=600.0,
+                cells=20,
+            ),
+        ),
+    }
 
 
 def _solution(mixture: Mixture, x: Any) -> dict[str, Stream]:
-    """0.1 to 10 kg/s of warm water with half to twice the nitrate that it dissolves at 25 °C, crystals, a little ethanol and air."""
+    """0.1 to 10 kg/s of warm water with half to twice the nitrate that it dissolves at 25 °C, crystals, a
+    little ethanol and air.
+    """
     water, classes = 10.0 ** (-1.0 + 2.0 * x[0]), len(mixture.sizes)
-    return {"feed": empty(mixture, 300.0 + 40.0 * x[2]).replace(
-        solid=water * jnp.stack([0.2 * x[3] * (x[3] > 0.5) * shares(x[4], x[5], classes), 0.01 * x[7] * shares(x[5], x[4], classes)]),
-        liquid=water * jnp.stack([1.0, 0.2 + 0.7 * x[1], 0.05 * x[6]]), gas=1e-4 * water * jnp.stack([0.0, x[7]]))}  # fmt: skip
+    return {
+        "feed": empty(mixture, 300.0 + 40.0 * x[2]).replace(
+            solid=water
+            * jnp.stack(
+                [
+                    0.2 * x[3] * (x[3] > 0.5) * shares(x[4], x[5], classes),
+                    0.01 * x[7] * shares(x[5], x[4], classes),
+                ]
+            ),
+            liquid=water * jnp.stack([1.0, 0.2 + 0.7 * x[1], 0.05 * x[6]]),
+            gas=1e-4 * water * jnp.stack([0.0, x[7]]),
+        )
+    }
 
 
 def crystallizers(classes: int) -> dict[str, Case]:
     water = (("water", 1.0),)
     nitrate = Mixture(
-        solids=(Species("nitrate", (("nitrate", 1.0),), (2110.0,), (940.0,), -3.4e5), Species("sand", (("sand", 1.0),), (2650.0,), (800.0,))),
+        solids=(
+            Species("nitrate", (("nitrate", 1.0),), (2110.0,), (940.0,), -3.4e5),
+            Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),
+        ),
         liquids=(
-            Species("water", water, (1000.0,), (4180.0,)), Species("nitrate", (("nitrate", 1.0),), (2300.0,), (1500.0,)),
+            Species("water", water, (1000.0,), (4180.0,)),
+            Species("nitrate", (("nitrate", 1.0),), (2300.0,), (1500.0,)),
             Species("ethanol", (("ethanol", 1.0),), (789.0,), (2440.0,)),
         ),
-        gases=(Species("water", water, (), (1860.0,), 2.5e6, 0.018015), Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896)),
+        gases=(
+            Species("water", water, (), (1860.0,), 2.5e6, 0.018015),
+            Species("air", (("air", 1.0),), (1.2,), (1005.0,), molar_mass=0.02896),
+        ),
         size_edges=tuple(np.geomspace(2e-6, 3e-3, classes + 1)),
         liquid_viscosity=lambda w, T: 1e-3,
-    )  # fmt: skip
+    )
     laws = lambda u: {
-        "solubility": PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), "growth": PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
-        "nucleation": PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]), "solid": "nitrate", "solvent": "water",
-    }  # fmt: skip
+        "solubility": PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+        "growth": PowerLawGrowth(10.0 ** (-6.0 + 2.0 * u[2]), 1.0 + u[3]),
+        "nucleation": PowerLawNucleation(10.0 ** (5.0 + 4.0 * u[4]), 1.5 + u[5]),
+        "solid": "nitrate",
+        "solvent": "water",
+    }
     vessel = lambda f, u: (285.0 + 30.0 * u[0], f["feed"].slurry_volume_flow * 10.0 ** (2.5 + 1.5 * u[1]))
     cooling = lambda f, u: PowerCooling(
-        f["feed"].temperature, f["feed"].temperature - 40.0 * u[0], 3600.0 * (1.0 + 9.0 * u[1]), 1.0 + 2.0 * u[3]
+        f["feed"].temperature,
+        f["feed"].temperature - 40.0 * u[0],
+        3600.0 * (1.0 + 9.0 * u[1]),
+        1.0 + 2.0 * u[3],
     )
-    batch = lambda u: {"duration": 3600.0 * (1.0 + 9.0 * u[1]), "seed_mass_per_solvent": 0.02 * u[3], "seed_size": 5e-5 + 1.5e-4 * u[4],
-                       "seed_width": 4e-5 * u[5], **laws(u)}  # fmt: skip
+    batch = lambda u: {
+        "duration": 3600.0 * (1.0 + 9.0 * u[1]),
+        "seed_mass_per_solvent": 0.02 * u[3],
+        "seed_size": 5e-5 + 1.5e-4 * u[4],
+        "seed_width": 4e-5 * u[5],
+        **laws(u),
+    }
     Cased = lambda unit: Case(nitrate, _solution, unit)
     return {
-        "msmpr": Cased(lambda f, u: Msmpr(*vessel(f, u), evaporation=0.3 * u[5] * f["feed"].liquid[0], **laws(u))),
-        "classified": Cased(lambda f, u: ClassifiedCrystallizer(
-            *vessel(f, u), fines_removal_ratio=1.0 + 4.0 * u[5], fines_cut_size=5e-5 + 1.5e-4 * u[3], product_removal_ratio=1.0 + 4.0 * u[4],
-            product_cut_size=3e-4 + 7e-4 * u[2], evaporation=0.2 * u[1] * f["feed"].liquid[0], **laws(u))),
-        "vacuum": Cased(lambda f, u: VacuumCrystallizer(*vessel(f, u), heat_duty=1e5 * u[5] * f["feed"].liquid[0], **laws(u))),
+        "msmpr": Cased(
+            lambda f, u: Msmpr(*vessel(f, u), evaporation=0.3 * u[5] * f["feed"].liquid[0], **laws(u))
+        ),
+        "classified": Cased(
+            lambda f, u: ClassifiedCrystallizer(
+                *vessel(f, u),
+                fines_removal_ratio=1.0 + 4.0 * u[5],
+                fines_cut_size=5e-5 + 1.5e-4 * u[3],
+                product_removal_ratio=1.0 + 4.0 * u[4],
+                product_cut_size=3e-4 + 7e-4 * u[2],
+                evaporation=0.2 * u[1] * f["feed"].liquid[0],
+                **laws(u),
+            )
+        ),
+        "vacuum": Cased(
+            lambda f, u: VacuumCrystallizer(
+                *vessel(f, u), heat_duty=1e5 * u[5] * f["feed"].liquid[0], **laws(u)
+            )
+        ),
         "batch": Cased(lambda f, u: BatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),
-        "jacketed": Cased(lambda f, u: JacketedBatchCrystallizer(
-            jacket_program=NaturalCooling(f["feed"].temperature, 280.0 + 20.0 * u[0], 3600.0), volume=10.0 ** (-1.0 + 2.0 * u[2]), area=5.0 + 20.0 * u[3],
-            heat_transfer_coefficient=100.0 + 400.0 * u[4], **batch(u))),
-        "vacuum batch": Cased(lambda f, u: VacuumBatchCrystallizer(temperature_program=cooling(f, u), **batch(u))),
-        "tube": Cased(lambda f, u: PlugFlowCrystallizer(
-            temperature_program=cooling(f, u), volume=f["feed"].slurry_volume_flow * 3600.0 * (1.0 + 9.0 * u[1]),
-            **{k: v for k, v in batch(u).items() if k != "duration"})),
-    }  # fmt: skip
+        "jacketed": Cased(
+            lambda f, u: JacketedBatchCrystallizer(
+                jacket_program=NaturalCooling(f["feed"].temperature, 280.0 + 20.0 * u[0], 3600.0),
+                volume=10.0 ** (-1.0 + 2.0 * u[2]),
+                area=5.0 + 20.0 * u[3],
+                heat_transfer_coefficient=100.0 + 400.0 * u[4],
+                **batch(u),
+            )
+        ),
+        "vacuum batch": Cased(
+            lambda f, u: VacuumBatchCrystallizer(temperature_program=cooling(f, u), **batch(u))
+        ),
+        "tube": Cased(
+            lambda f, u: PlugFlowCrystallizer(
+                temperature_program=cooling(f, u),
+                volume=f["feed"].slurry_volume_flow * 3600.0 * (1.0 + 9.0 * u[1]),
+                **{k: v for k, v in batch(u).items() if k != "duration"},
+            )
+        ),
+    }

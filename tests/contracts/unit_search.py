@@ -1,4 +1,6 @@
-"""What random searches ask of every unit: the questions that a solved line is asked, of hundreds of settings at once."""
+"""What random searches ask of every unit: the questions that a solved line is asked, of hundreds of settings
+at once.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ from granum.streams.units import Unit
 SAMPLES = int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0"))  # settings of each unit, in the long run
 FEED, THERE, OWN = 8, 3, 6
 EMPTY = 8  # rows that leave something out, at the beginning
-"""A row of numbers from 0 to 1: eight for the feeds, three that say what is there at all, six for the unit."""
+"""A row of numbers from 0 to 1: eight for the feeds, three that say what is there at all, six for the
+unit.
+"""
 QUICK = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}
 
 
@@ -44,8 +48,10 @@ class Tried(NamedTuple):
 
     Parameters
     ----------
-    feeds, products: the streams by name. figures: those of the data sheet, kept: whether each is finite and within the bounds of its kind.
-    refused: whether the unit itself says that it has no solution. finite, lowest, mass, energy: as of ``Findings``.
+    feeds, products: the streams by name. figures: those of the data sheet, kept: whether each is finite and
+        within the bounds of its kind.
+    refused: whether the unit itself says that it has no solution. finite, lowest, mass, energy: as of
+        ``Findings``.
     """
 
     feeds: dict[str, Stream]
@@ -60,7 +66,9 @@ class Tried(NamedTuple):
 
 
 def rows(count: int, seed: int = 5) -> np.ndarray:
-    """Random rows; the first eight leave out solid, liquid or gas and the second feed in every combination, the next two are of one size and of all."""
+    """Random rows; the first eight leave out solid, liquid or gas and the second feed in every combination,
+    the next two are of one size and of all.
+    """
     x = np.random.default_rng(seed).random((count, FEED + THERE + OWN))
     x[:, FEED : FEED + THERE] = 1.0
     x[:EMPTY, FEED : FEED + THERE] = np.indices((2, 2, 2)).reshape(3, 8).T
@@ -79,13 +87,27 @@ def opposite_of(m: Mixture) -> Mixture:
     law = m.liquid_viscosity
     viscosity = None if law is None else lambda w, T: law(w[::-1], T)
     return Mixture(
-        m.solids[::-1], m.liquids[::-1], m.gases[::-1], m.size_edges, m.axes, viscosity, m.gas_viscosity, m.gas_conductivity
-    )  # fmt: skip
+        m.solids[::-1],
+        m.liquids[::-1],
+        m.gases[::-1],
+        m.size_edges,
+        m.axes,
+        viscosity,
+        m.gas_viscosity,
+        m.gas_conductivity,
+    )
 
 
 def turned(stream: Stream, mixture: Mixture) -> Stream:
     """The same matter in the mixture of opposite order."""
-    return Stream(stream.solid[::-1], stream.liquid[::-1], stream.gas[::-1], stream.temperature, stream.pressure, mixture)
+    return Stream(
+        stream.solid[::-1],
+        stream.liquid[::-1],
+        stream.gas[::-1],
+        stream.temperature,
+        stream.pressure,
+        mixture,
+    )
 
 
 def within(figures: Any) -> dict[str, Any]:
@@ -94,7 +116,9 @@ def within(figures: Any) -> dict[str, Any]:
     kept = {}
     for name, value in figures._asdict().items():
         slack = 1e-12 * jnp.maximum(jnp.abs(jnp.asarray(value)), 1.0)
-        kept[name] = (kind_of(hints[name]).contains(value + slack) | kind_of(hints[name]).contains(value - slack)) & jnp.isfinite(value)
+        kept[name] = (
+            kind_of(hints[name]).contains(value + slack) | kind_of(hints[name]).contains(value - slack)
+        ) & jnp.isfinite(value)
     return kept
 
 
@@ -159,11 +183,16 @@ def apart(a: Any, b: Any) -> np.ndarray:
 
 
 def disordered(found: Tried, other: Tried, used: Any) -> dict[str, float]:
-    """Largest differences, beyond rounding, between what came of the same rows with species named in another order."""
+    """Largest differences, beyond rounding, between what came of the same rows with species named in another
+    order.
+    """
     pairs = {name: (value, other.figures[name]) for name, value in found.figures.items()}
     for port, s in found.products.items():
         pairs |= {
-            f"{port}.{part}": (getattr(s, part), getattr(other.products[port], part)) for part in ("solid", "liquid", "gas", "temperature")
+            f"{port}.{part}": (getattr(s, part), getattr(other.products[port], part))
+            for part in ("solid", "liquid", "gas", "temperature")
         }
-    differences = {name: float(apart(a, b)[used].max(initial=0.0)) for name, (a, b) in pairs.items() if np.size(a)}
+    differences = {
+        name: float(apart(a, b)[used].max(initial=0.0)) for name, (a, b) in pairs.items() if np.size(a)
+    }
     return {name: value for name, value in differences.items() if not value <= 1e-9}

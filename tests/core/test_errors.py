@@ -65,7 +65,13 @@ def test_extrapolation_keeps_the_value_and_says_so() -> None:
 
 
 def test_flags_of_inner_laws_reach_the_caller() -> None:
-    inputs = {"particle_diameter": "5 mm", "particle_density": 2650, "fluid_density": 998, "dynamic_viscosity": "1 mPa*s", "drag": "stokes"}
+    inputs = {
+        "particle_diameter": "5 mm",
+        "particle_density": 2650,
+        "fluid_density": 998,
+        "dynamic_viscosity": "1 mPa*s",
+        "drag": "stokes",
+    }
     cards = {n["card"] for n in terminal_velocity.evaluate(**inputs).notices}
     assert "particles.drag_coefficient_stokes" in cards
 

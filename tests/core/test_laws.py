@@ -1,4 +1,6 @@
-"""What may stand as a law: a function, a formula with options of its own; all else is refused when it is given."""
+"""What may stand as a law: a function, a formula with options of its own; all else is refused when it is
+given.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +14,22 @@ import pytest
 import granum as gr
 from granum.core.errors import InputError
 
-FALL = {"particle_diameter": 50e-6, "particle_density": 2650.0, "fluid_density": 998.0, "dynamic_viscosity": 1e-3}
+FALL = {
+    "particle_diameter": 50e-6,
+    "particle_density": 2650.0,
+    "fluid_density": 998.0,
+    "dynamic_viscosity": 1e-3,
+}
 STOKES = 9.80665 * 50e-6**2 * (2650.0 - 998.0) / (18.0 * 1e-3)
 
 
 @pytest.mark.parametrize(
-    "law", [lambda re: 24.0 / re, functools.partial(lambda a, re: a / re, 24.0), jax.tree_util.Partial(lambda re: 24.0 / re)]
+    "law",
+    [
+        lambda re: 24.0 / re,
+        functools.partial(lambda a, re: a / re, 24.0),
+        jax.tree_util.Partial(lambda re: 24.0 / re),
+    ],
 )
 def test_a_plain_function_is_a_law_of_a_formula(law: object) -> None:
     assert gr.particles.terminal_velocity(**FALL, drag=law) == pytest.approx(STOKES, rel=1e-9)
@@ -75,7 +87,9 @@ def test_a_formula_as_a_law_takes_its_own_options() -> None:
     }
 
     def by_hand(inertial: float) -> float:
-        return 180.0 * 1e-3 * 0.1 / 3e-3**2 * 0.6**2 / 0.4**3 + inertial * 998.0 * 0.1**2 / 3e-3 * 0.6 / 0.4**3
+        return (
+            180.0 * 1e-3 * 0.1 / 3e-3**2 * 0.6**2 / 0.4**3 + inertial * 998.0 * 0.1**2 / 3e-3 * 0.6 / 0.4**3
+        )
 
     drop = gr.porous.pressure_drop_packed_bed
     for inertial in (1.8, 4.0):
@@ -91,6 +105,8 @@ def test_a_formula_as_a_law_takes_its_own_options() -> None:
     assert back == pytest.approx(0.1, rel=1e-6)
     with pytest.raises(InputError, match="Did you mean 'inertial_constant'"):
         drop(**bed, pressure_gradient={"law": "macdonald", "inertial_const": 4.0})
-    slope = jax.grad(lambda c: drop(**bed, pressure_gradient={"law": "macdonald", "inertial_constant": c}))(4.0)
+    slope = jax.grad(lambda c: drop(**bed, pressure_gradient={"law": "macdonald", "inertial_constant": c}))(
+        4.0
+    )
     assert slope == pytest.approx(by_hand(5.0) - by_hand(4.0), rel=1e-9)
     assert math.isfinite(slope)

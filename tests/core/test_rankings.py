@@ -5,18 +5,28 @@ import json
 import granum as gr
 from granum.reports.terminal import print_result
 
-GIVEN = {"product_form": "powder", "mass_flow": "20 t/h", "moisture_dry_basis_inlet": 0.54, "moisture_dry_basis_outlet": 0.18,
-         "temperature_limit": "60 degC", "residence_time": "8 hour"}  # fmt: skip
+GIVEN = {
+    "product_form": "powder",
+    "mass_flow": "20 t/h",
+    "moisture_dry_basis_inlet": 0.54,
+    "moisture_dry_basis_outlet": 0.18,
+    "temperature_limit": "60 degC",
+    "residence_time": "8 hour",
+}
 
 
 def test_rows_of_a_choice(capsys, monkeypatch):
-    """Maize wants a silo (the notes' table of dryers); every row names its dryer, mark, size, energy, what speaks for it and what against."""
+    """Maize wants a silo (the notes' table of dryers); every row names its dryer, mark, size, energy, what
+    speaks for it and what against.
+    """
     monkeypatch.setenv("COLUMNS", "160")
     result = gr.drying.choose.evaluate(**GIVEN)
     data = json.loads(json.dumps(result.as_json()))
     assert data["rows"][0]["dryer"] == {"value": "silo dryer", "unit": ""}
     assert [row["dryer"]["value"] for row in data["rows"]] == data["outputs"]["dryer"]["value"]
-    assert {"suitability", "dryer_size", "energy_per_water", "speaks_for", "speaks_against"} < set(data["rows"][0])
+    assert {"suitability", "dryer_size", "energy_per_water", "speaks_for", "speaks_against"} < set(
+        data["rows"][0]
+    )
     marks = [row["suitability"]["value"] for row in data["rows"]]
     assert marks == sorted(marks, reverse=True)
     print_result(result)

@@ -47,26 +47,34 @@ terminal_velocity(particle_diametre="85 um", particle_density=2630.0, fluid_dens
 gr.particles.terminal_velocity("85 um")
 TrayDryer(temperature_inlet="80 degC", gas_velocity=1.0, dry_mass_per_area=10.0, moisture_outlet=0.1, critical_moistur=0.2)
 gr.particles.terminal_velocty(1.0)
-"""
+"""  # noqa: E501
 
 
 def test_misspelt_words_are_type_errors(tmp_path):
     """Pyright finds the four wrong lines of the probe, and nothing in the right ones."""
     file = tmp_path / "probe.py"
     file.write_text(PROBE)
-    (tmp_path / "pyrightconfig.json").write_text(json.dumps({"extraPaths": [str(path_of("drying").parents[2])]}))
+    (tmp_path / "pyrightconfig.json").write_text(
+        json.dumps({"extraPaths": [str(path_of("drying").parents[2])]})
+    )
     done = subprocess.run(
         [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable],
         capture_output=True,
         text=True,
         cwd=tmp_path,
     )
-    rows = {row["range"]["start"]["line"] for row in json.loads(done.stdout)["generalDiagnostics"] if row["severity"] == "error"}
+    rows = {
+        row["range"]["start"]["line"]
+        for row in json.loads(done.stdout)["generalDiagnostics"]
+        if row["severity"] == "error"
+    }
     assert rows == {6, 7, 8, 9}
 
 
 def test_help_tells_what_is_declared():
-    """Unit, bounds, default, result, equation, source: of a formula, and of a class with its practical limits."""
+    """Unit, bounds, default, result, equation, source: of a formula, and of a class with its practical
+    limits.
+    """
     formula = gr.particles.terminal_velocity.__doc__
     for words in (
         "particle_diameter: particle diameter d_p, m, above 0",

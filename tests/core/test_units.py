@@ -18,31 +18,78 @@ from granum.particles import reynolds_number
 @pytest.mark.parametrize(
     ("text", "kind", "expected"),
     [
-        ("85 um", "Length", 85e-6), ("85um", "Length", 85e-6), ("85 µm", "Length", 85e-6), ("1e-3 m", "Length", 1e-3), ("1 inch", "Length", 0.0254),
-        ("0,8 bar", "Pressure", 8e4), ("1 atm", "Pressure", 101325.0), ("0 barg", "Pressure", 101325.0), ("1 psi", "Pressure", 6894.757293168),
-        ("20 degC", "Temperature", 293.15), ("20 °C", "Temperature", 293.15), ("68 degF", "Temperature", 293.15), ("300", "Temperature", 300.0),
-        ("10 degC", "TemperatureDifference", 10.0), ("1.2 cP", "DynamicViscosity", 1.2e-3), ("1 darcy", "Permeability", 9.869232667160130e-13),
-        ("12 %", "VolumeFraction", 0.12), ("60 g", "Amount", 0.06), ("40 %", "Amount", 0.4), ("20 t/hour", "MassFlow", 20000 / 3600), ("2630kg/m3", "Density", 2630.0), ("1 kcal/kg", "SpecificEnergy", 4184.0),
-        ("3000 rpm", "RotationSpeed", 314.159265358979), ("25 cm2/g", "SpecificSurfaceMass", 2.5), ("0.5 m²", "Area", 0.5),
-        ("14.7 psia", "Pressure", 101352.932209), ("0 psig", "Pressure", 101325.0), ("4 in. H2O", "PressureDrop", 996.35564), ("1.2 bara", "Pressure", 1.2e5),
-        ("62.4 lbm/ft^3", "Density", 999.552114), ("1 gpm", "VolumeFlow", 6.30901964e-5), ("1 US gal/min", "VolumeFlow", 6.30901964e-5),
-        ("1 mgd", "VolumeFlow", 0.0438126363889), ("1 cfs", "VolumeFlow", 0.028316846592), ("60 rev/min", "RotationSpeed", 6.283185307179586),
-        ("1 short ton", "Mass", 907.18474), ("10 tph", "MassFlow", 10000 / 3600), ("77 F", "Temperature", 298.15), ("25 C", "Temperature", 298.15),
-        ("1/8 in", "Length", 0.003175), ("1/3", "VolumeFraction", 1 / 3), ("2 1/m", "SpecificSurface", 2.0),
-        ("18 degF", "TemperatureDifference", 10.0), ("18 °F", "TemperatureDifference", 10.0), ("10 K", "TemperatureDifference", 10.0),
-        ("100 mTorr", "Pressure", 13.3322368421), ("760 Torr", "Pressure", 101325.0), ("85 microns", "Length", 85e-6), ("3 cm²", "Area", 3e-4), ("3 cm2", "Area", 3e-4),
-        ("1 200 kg/h", "MassFlow", 1 / 3), ("1 200,5 kg/h", "MassFlow", 1200.5 / 3600), ("1\u202f200,5 kg/h", "MassFlow", 1200.5 / 3600),
-        ("1\u00a0200\u00a0kg/h", "MassFlow", 1 / 3), ("1,200.5 kg/h", "MassFlow", 1200.5 / 3600), ("1.200,5 kg/h", "MassFlow", 1200.5 / 3600),
-        ("1,200 kg/h", "MassFlow", 1.2 / 3600), ("\u22125 degC", "Temperature", 268.15), ("1.07 × 10⁸ Pa", "Pressure", 1.07e8), ("2 × 10⁻³ m", "Length", 2e-3),
+        ("85 um", "Length", 85e-6),
+        ("85um", "Length", 85e-6),
+        ("85 µm", "Length", 85e-6),
+        ("1e-3 m", "Length", 1e-3),
+        ("1 inch", "Length", 0.0254),
+        ("0,8 bar", "Pressure", 8e4),
+        ("1 atm", "Pressure", 101325.0),
+        ("0 barg", "Pressure", 101325.0),
+        ("1 psi", "Pressure", 6894.757293168),
+        ("20 degC", "Temperature", 293.15),
+        ("20 °C", "Temperature", 293.15),
+        ("68 degF", "Temperature", 293.15),
+        ("300", "Temperature", 300.0),
+        ("10 degC", "TemperatureDifference", 10.0),
+        ("1.2 cP", "DynamicViscosity", 1.2e-3),
+        ("1 darcy", "Permeability", 9.869232667160130e-13),
+        ("12 %", "VolumeFraction", 0.12),
+        ("60 g", "Amount", 0.06),
+        ("40 %", "Amount", 0.4),
+        ("20 t/hour", "MassFlow", 20000 / 3600),
+        ("2630kg/m3", "Density", 2630.0),
+        ("1 kcal/kg", "SpecificEnergy", 4184.0),
+        ("3000 rpm", "RotationSpeed", 314.159265358979),
+        ("25 cm2/g", "SpecificSurfaceMass", 2.5),
+        ("0.5 m²", "Area", 0.5),
+        ("14.7 psia", "Pressure", 101352.932209),
+        ("0 psig", "Pressure", 101325.0),
+        ("4 in. H2O", "PressureDrop", 996.35564),
+        ("1.2 bara", "Pressure", 1.2e5),
+        ("62.4 lbm/ft^3", "Density", 999.552114),
+        ("1 gpm", "VolumeFlow", 6.30901964e-5),
+        ("1 US gal/min", "VolumeFlow", 6.30901964e-5),
+        ("1 mgd", "VolumeFlow", 0.0438126363889),
+        ("1 cfs", "VolumeFlow", 0.028316846592),
+        ("60 rev/min", "RotationSpeed", 6.283185307179586),
+        ("1 short ton", "Mass", 907.18474),
+        ("10 tph", "MassFlow", 10000 / 3600),
+        ("77 F", "Temperature", 298.15),
+        ("25 C", "Temperature", 298.15),
+        ("1/8 in", "Length", 0.003175),
+        ("1/3", "VolumeFraction", 1 / 3),
+        ("2 1/m", "SpecificSurface", 2.0),
+        ("18 degF", "TemperatureDifference", 10.0),
+        ("18 °F", "TemperatureDifference", 10.0),
+        ("10 K", "TemperatureDifference", 10.0),
+        ("100 mTorr", "Pressure", 13.3322368421),
+        ("760 Torr", "Pressure", 101325.0),
+        ("85 microns", "Length", 85e-6),
+        ("3 cm²", "Area", 3e-4),
+        ("3 cm2", "Area", 3e-4),
+        ("1 200 kg/h", "MassFlow", 1 / 3),
+        ("1 200,5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1\u202f200,5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1\u00a0200\u00a0kg/h", "MassFlow", 1 / 3),
+        ("1,200.5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1.200,5 kg/h", "MassFlow", 1200.5 / 3600),
+        ("1,200 kg/h", "MassFlow", 1.2 / 3600),
+        ("\u22125 degC", "Temperature", 268.15),
+        ("1.07 × 10⁸ Pa", "Pressure", 1.07e8),
+        ("2 × 10⁻³ m", "Length", 2e-3),
         # a difference knows no zero of the scale: 2 bar above atmosphere drop by 2 bar, not by 3
-        ("2 barg", "PressureDrop", 2e5), ("40 psig", "PressureDifference", 275790.29172673),
+        ("2 barg", "PressureDrop", 2e5),
+        ("40 psig", "PressureDifference", 275790.29172673),
     ],
-)  # fmt: skip
+)
 def test_text_becomes_si(text: str, kind: str, expected: float) -> None:
     assert units.read_quantity(text, KINDS[kind], "x") == pytest.approx(expected, rel=1e-9)
 
 
-@pytest.mark.parametrize("text", ["85 s", "85 parsecs/furlong", "85 umm", "1 m**9**9", "85 __import__('os')", "1 " + "m" * 60])
+@pytest.mark.parametrize(
+    "text", ["85 s", "85 parsecs/furlong", "85 umm", "1 m**9**9", "85 __import__('os')", "1 " + "m" * 60]
+)
 def test_wrong_units_are_named(text: str) -> None:
     with pytest.raises(UnitError, match=r"x|Unit"):
         units.read_quantity(text, KINDS["Length"], "x")
@@ -53,7 +100,10 @@ def test_mesh_numbers_lead_to_the_sieve_series() -> None:
         units.read_quantity("200 mesh", KINDS["Length"], "particle_diameter")
 
 
-@pytest.mark.parametrize("text", ["", "abc", "5 1 m", "5±1 m", "١٢ m", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "abc", "5 1 m", "5±1 m", "١٢ m", "--3 m", "1..2 m", "nan m", "9" * 5000, "1 " + " " * 100_000 + "m"],
+)
 def test_what_is_not_a_number_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         units.read_quantity(text, KINDS["Length"], "x")
@@ -75,7 +125,9 @@ def test_what_is_not_a_number_is_refused(text: str) -> None:
     ],
 )
 def test_lists(text: str, expected: list[float]) -> None:
-    np.testing.assert_allclose(units.read_series(text, KINDS["Length"]), np.array(expected) * 1e-6, rtol=1e-12)
+    np.testing.assert_allclose(
+        units.read_series(text, KINDS["Length"]), np.array(expected) * 1e-6, rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize(
@@ -105,7 +157,10 @@ def test_digits_in_threes_are_not_guessed_where_several_values_may_stand(text: s
         units.read_values(text, KINDS["Length"], "particle_diameter")
 
 
-@pytest.mark.parametrize(("text", "one"), [("0,5 mm", "0.5"), ("9,970e-01", "9.970e-01"), ("1 1/2 inch", "1.5"), ("3 1 1/4 inch", "1.25")])
+@pytest.mark.parametrize(
+    ("text", "one"),
+    [("0,5 mm", "0.5"), ("9,970e-01", "9.970e-01"), ("1 1/2 inch", "1.5"), ("3 1 1/4 inch", "1.25")],
+)
 def test_a_comma_or_a_fraction_in_a_series_is_not_guessed(text: str, one: str) -> None:
     with pytest.raises(InputError, match=f"'{one}' for one"):
         units.read_series(text, KINDS["Length"], "class_sizes")
@@ -130,13 +185,18 @@ def test_a_list_whose_last_value_lacks_the_unit_is_refused() -> None:
 def test_round_trip_through_every_display_unit(name: str, value: float) -> None:
     kind = KINDS[name]
     for unit in kind.units:
-        assert units.to_si(units.from_si(value, unit, kind), unit, kind) == pytest.approx(value, rel=1e-12, abs=1e-9)
+        assert units.to_si(units.from_si(value, unit, kind), unit, kind) == pytest.approx(
+            value, rel=1e-12, abs=1e-9
+        )
 
 
 def test_pint_quantities_of_any_registry_are_accepted() -> None:
     q = pint.UnitRegistry().Quantity
     mine = reynolds_number(
-        particle_diameter=q(1, "mm"), velocity=q(10, "cm/s"), fluid_density=q(1, "g/cm^3"), dynamic_viscosity=q(1, "centipoise")
+        particle_diameter=q(1, "mm"),
+        velocity=q(10, "cm/s"),
+        fluid_density=q(1, "g/cm^3"),
+        dynamic_viscosity=q(1, "centipoise"),
     )
     assert mine == pytest.approx(100.0)
 

@@ -1,4 +1,6 @@
-"""Costs: printed worked examples, interest tables, sums done by hand from the printed coefficients, limits."""
+"""Costs: printed worked examples, interest tables, sums done by hand from the printed coefficients,
+limits.
+"""
 
 from __future__ import annotations
 
@@ -21,11 +23,31 @@ def test_exchanger_of_the_textbook() -> None:
     ("call", "logarithm", "factor"),
     [
         # sums of the printed coefficients at a size of 10, where log10 = 1
-        (lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="plate_and_frame_filter"), 4.2756 + 0.3520 + 0.0714, 1.80),
-        (lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="disc_or_drum_filter"), 4.8123 + 0.2858 + 0.0420, 1.65),
-        (lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="rotary_dryer"), 3.5645 + 1.1118 - 0.0777, 1.25),
-        (lambda: costs.equipment_cost_by_volume(volume=10.0, equipment_by_volume="batch_crystallizer"), 4.5097 + 0.1731 + 0.1344, 1.60),
-        (lambda: costs.equipment_cost_by_diameter(diameter=1.0, centrifuge="solid_bowl_centrifuge"), 4.9697, 1.27),
+        (
+            lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="plate_and_frame_filter"),
+            4.2756 + 0.3520 + 0.0714,
+            1.80,
+        ),
+        (
+            lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="disc_or_drum_filter"),
+            4.8123 + 0.2858 + 0.0420,
+            1.65,
+        ),
+        (
+            lambda: costs.equipment_cost_by_area(area=10.0, equipment_by_area="rotary_dryer"),
+            3.5645 + 1.1118 - 0.0777,
+            1.25,
+        ),
+        (
+            lambda: costs.equipment_cost_by_volume(volume=10.0, equipment_by_volume="batch_crystallizer"),
+            4.5097 + 0.1731 + 0.1344,
+            1.60,
+        ),
+        (
+            lambda: costs.equipment_cost_by_diameter(diameter=1.0, centrifuge="solid_bowl_centrifuge"),
+            4.9697,
+            1.27,
+        ),
     ],
 )
 def test_purchase_from_the_printed_coefficients(call, logarithm: float, factor: float) -> None:
@@ -37,8 +59,14 @@ def test_purchase_from_the_printed_coefficients(call, logarithm: float, factor: 
 @pytest.mark.parametrize(
     ("call", "logarithm"),
     [
-        (lambda: costs.purchased_cost_evaporator(area=100.0, evaporator="falling_film_evaporator"), 3.9119 + 2 * 0.8627 - 4 * 0.0088),
-        (lambda: costs.purchased_cost_fan(volume_flow="10 m3/s", fan="backward_curved_fan"), 3.3471 - 0.0734 + 0.3090),
+        (
+            lambda: costs.purchased_cost_evaporator(area=100.0, evaporator="falling_film_evaporator"),
+            3.9119 + 2 * 0.8627 - 4 * 0.0088,
+        ),
+        (
+            lambda: costs.purchased_cost_fan(volume_flow="10 m3/s", fan="backward_curved_fan"),
+            3.3471 - 0.0734 + 0.3090,
+        ),
         (lambda: costs.purchased_cost_pump(power="100 kW"), 3.3892 + 2 * 0.0536 + 4 * 0.1538),
         (lambda: costs.equipment_cost_mixer(power="10 kW").purchased_cost, 3.8511 + 0.7009 - 0.0003),
     ],
@@ -58,17 +86,27 @@ def test_sizes_outside_the_table_are_flagged() -> None:
 def test_every_row_belongs_to_a_formula_and_costs_more_when_larger() -> None:
     choices = {
         c
-        for card, name in (("equipment_cost_by_area", "equipment_by_area"), ("equipment_cost_by_volume", "equipment_by_volume"),
-                           ("equipment_cost_by_diameter", "centrifuge"), ("purchased_cost_exchanger", "exchanger"),
-                           ("purchased_cost_evaporator", "evaporator"), ("purchased_cost_fan", "fan"), ("purchased_cost_pump", "pump"),
-                           ("equipment_cost_mixer", "mixer"))
+        for card, name in (
+            ("equipment_cost_by_area", "equipment_by_area"),
+            ("equipment_cost_by_volume", "equipment_by_volume"),
+            ("equipment_cost_by_diameter", "centrifuge"),
+            ("purchased_cost_exchanger", "exchanger"),
+            ("purchased_cost_evaporator", "evaporator"),
+            ("purchased_cost_fan", "fan"),
+            ("purchased_cost_pump", "pump"),
+            ("equipment_cost_mixer", "mixer"),
+        )
         for c in getattr(costs, card).card.parameter(name).choices
-    }  # fmt: skip
+    }
     assert choices == set(correlations())
     for name, row in correlations().items():
-        logs = np.log10(np.geomspace(np.sqrt(row.smallest * row.largest), row.largest, 50))  # some printed parabolas have a minimum below
+        logs = np.log10(
+            np.geomspace(np.sqrt(row.smallest * row.largest), row.largest, 50)
+        )  # some printed parabolas have a minimum below
         rises = np.diff(row.k1 + row.k2 * logs + row.k3 * logs**2) > 0
-        assert rises.all() or name == "stationary_screen", name  # whose printed parabola falls beyond 10**(1.0368/1.21) = 7.2 m²
+        assert rises.all() or name == "stationary_screen", (
+            name
+        )  # whose printed parabola falls beyond 10**(1.0368/1.21) = 7.2 m²
 
 
 def test_index_and_updating() -> None:
@@ -83,13 +121,22 @@ def test_index_and_updating() -> None:
 
 def test_six_tenths_rule() -> None:
     """Doubling the capacity costs 52 % more, quadrupling 2.30 times."""
-    assert costs.purchased_cost_scaled(purchased_cost_known=1.0, capacity_ratio=2.0) == pytest.approx(1.52, abs=0.005)
-    assert costs.purchased_cost_scaled(purchased_cost_known=1.0, capacity_ratio=4.0) == pytest.approx(2.297, abs=5e-4)
+    assert costs.purchased_cost_scaled(purchased_cost_known=1.0, capacity_ratio=2.0) == pytest.approx(
+        1.52, abs=0.005
+    )
+    assert costs.purchased_cost_scaled(purchased_cost_known=1.0, capacity_ratio=4.0) == pytest.approx(
+        2.297, abs=5e-4
+    )
 
 
 @pytest.mark.parametrize(
     ("rate", "years", "factor"),
-    [(0.08, 20, 0.10185), (0.10, 10, 0.16275), (0.12, 5, 0.27741), (0.05, 30, 0.06505)],  # capital recovery factors of interest tables
+    [
+        (0.08, 20, 0.10185),
+        (0.10, 10, 0.16275),
+        (0.12, 5, 0.27741),
+        (0.05, 30, 0.06505),
+    ],  # capital recovery factors of interest tables
 )
 def test_annuity_of_interest_tables(rate: float, years: int, factor: float) -> None:
     charge = costs.annual_capital_charge(capital_cost=1.0, interest_rate=rate, lifetime=years * YEAR)
@@ -98,14 +145,16 @@ def test_annuity_of_interest_tables(rate: float, years: int, factor: float) -> N
 
 def test_annuity_without_interest_is_the_capital_over_its_life() -> None:
     for rate in (0.0, 1e-8):
-        assert costs.annual_capital_charge(capital_cost=12.0, interest_rate=rate, lifetime=12 * YEAR) * YEAR == pytest.approx(1.0, rel=1e-6)
+        assert costs.annual_capital_charge(
+            capital_cost=12.0, interest_rate=rate, lifetime=12 * YEAR
+        ) * YEAR == pytest.approx(1.0, rel=1e-6)
 
 
 def test_energy_material_payback() -> None:
     assert costs.energy_cost_rate(power="1 MW", energy_price="50 USD/MWh") * 3600 == pytest.approx(50.0)
-    assert costs.material_cost_rate(mass_flow="2 tonne/hour", mass_price="30 USD/tonne", operating_fraction=0.5) * 3600 == pytest.approx(
-        30.0
-    )
+    assert costs.material_cost_rate(
+        mass_flow="2 tonne/hour", mass_price="30 USD/tonne", operating_fraction=0.5
+    ) * 3600 == pytest.approx(30.0)
     assert costs.payback_time(capital_cost=2e6, annual_gain=0.5e6 / YEAR) / YEAR == pytest.approx(4.0)
     with pytest.raises(ApplicabilityError, match="Without a gain nothing is paid back"):
         costs.payback_time(capital_cost=2e6, annual_gain=0.0)

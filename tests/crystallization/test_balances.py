@@ -13,11 +13,16 @@ from granum.crystallization.formulas.balances import (
     log_mean_temperature_difference,
     vacuum_crystallizer_balance,
 )
-from granum.crystallization.formulas.supersaturation import solute_per_solvent_from_hydrate, solute_per_solvent_hydrate
+from granum.crystallization.formulas.supersaturation import (
+    solute_per_solvent_from_hydrate,
+    solute_per_solvent_hydrate,
+)
 
 
 def test_sodium_carbonate_of_geankoplis():
-    """Example 12.11-1: 10 000 kg of 30 % Na2CO3 to 20 °C; without and with 3 % of the weight evaporated: 6370 and 6630 kg."""
+    """Example 12.11-1: 10 000 kg of 30 % Na2CO3 to 20 °C; without and with 3 % of the weight evaporated:
+    6370 and 6630 kg.
+    """
     x = 106.0 / 286.2
     dry = crystallizer_balance(10000.0, 0.30, 0.215, x)
     wet = crystallizer_balance(10000.0, 0.30, 0.215, x, 300.0)
@@ -34,9 +39,11 @@ def test_magnesium_sulfate_of_geankoplis():
 
 
 def test_sodium_acetate_of_mullin():
-    """Vacuum crystallizer fed with 2000 kg/h of 40 % solution at 80 °C, boiling at 29 °C: 0.153 kg/kg evaporates.
+    """Vacuum crystallizer fed with 2000 kg/h of 40 % solution at 80 °C, boiling at 29 °C: 0.153 kg/kg
+    evaporates.
 
-    Mullin's yield equation, W R (c1 - c2 (1 - V)) / (1 - c2 (R - 1)), evaluated by hand with that: 648.3 kg/h of trihydrate.
+    Mullin's yield equation, W R (c1 - c2 (1 - V)) / (1 - c2 (R - 1)), evaluated by hand with that: 648.3 kg/h
+    of trihydrate.
     """
     out = vacuum_crystallizer_balance(2000.0, 0.4, 0.539, 353.15, 302.15, 3500.0, 144e3, 2.46e6, 82.0 / 136.0)
     assert out.evaporation / 1200 == pytest.approx(0.153, rel=5e-3)
@@ -44,7 +51,9 @@ def test_sodium_acetate_of_mullin():
     # The balance closes on solute and on heat.
     solute = out.mother_liquor_flow * 0.539 / 1.539 + out.crystal_flow * 82.0 / 136.0
     assert solute == pytest.approx(800.0, rel=1e-12)
-    heat = heat_duty_crystallizer(2000.0, 3500.0, 353.15, 302.15, out.crystal_flow, 144e3, out.evaporation, 2.46e6)
+    heat = heat_duty_crystallizer(
+        2000.0, 3500.0, 353.15, 302.15, out.crystal_flow, 144e3, out.evaporation, 2.46e6
+    )
     assert heat == pytest.approx(0.0, abs=1e-3)
 
 
@@ -61,7 +70,9 @@ def test_log_mean_and_area():
 
 
 def test_evaporation_for_a_yield():
-    """By hand: 1000 kg/h of 20 % brine, 70 % of the salt: 140 kg/h crystals, 60 kg/h in liquor of 0.384/1.384, the rest is vapor; hydrates by the balance."""
+    """By hand: 1000 kg/h of 20 % brine, 70 % of the salt: 140 kg/h crystals, 60 kg/h in liquor of
+    0.384/1.384, the rest is vapor; hydrates by the balance.
+    """
     assert evaporation_for_yield(1000.0, 0.7, 0.2, 0.384) == pytest.approx(1000 - 140 - 60 * 1.384 / 0.384)
     x = 142.04 / 322.2
     V = evaporation_for_yield(1000.0, 0.6, 0.15, 0.09, x)
@@ -71,7 +82,9 @@ def test_evaporation_for_a_yield():
 
 
 def test_states_that_cannot_be_are_told():
-    """A solubility in hydrate per water, more evaporated than there is, and a feed richer than the crystal; the dry end is possible."""
+    """A solubility in hydrate per water, more evaporated than there is, and a feed richer than the crystal;
+    the dry end is possible.
+    """
     with pytest.raises(ApplicabilityError, match="solute_per_solvent_from_hydrate"):
         crystallizer_balance(1.0, 0.3, 1.05, 0.44)
     for impossible in ((1.0, 0.2, 0.384, 1.0, 0.9), (1.0, 0.5, 0.2, 0.44)):
@@ -83,4 +96,6 @@ def test_states_that_cannot_be_are_told():
 
 def test_hydrate_per_water_and_back():
     fraction = 120.3 / 246.3
-    assert solute_per_solvent_from_hydrate(solute_per_solvent_hydrate(0.642, fraction), fraction) == pytest.approx(0.642)
+    assert solute_per_solvent_from_hydrate(
+        solute_per_solvent_hydrate(0.642, fraction), fraction
+    ) == pytest.approx(0.642)

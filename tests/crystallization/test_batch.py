@@ -7,7 +7,18 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.crystallization.cases import B_ORDER, DENSITY, DURATION, G_ORDER, KB, KG, START, linear_cooling, model, seeds
+from tests.crystallization.cases import (
+    B_ORDER,
+    DENSITY,
+    DURATION,
+    G_ORDER,
+    KB,
+    KG,
+    START,
+    linear_cooling,
+    model,
+    seeds,
+)
 
 from granum.crystallization.formulas.growth import GrowthLaw, PowerLawDissolution, PowerLawGrowth
 from granum.crystallization.formulas.nucleation import NoNucleation, NucleationLaw, PowerLawNucleation
@@ -68,12 +79,22 @@ def test_published_seeded_batch_agrees_with_the_moment_solution():
     assert float(fourth / packets.moments()[3]) == pytest.approx(exact[4] / exact[3], rel=1e-4)  # L43
 
 
-# Crystallizer_Simulator_Batch of mingchunNTU on GitHub (commit 735fcfc), examples/KNO3: moments by SciPy's odeint, cubic cooling given each minute and
-# straight between, 1 mg/L of seed. Minute: concentration g/L, crystals per um3, third moment (seed plus nuclei).
+# Crystallizer_Simulator_Batch of mingchunNTU on GitHub (commit 735fcfc), examples/KNO3: moments by SciPy's
+# odeint, cubic cooling given each minute and
+# straight between, 1 mg/L of seed. Minute: concentration g/L, crystals per um3, third moment (seed plus
+# nuclei).
 OTHER_PROGRAM = {
     70: (451.000685785, 4.71081156e-13 + 1.2005812912729573e-9, 8.135469267098824e-4 + 0.01908726548575129),
-    75: (441.06714452488444, 4.71081156e-13 + 1.4002963290693877e-9, 8.703376416682174e-4 + 0.023738314230783472),
-    80: (429.9160604891147, 4.71081156e-13 + 1.6225426615783383e-9, 9.255361397605218e-4 + 0.028967989683292943),
+    75: (
+        441.06714452488444,
+        4.71081156e-13 + 1.4002963290693877e-9,
+        8.703376416682174e-4 + 0.023738314230783472,
+    ),
+    80: (
+        429.9160604891147,
+        4.71081156e-13 + 1.6225426615783383e-9,
+        9.255361397605218e-4 + 0.028967989683292943,
+    ),
 }
 
 
@@ -81,7 +102,9 @@ def test_published_batch_agrees_with_another_program():
     minutes = jnp.arange(81) * 60.0
     cooling = 305.15 - 4.0 * (minutes / DURATION) ** 3
     program = Programmed(lambda t: jnp.interp(t, minutes, cooling))
-    found = jax.jit(lambda: march(model(), program, seeds(0.001), START, 1.0, jnp.linspace(0.0, DURATION, 801)))()
+    found = jax.jit(
+        lambda: march(model(), program, seeds(0.001), START, 1.0, jnp.linspace(0.0, DURATION, 801))
+    )()
     for minute, (concentration, number, third) in OTHER_PROGRAM.items():
         m = found.moments[10 * minute]
         assert float(found.solute_per_solvent[10 * minute]) * 1e3 == pytest.approx(concentration, rel=1e-4)
@@ -111,8 +134,16 @@ def test_heavy_seed_and_fast_growth_never_undershoot_saturation(steps):
 
 def test_growth_and_nucleation_at_constant_rates():
     """mu0 = B t, mu3 = B G^3 t^4 / 4, from an unseeded start."""
-    rates = Model(PolynomialSolubility([1e-6]), Constant(1e-8), ConstantBirths(1e6), Crystal(1000.0), SolventVolume(1000.0))
-    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.none(), 0.5, 1000.0, jnp.linspace(0, 1000.0, 51))
+    rates = Model(
+        PolynomialSolubility([1e-6]),
+        Constant(1e-8),
+        ConstantBirths(1e6),
+        Crystal(1000.0),
+        SolventVolume(1000.0),
+    )
+    found = march(
+        rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.none(), 0.5, 1000.0, jnp.linspace(0, 1000.0, 51)
+    )
     np.testing.assert_allclose(found.moments[-1, 0], 1e6 * 1000.0, rtol=1e-12)
     np.testing.assert_allclose(found.moments[-1, 3], 1e6 * 1e-24 * 1000.0**4 / 4, rtol=1e-11)
 
@@ -122,7 +153,12 @@ def test_unseeded_start_makes_crystals(kind):
     more = {} if kind == "moments" else {"dissolution": PowerLawDissolution(1e-5)}
     births = PowerLawNucleation(1e14, 3.0, magma_order=0.0)
     rates = Model(
-        PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), PowerLawGrowth(KG, 1.32), births, Crystal(DENSITY), SolventVolume(1000.0), **more
+        PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+        PowerLawGrowth(KG, 1.32),
+        births,
+        Crystal(DENSITY),
+        SolventVolume(1000.0),
+        **more,
     )
     found = march(rates, Programmed(linear_cooling), Seeds.none(), START, 1.0, jnp.linspace(0, DURATION, 401))
     assert float(found.crystals[-1]) > 0.05
@@ -135,15 +171,24 @@ def test_tracked_packets_agree_with_shifted_moments():
 
 
 def test_dissolution_of_an_exponential_distribution():
-    """n = exp(-L/l) shifted down by 2 l keeps exp(-2) of each moment; naive moment equations give a negative mass."""
+    """n = exp(-L/l) shifted down by 2 l keeps exp(-2) of each moment; naive moment equations give a negative
+    mass.
+    """
     size = 1e-4
     edges = jnp.linspace(0.0, 40 * size, 4001)
     number = jnp.exp(-edges[:-1] / size) - jnp.exp(-edges[1:] / size)
     start = Seeds(edges[:-1], edges[1:], number)
     rates = Model(
-        PolynomialSolubility([0.5]), Constant(0.0), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), dissolution=Constant(1e-6)
+        PolynomialSolubility([0.5]),
+        Constant(0.0),
+        NoNucleation(),
+        Crystal(1000.0),
+        SolventVolume(1000.0),
+        dissolution=Constant(1e-6),
     )
-    found = march(rates, Programmed(lambda t: 300.0 + 0.0 * t), start, 0.1, 1000.0, jnp.linspace(0, 200.0, 101))
+    found = march(
+        rates, Programmed(lambda t: 300.0 + 0.0 * t), start, 0.1, 1000.0, jnp.linspace(0, 200.0, 101)
+    )
     np.testing.assert_allclose(found.moments[-1], np.exp(-2.0) * np.asarray(found.moments[0]), rtol=3e-4)
     assert float(found.moments[-1, 3]) > 0
 
@@ -152,7 +197,14 @@ def test_temperature_cycle_dissolves_fines_and_conserves():
     def cycle(t):
         return 303.15 - 3.0 * jnp.sin(2 * jnp.pi * t / 2400.0)
 
-    found = march(model(dissolution=PowerLawDissolution(KG, 1.0)), Programmed(cycle), seeds(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    found = march(
+        model(dissolution=PowerLawDissolution(KG, 1.0)),
+        Programmed(cycle),
+        seeds(),
+        START,
+        1.0,
+        jnp.linspace(0, DURATION, 401),
+    )
     numbers = found.moments[:, 0]
     assert float(jnp.max(numbers)) > float(numbers[-1]) >= 0.0  # crystals disappear while it is warm
     total = found.solute_per_solvent + found.crystals
@@ -164,24 +216,43 @@ def test_size_dependent_growth_follows_its_path():
     """phi = 1 + gamma L with constant G0: L(t) = (L0 + 1/gamma) exp(gamma G0 t) - 1/gamma; b close to 1."""
     gamma, b = 1e4, 0.5
     growth_map = SizeMap(gamma, b)
-    rates = Model(PolynomialSolubility([1e-6]), Constant(1e-8), NoNucleation(), Crystal(1000.0), SolventVolume(1000.0), size_map=growth_map)
-    found = march(
-        rates, Programmed(lambda t: 300.0 + 0.0 * t), Seeds.of_one_size(1e-4, 1e-3, 1000.0), 0.5, 1000.0, jnp.linspace(0, 5000.0, 11)
+    rates = Model(
+        PolynomialSolubility([1e-6]),
+        Constant(1e-8),
+        NoNucleation(),
+        Crystal(1000.0),
+        SolventVolume(1000.0),
+        size_map=growth_map,
     )
-    exact = solve_ivp(lambda t, L: 1e-8 * (1 + gamma * L) ** b, (0, 5000.0), [1e-4], rtol=1e-10, atol=1e-16).y[0, -1]
+    found = march(
+        rates,
+        Programmed(lambda t: 300.0 + 0.0 * t),
+        Seeds.of_one_size(1e-4, 1e-3, 1000.0),
+        0.5,
+        1000.0,
+        jnp.linspace(0, 5000.0, 11),
+    )
+    exact = solve_ivp(
+        lambda t, L: 1e-8 * (1 + gamma * L) ** b, (0, 5000.0), [1e-4], rtol=1e-10, atol=1e-16
+    ).y[0, -1]
     assert float((found.moments[-1, 3] / found.moments[-1, 0]) ** (1 / 3)) == pytest.approx(exact, rel=1e-8)
 
 
 def test_jacobian_of_six_parameters_is_exact():
     def run(q):
-        return published(q[4], 200, kg=q[0], growth_order=q[1], kb=q[2], nucleation_order=q[3]).moments[-1] * q[5]
+        return (
+            published(q[4], 200, kg=q[0], growth_order=q[1], kb=q[2], nucleation_order=q[3]).moments[-1]
+            * q[5]
+        )
 
     run = jax.jit(run)
     q = jnp.array([KG, G_ORDER, KB, B_ORDER, 0.5, 1.0])
     jacobian = jax.jit(jax.jacfwd(run))(q)
     for i in range(6):
         h = 1e-5 * q[i]
-        np.testing.assert_allclose(jacobian[:, i], (run(q.at[i].add(h)) - run(q.at[i].add(-h))) / (2 * h), rtol=1e-6)
+        np.testing.assert_allclose(
+            jacobian[:, i], (run(q.at[i].add(h)) - run(q.at[i].add(-h))) / (2 * h), rtol=1e-6
+        )
     np.testing.assert_allclose(jax.jit(jax.jacrev(run))(q), jacobian, rtol=1e-9)
 
 
@@ -189,7 +260,14 @@ HEAT = HeatData(3800.0, 920.0, 44.5e3)
 
 
 def test_jacket_closes_the_heat_balance():
-    found = march(model(), Jacketed(305.15, lambda t: 300.0 + 0.0 * t, 2.0, HEAT), seeds(), START, 1.0, jnp.linspace(0, DURATION, 801))
+    found = march(
+        model(),
+        Jacketed(305.15, lambda t: 300.0 + 0.0 * t, 2.0, HEAT),
+        seeds(),
+        START,
+        1.0,
+        jnp.linspace(0, DURATION, 801),
+    )
     T, m = np.asarray(found.temperature), np.asarray(found.crystals)
     capacity = (START + 1.0 - m) * 3800.0 + m * 920.0
     gained = np.sum(0.5 * (capacity[1:] + capacity[:-1]) * np.diff(T))
@@ -199,11 +277,22 @@ def test_jacket_closes_the_heat_balance():
 
 
 def test_vacuum_batch_evaporates_what_the_heat_balance_says():
-    found = march(model(), Flashing(linear_cooling, lambda T: 2.43e6 + 0.0 * T, HEAT), seeds(), START, 1.0, jnp.linspace(0, DURATION, 401))
+    found = march(
+        model(),
+        Flashing(linear_cooling, lambda T: 2.43e6 + 0.0 * T, HEAT),
+        seeds(),
+        START,
+        1.0,
+        jnp.linspace(0, DURATION, 401),
+    )
     m, gone = found.crystals, found.solvent[0] - found.solvent[-1]
     freed = 3800.0 * (START + 1.0) * 4.0 + 44.5e3 * (m[-1] - m[0])
-    assert float(gone) == pytest.approx(float(freed) / 2.43e6, rel=3e-2)  # the capacity falls as crystals form
-    assert float(found.solute_per_solvent[-1] * found.solvent[-1] + m[-1]) == pytest.approx(START + 0.5e-3, abs=1e-13)
+    assert float(gone) == pytest.approx(
+        float(freed) / 2.43e6, rel=3e-2
+    )  # the capacity falls as crystals form
+    assert float(found.solute_per_solvent[-1] * found.solvent[-1] + m[-1]) == pytest.approx(
+        START + 0.5e-3, abs=1e-13
+    )
 
 
 def test_evaporation_drives_crystallization():
@@ -215,12 +304,16 @@ def test_evaporation_drives_crystallization():
 
 
 def test_antisolvent_drives_crystallization():
-    """All solute beyond the solubility of the final mixture crystallizes: C0 - (1 + a) C0 exp(-kappa a / (1 + a))."""
+    """All solute beyond the solubility of the final mixture crystallizes: C0 - (1 + a) C0 exp(-kappa a / (1 +
+    a)).
+    """
     law = AntisolventSolubility(PolynomialSolubility([0.3]), 4.0)
     added = Addition(antisolvent=lambda t: 0.5 * t / 7200.0)
     rates = Model(law, PowerLawGrowth(1e-5), NoNucleation(), Crystal(1300.0), SolventVolume(1000.0))
     start = Seeds.of_one_size(5e-5, 0.01, 1300.0)
-    found = march(rates, Programmed(lambda t: 298.15 + 0.0 * t, added), start, 0.3, 1.0, jnp.linspace(0, 7200.0, 401))
+    found = march(
+        rates, Programmed(lambda t: 298.15 + 0.0 * t, added), start, 0.3, 1.0, jnp.linspace(0, 7200.0, 401)
+    )
     ideal = 0.3 - 1.5 * 0.3 * np.exp(-4.0 * 0.5 / 1.5)
     assert float(found.crystals[-1] - 0.01) == pytest.approx(ideal, rel=0.02)
     assert float(found.solute_per_solvent[-1] * 1.5 + found.crystals[-1]) == pytest.approx(0.31, abs=1e-13)

@@ -1,4 +1,6 @@
-"""The examples of crystallization, run as a user would, against numbers that do not come from this package."""
+"""The examples of crystallization, run as a user would, against numbers that do not come from this
+package.
+"""
 
 from __future__ import annotations
 
@@ -32,18 +34,32 @@ def test_study_and_recipe_find_the_same_profile():
     found = read_studies(EXAMPLES / "cooling-profile" / "study.toml")["profile"].run().as_json()
     unit = gr.read(BATCH).sheet.units["crystallizer"]
     best = optimal_cooling(
-        solute_per_solvent=0.4929904, solubility=unit.solubility, growth=unit.growth, nucleation=unit.nucleation, temperature_start=305.15,
-        temperature_end=301.15, duration=4800.0, crystal_density=2105.0, seed_mass_per_solvent=5e-4, seed_size=1e-4, seed_width=2e-5, intervals=5,
+        solute_per_solvent=0.4929904,
+        solubility=unit.solubility,
+        growth=unit.growth,
+        nucleation=unit.nucleation,
+        temperature_start=305.15,
+        temperature_end=301.15,
+        duration=4800.0,
+        crystal_density=2105.0,
+        seed_mass_per_solvent=5e-4,
+        seed_size=1e-4,
+        seed_width=2e-5,
+        intervals=5,
         steps=300,
-    )  # fmt: skip
+    )
     least = found["findings"]["objective"]["value"]
     assert least == pytest.approx(best.nuclei_mass_fraction, rel=2e-3)
     assert np.all(np.diff(best.temperature) <= 1e-9)
 
 
-@pytest.mark.parametrize(("case", "saturated", "spread"), [("vacuum", 0.277 / 0.723, 0.01), ("jacketed", 0.4992, 0.015)])
+@pytest.mark.parametrize(
+    ("case", "saturated", "spread"), [("vacuum", 0.277 / 0.723, 0.01), ("jacketed", 0.4992, 0.015)]
+)
 def test_driven_batches_end_at_the_printed_solubility(case, saturated, spread):
-    """CRC: 27.7 % at 25 °C; at the 32.8 °C of the jacketed batch between 31.3 % (30 °C) and 38.6 % (40 °C), by logarithms of the ratio."""
+    """CRC: 27.7 % at 25 °C; at the 32.8 °C of the jacketed batch between 31.3 % (30 °C) and 38.6 % (40 °C),
+    by logarithms of the ratio.
+    """
     run = gr.read(EXAMPLES / "seeded-crystallizer" / f"{case}.toml").solve()
     assert run.audit["mass_closure"] < 1e-12
     water, salt = (float(v) for v in run.streams["suspension"].liquid)

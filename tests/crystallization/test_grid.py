@@ -33,7 +33,11 @@ def exponential(cells, low, high):
     number = jnp.asarray(np.exp(-v[:-1]) - np.exp(-v[1:]))
     # Every class with its exact volume as well: the mean cube of exp(-v) inside it.
     volume = (1 + v[:-1]) * np.exp(-v[:-1]) - (1 + v[1:]) * np.exp(-v[1:])
-    values = jnp.stack([number * mean_power(edges[:-1], edges[1:], k) for k in range(5)], axis=1).at[:, 3].set(volume)
+    values = (
+        jnp.stack([number * mean_power(edges[:-1], edges[1:], k) for k in range(5)], axis=1)
+        .at[:, 3]
+        .set(volume)
+    )
     return Classes(edges[:-1], edges[1:], values, 0, 1)
 
 
@@ -53,7 +57,9 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("kernel", "end", "steps", "span", "count", "second", "error"), CASES, ids=["constant", "sum", "product"])
+@pytest.mark.parametrize(
+    ("kernel", "end", "steps", "span", "count", "second", "error"), CASES, ids=["constant", "sum", "product"]
+)
 def test_agglomeration_of_an_exponential_distribution(kernel, end, steps, span, count, second, error):
     """Smoluchowski's moments in closed form: N(t) and the second moment of volume; volume itself is kept."""
     start = exponential(80, *span)
@@ -88,7 +94,11 @@ def classed_seeds():
     """The published seeds, with empty classes above them for what agglomerates."""
     found = seeds()
     above = jnp.geomspace(110e-6, 1500e-6, 31)
-    return Seeds(jnp.append(found.low, above[:-1]), jnp.append(found.high, above[1:]), jnp.append(found.number, jnp.zeros(30)))
+    return Seeds(
+        jnp.append(found.low, above[:-1]),
+        jnp.append(found.high, above[1:]),
+        jnp.append(found.number, jnp.zeros(30)),
+    )
 
 
 TIMES = jnp.linspace(0.0, DURATION, 401)
@@ -107,10 +117,14 @@ def test_classes_agree_with_packets_and_moments_on_the_published_batch():
 
 
 def test_constant_kernel_in_a_growing_batch():
-    """With a constant kernel dN/dt = B V - beta N^2 / (2 V), whatever grows: here seeds alone, N = N0 / (1 + beta N0 t / (2 V))."""
+    """With a constant kernel dN/dt = B V - beta N^2 / (2 V), whatever grows: here seeds alone, N = N0 / (1 +
+    beta N0 t / (2 V)).
+    """
     V, beta = 1.0e-3, 1e-11
     few = model(kb=0.0)
-    found = march(few, Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, Collisions(ConstantKernel(beta)))
+    found = march(
+        few, Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, Collisions(ConstantKernel(beta))
+    )
     start = float(found.moments[0, 0])
     exact = start / (1 + beta * start * np.asarray(TIMES) / (2 * V))
     assert exact[-1] < 0.2 * start
@@ -128,7 +142,9 @@ def test_agglomeration_in_a_batch_lowers_the_number_and_keeps_the_mass():
     plain = run(Collisions(ConstantKernel(0.0), nuclei_classes=40))
     found = run(Collisions(TurbulentKernel(50.0, 0.05), nuclei_classes=40))
     assert float(found.moments[-1, 0]) < 0.9 * float(plain.moments[-1, 0])
-    assert float(found.moments[-1, 4] / found.moments[-1, 3]) > float(plain.moments[-1, 4] / plain.moments[-1, 3])
+    assert float(found.moments[-1, 4] / found.moments[-1, 3]) > float(
+        plain.moments[-1, 4] / plain.moments[-1, 3]
+    )
     broken = run(Collisions(breakage=Attrition(1e-4, 3e-4, 3.0, 0.01), nuclei_classes=40))
     assert float(broken.moments[-1, 0]) > float(plain.moments[-1, 0])
     for course in (found, broken):

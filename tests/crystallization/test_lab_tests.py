@@ -16,7 +16,12 @@ from granum.crystallization.lab_tests.batch_kinetics import BatchKinetics
 from granum.crystallization.lab_tests.induction_time import InductionTime
 from granum.crystallization.lab_tests.metastable_zone import MetastableZone, MetastableZoneSangwal
 from granum.crystallization.lab_tests.msmpr_analysis import MsmprAnalysis, population_densities
-from granum.crystallization.lab_tests.solubility import SolubilityAntisolvent, SolubilityApelblat, SolubilityPolynomial, SolubilityVantHoff
+from granum.crystallization.lab_tests.solubility import (
+    SolubilityAntisolvent,
+    SolubilityApelblat,
+    SolubilityPolynomial,
+    SolubilityVantHoff,
+)
 from granum.crystallization.population.lagrangian import SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
@@ -29,8 +34,12 @@ SHARES = np.array([0.044, 0.144, 0.242, 0.316, 0.155, 0.074])[::-1]
 
 
 def test_msmpr_analysis_of_urea_in_perry():
-    """Printed: slope -9.127 1/mm and intercept 19.781 per mm and liter; G = 0.0324 mm/h, B0 = 12.6e6 1/(L h) at 3.38 h."""
-    n = population_densities(class_edges=EDGES, class_fractions=SHARES, magma_density=450.0, crystal_density=1335.0)
+    """Printed: slope -9.127 1/mm and intercept 19.781 per mm and liter; G = 0.0324 mm/h, B0 = 12.6e6 1/(L h)
+    at 3.38 h.
+    """
+    n = population_densities(
+        class_edges=EDGES, class_fractions=SHARES, magma_density=450.0, crystal_density=1335.0
+    )
     middle = 0.5 * (EDGES[1:] + EDGES[:-1])
     found = MsmprAnalysis(middle, n, 3.38 * 3600.0, crystal_density=1335.0).fit()
     assert found["growth_rate"].value * 1e3 * 3600 == pytest.approx(0.0324, rel=0.02)
@@ -72,7 +81,9 @@ def test_induction_time_gives_back_the_interfacial_energy():
 
 
 def test_solubility_fits_of_potassium_nitrate():
-    """CRC solubilities of KNO3, g per 100 g of water at 0 to 60 °C: 13.3, 20.9, 31.6, 45.8, 63.9, 85.5, 110."""
+    """CRC solubilities of KNO3, g per 100 g of water at 0 to 60 °C: 13.3, 20.9, 31.6, 45.8, 63.9, 85.5,
+    110.
+    """
     T = 273.15 + np.arange(0, 70, 10.0)
     c = np.array([13.3, 20.9, 31.6, 45.8, 63.9, 85.5, 110.0]) / 100
     for test in (SolubilityApelblat(T, c, 0.101103), SolubilityPolynomial(T, c)):
@@ -80,14 +91,20 @@ def test_solubility_fits_of_potassium_nitrate():
         assert test.fit().statistics["r_squared"] > 0.999
     heat = SolubilityVantHoff(T, c, 0.101103).fit()["enthalpy_of_dissolution"]
     assert 24e3 < heat.value < 33e3
-    assert SolubilityApelblat(T, c, 0.101103).fit()["enthalpy_of_dissolution"].value == pytest.approx(heat.value, rel=0.05)
+    assert SolubilityApelblat(T, c, 0.101103).fit()["enthalpy_of_dissolution"].value == pytest.approx(
+        heat.value, rel=0.05
+    )
 
 
 def test_antisolvent_power_of_ethanol_on_sodium_formate():
-    """Heubel and Vandorpe (1962): the fitted law gives the printed mass percentages back; by hand the first and last points bound the mean power."""
+    """Heubel and Vandorpe (1962): the fitted law gives the printed mass percentages back; by hand the first
+    and last points bound the mean power.
+    """
     test = SolubilityAntisolvent.read(EXAMPLES / "antisolvent" / "sodium_formate_heubel1962.csv")
     law = test.law()
-    np.testing.assert_allclose(law(288.2, np.asarray(test.antisolvent_fraction)), np.asarray(test.solute_per_solvent), rtol=0.025)
+    np.testing.assert_allclose(
+        law(288.2, np.asarray(test.antisolvent_fraction)), np.asarray(test.solute_per_solvent), rtol=0.025
+    )
     assert float(law(288.2)) == pytest.approx(42.1 / 57.9, rel=0.02)
     mean_power = np.log((42.1 / 57.9) / (22.8 / (33.8 + 43.4))) / (33.8 / (33.8 + 43.4))
     assert law.antisolvent_power < mean_power < law.antisolvent_power + 2 * 0.4378 * law.antisolvent_curvature
@@ -95,13 +112,17 @@ def test_antisolvent_power_of_ethanol_on_sodium_formate():
 
 
 def test_kubota_counts_what_was_born_since_saturation():
-    """Births of k ΔT^n per volume while cooling at R reach the detected number at the width of Nývlt's line: integrated numerically."""
+    """Births of k ΔT^n per volume while cooling at R reach the detected number at the width of Nývlt's line:
+    integrated numerically.
+    """
     k, n, number = 2e3, 2.5, 1e8
     rates = np.array([5.0, 10.0, 20.0, 40.0]) / 3600
     widths = []
     for R in rates:
         t = np.linspace(0.0, 60.0 / R, 200001)
-        born = np.concatenate([[0.0], np.cumsum(0.5 * k * ((R * t[1:]) ** n + (R * t[:-1]) ** n) * np.diff(t))])
+        born = np.concatenate(
+            [[0.0], np.cumsum(0.5 * k * ((R * t[1:]) ** n + (R * t[:-1]) ** n) * np.diff(t))]
+        )
         widths.append(R * np.interp(number, born, t))
     found = MetastableZone(rates, widths, detected_number_density=number).fit()
     assert found["kubota_order"].value == pytest.approx(n, rel=1e-4)
@@ -118,9 +139,16 @@ def test_batch_kinetics_finds_the_parameters_that_made_the_data():
     size = np.asarray(true.moments[:, 4] / true.moments[:, 3])[at]
     noise = np.random.default_rng(1)
     test = BatchKinetics(
-        times, 305.15 - 4.0 * times / 4800, ratio + 2e-5 * noise.standard_normal(25), PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]), DENSITY,
-        5e-4, 100e-6, mean_diameter=size * (1 + 2e-3 * noise.standard_normal(25)), seed_width=20e-6,
-    )  # fmt: skip
+        times,
+        305.15 - 4.0 * times / 4800,
+        ratio + 2e-5 * noise.standard_normal(25),
+        PolynomialSolubility([0.1286, 5.88e-3, 1.721e-4]),
+        DENSITY,
+        5e-4,
+        100e-6,
+        mean_diameter=size * (1 + 2e-3 * noise.standard_normal(25)),
+        seed_width=20e-6,
+    )
     found = test.fit()
     assert found["growth_order"].value == pytest.approx(1.32, abs=0.1)
     assert found["nucleation_order"].value == pytest.approx(1.78, abs=0.6)
@@ -131,4 +159,9 @@ def test_batch_kinetics_finds_the_parameters_that_made_the_data():
 
 def test_as_many_class_limits_as_fractions_is_one_message() -> None:
     with pytest.raises(InputError, match="2 class limits and 2 fractions do not go together"):
-        population_densities(class_edges="[0.833, 1.168] mm", class_fractions=[0.5, 0.5], magma_density=450, crystal_density=1335)
+        population_densities(
+            class_edges="[0.833, 1.168] mm",
+            class_fractions=[0.5, 0.5],
+            magma_density=450,
+            crystal_density=1335,
+        )

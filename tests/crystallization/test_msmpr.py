@@ -24,9 +24,29 @@ LIQUOR = AdditiveVolumes(2500.0, 998.0)
 EDGES = jnp.linspace(0.0, 4e-3, 401)
 
 
-def vessel(solute=0.5, volume=5.0, crystals=None, edges=EDGES, crystal=CRYSTAL, nucleation=NUCLEATION, temperature=293.15, **more):
+def vessel(
+    solute=0.5,
+    volume=5.0,
+    crystals=None,
+    edges=EDGES,
+    crystal=CRYSTAL,
+    nucleation=NUCLEATION,
+    temperature=293.15,
+    **more,
+):
     start = jnp.zeros(len(edges) - 1) if crystals is None else crystals
-    return steady_msmpr(Feed(solute, 1.0, start), temperature, volume, SOLUBILITY, GROWTH, nucleation, crystal, LIQUOR, edges, **more)
+    return steady_msmpr(
+        Feed(solute, 1.0, start),
+        temperature,
+        volume,
+        SOLUBILITY,
+        GROWTH,
+        nucleation,
+        crystal,
+        LIQUOR,
+        edges,
+        **more,
+    )
 
 
 def test_exponential_distribution_and_balance():
@@ -35,7 +55,11 @@ def test_exponential_distribution_and_balance():
     share = np.cumsum(np.asarray(found.crystals)) / float(jnp.sum(found.crystals))
     exact = gammainc(4, np.asarray(EDGES[1:]) / float(found.length))
     np.testing.assert_allclose(share[:-1], exact[:-1], atol=1e-12)
-    np.testing.assert_allclose(undersize_mass_fraction(np.asarray(EDGES[1:]), found.growth_rate, found.residence_time), exact, atol=1e-12)
+    np.testing.assert_allclose(
+        undersize_mass_fraction(np.asarray(EDGES[1:]), found.growth_rate, found.residence_time),
+        exact,
+        atol=1e-12,
+    )
 
 
 @pytest.mark.parametrize("solute", [0.4, 0.5, 0.6])
@@ -48,13 +72,26 @@ def test_first_order_secondary_nucleation_fixes_the_supersaturation(solute):
 
 
 def test_cascade_of_equal_growth_is_a_gamma_distribution():
-    """Crystals of a first stage that only grow in a second one: each has spent the sum of two exponential times."""
+    """Crystals of a first stage that only grow in a second one: each has spent the sum of two exponential
+    times.
+    """
     fine = jnp.linspace(0.0, 6e-3, 6001)
     first = vessel(edges=fine)
     none = PowerLawNucleation(0.0, 1.0)
-    second = steady_msmpr(Feed(first.solute, first.solvent, first.crystals), 285.15, 5.0, SOLUBILITY, GROWTH, none, CRYSTAL, LIQUOR, fine)
+    second = steady_msmpr(
+        Feed(first.solute, first.solvent, first.crystals),
+        285.15,
+        5.0,
+        SOLUBILITY,
+        GROWTH,
+        none,
+        CRYSTAL,
+        LIQUOR,
+        fine,
+    )
     a, b = float(first.length), float(second.length)
-    # Third moment of the sum of two exponential lengths, over that of the first: both stages pass the same number of crystals.
+    # Third moment of the sum of two exponential lengths, over that of the first: both stages pass the same
+    # number of crystals.
     exact = (6 * a**3 + 6 * a**2 * b + 6 * a * b**2 + 6 * b**3) / (6 * a**3)
     assert float(jnp.sum(second.crystals) / jnp.sum(first.crystals)) == pytest.approx(exact, rel=2e-5)
 
@@ -109,7 +146,9 @@ def test_fines_dissolution_and_classification_against_quadrature():
     out = n * np.where(size > 4e-4, 2.5, 1.0) * size**3
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (out[1:] + out[:-1]) * np.diff(size))])
     share = np.interp(np.asarray(EDGES[1:]), size, cumulative) / cumulative[-1]
-    np.testing.assert_allclose(np.cumsum(found.crystals)[:-1] / float(jnp.sum(found.crystals)), share[:-1], atol=2e-5)
+    np.testing.assert_allclose(
+        np.cumsum(found.crystals)[:-1] / float(jnp.sum(found.crystals)), share[:-1], atol=2e-5
+    )
     # The balance of nuclei: product cube made per second from B V nuclei.
     made = CRYSTAL.mass_per_cube * float(found.nucleation_rate) * 5.0 * cumulative[-1] / length
     assert made == pytest.approx(float(jnp.sum(found.crystals)), rel=1e-4)

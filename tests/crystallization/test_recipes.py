@@ -1,4 +1,6 @@
-"""Recipes, choice, charts, moments and the formulas of kinetics: printed numbers, limits and agreement of engines."""
+"""Recipes, choice, charts, moments and the formulas of kinetics: printed numbers, limits and agreement of
+engines.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,22 @@ from granum.crystallization.charts import size_distribution_chart, solubility_ch
 from granum.crystallization.equipment.batch import BatchCrystallizer
 from granum.crystallization.equipment.msmpr import ClassifiedCrystallizer, Msmpr, VacuumCrystallizer
 from granum.crystallization.formulas.agglomeration import agglomeration_coefficient_brownian
-from granum.crystallization.formulas.classified import population_density_classified, population_density_second_stage
+from granum.crystallization.formulas.classified import (
+    population_density_classified,
+    population_density_second_stage,
+)
 from granum.crystallization.formulas.critical_nucleus import critical_radius
 from granum.crystallization.formulas.film import film_growth
-from granum.crystallization.formulas.growth import PowerLawDissolution, growth_rate_birth_and_spread, growth_rate_spiral
-from granum.crystallization.formulas.msmpr import dominant_size_changed, population_density, population_density_size_dependent
+from granum.crystallization.formulas.growth import (
+    PowerLawDissolution,
+    growth_rate_birth_and_spread,
+    growth_rate_spiral,
+)
+from granum.crystallization.formulas.msmpr import (
+    dominant_size_changed,
+    population_density,
+    population_density_size_dependent,
+)
 from granum.crystallization.formulas.nucleation import (
     heterogeneous_factor,
     interfacial_energy_mersmann,
@@ -40,9 +53,16 @@ SOLUBILITY = {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 
 GROWTH = {"law": "power_law_growth", "growth_coefficient": KG, "growth_order": 1.32}
 NUCLEATION = {"law": "secondary_nucleation", "nucleation_coefficient": KB, "nucleation_order": 1.78}
 SEEDED = {
-    "solute_per_solvent": START, "solubility": SOLUBILITY, "growth": GROWTH, "nucleation": NUCLEATION, "duration": DURATION, "crystal_density": DENSITY,
-    "seed_mass_per_solvent": 5e-4, "seed_size": "100 um", "seed_width": "20 um",
-}  # fmt: skip
+    "solute_per_solvent": START,
+    "solubility": SOLUBILITY,
+    "growth": GROWTH,
+    "nucleation": NUCLEATION,
+    "duration": DURATION,
+    "crystal_density": DENSITY,
+    "seed_mass_per_solvent": 5e-4,
+    "seed_size": "100 um",
+    "seed_width": "20 um",
+}
 
 
 def test_three_engines_agree():
@@ -54,7 +74,14 @@ def test_three_engines_agree():
 
 def test_moment_equations_are_refused_where_they_are_not_closed():
     with pytest.raises(ApplicabilityError, match="packet engine"):
-        march_moments(model(dissolution=PowerLawDissolution(1e-5)), Programmed(linear_cooling), seeds(), START, 1.0, jnp.array([0.0, 1.0]))
+        march_moments(
+            model(dissolution=PowerLawDissolution(1e-5)),
+            Programmed(linear_cooling),
+            seeds(),
+            START,
+            1.0,
+            jnp.array([0.0, 1.0]),
+        )
 
 
 def test_optimal_cooling_beats_linear_and_cubic_and_respects_the_limit():
@@ -63,9 +90,17 @@ def test_optimal_cooling_beats_linear_and_cubic_and_respects_the_limit():
     assert best.nuclei_mass_fraction < 0.9 * best.nuclei_mass_fraction_linear
     assert best.nuclei_mass_fraction <= cubic.nuclei_mass_fraction * 1.001
     assert np.all(np.diff(best.temperature) <= 1e-9)
-    limited = optimal_cooling(**SEEDED, temperature_start=305.15, temperature_end=301.15, intervals=5, steps=300,
-                              relative_supersaturation_maximum=0.9 * best.relative_supersaturation_maximum)  # fmt: skip
-    assert limited.relative_supersaturation_maximum <= 0.9 * best.relative_supersaturation_maximum * (1 + 1e-4)
+    limited = optimal_cooling(
+        **SEEDED,
+        temperature_start=305.15,
+        temperature_end=301.15,
+        intervals=5,
+        steps=300,
+        relative_supersaturation_maximum=0.9 * best.relative_supersaturation_maximum,
+    )
+    assert limited.relative_supersaturation_maximum <= 0.9 * best.relative_supersaturation_maximum * (
+        1 + 1e-4
+    )
 
 
 def test_batch_errors_speak_plainly():
@@ -75,19 +110,29 @@ def test_batch_errors_speak_plainly():
     with pytest.raises(InputError, match="per kg of solvent"):
         batch(**{**SEEDED, "solute_per_solvent": 49.3}, temperature_program=program)
     with pytest.raises(InputError):
-        batch(**{**SEEDED, "solubility": {"law": "polynomial_solubility", "coefficients": [-1.0]}}, temperature_program=program)
+        batch(
+            **{**SEEDED, "solubility": {"law": "polynomial_solubility", "coefficients": [-1.0]}},
+            temperature_program=program,
+        )
 
 
 def test_batch_error_estimate_is_honest():
-    coarse, fine = (batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION), steps=n) for n in (100, 400))
+    coarse, fine = (
+        batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION), steps=n)
+        for n in (100, 400)
+    )
     truth = abs(float(coarse.crystals_number[-1] / fine.crystals_number[-1]) - 1)
     assert 0.5 * truth < coarse.step_error < 2.0 * truth
 
 
 def test_choice_follows_the_solubility_slope():
-    """Course notes, figure I.12: potassium nitrate by cooling, copper sulfate by vacuum, sodium chloride by evaporation."""
+    """Course notes, figure I.12: potassium nitrate by cooling, copper sulfate by vacuum, sodium chloride by
+    evaporation.
+    """
     steep = choose(SOLUBILITY, 353.15, 293.15, 1.0).crystallization_process[0]
-    flat = choose({"law": "polynomial_solubility", "coefficients": [0.356, 3e-4]}, 353.15, 293.15, 1.0).crystallization_process[0]
+    flat = choose(
+        {"law": "polynomial_solubility", "coefficients": [0.356, 3e-4]}, 353.15, 293.15, 1.0
+    ).crystallization_process[0]
     small = choose(SOLUBILITY, 353.15, 293.15, 0.01).crystallization_process[0]
     assert "cooling through a wall" in steep
     assert "continuous" in steep
@@ -116,7 +161,9 @@ def test_growth_laws_have_their_limits():
 
 
 def test_classical_nucleation_of_water():
-    """Critical radius: r = 2 gamma v / (kT ln S), by hand; a complete wetting leaves no barrier; rates rise with supersaturation."""
+    """Critical radius: r = 2 gamma v / (kT ln S), by hand; a complete wetting leaves no barrier; rates rise
+    with supersaturation.
+    """
     v = 18.015e-3 / (997 * 6.02214076e23)
     expected = 2 * 0.072 * v / (1.380649e-23 * 298.15 * np.log(4.0))
     assert critical_radius(4.0, 0.072, 997.0, 18.015e-3) == pytest.approx(expected, rel=1e-9)
@@ -141,14 +188,20 @@ def test_barium_sulfate_ripening_of_mullin():
 
 
 def test_brownian_kernel_of_equal_sizes():
-    assert agglomeration_coefficient_brownian(1e-6, 1e-6, 1e-3, 298.15) == pytest.approx(8 * 1.380649e-23 * 298.15 / 3e-3)
+    assert agglomeration_coefficient_brownian(1e-6, 1e-6, 1e-3, 298.15) == pytest.approx(
+        8 * 1.380649e-23 * 298.15 / 3e-3
+    )
 
 
 def test_continuous_populations_have_their_limits():
     L = np.linspace(0.0, 1e-3, 5)
     plain = population_density(L, 1e12, 5e-8, 3600.0)
-    np.testing.assert_allclose(population_density_classified(L, 1e12, 5e-8, 3600.0, 1.0, 1e-4, 1.0, 5e-4), plain)
-    np.testing.assert_allclose(population_density_size_dependent(L, 1e12, 5e-8, 3600.0, 1e3, 1e-9), plain, rtol=1e-6)
+    np.testing.assert_allclose(
+        population_density_classified(L, 1e12, 5e-8, 3600.0, 1.0, 1e-4, 1.0, 5e-4), plain
+    )
+    np.testing.assert_allclose(
+        population_density_size_dependent(L, 1e12, 5e-8, 3600.0, 1e3, 1e-9), plain, rtol=1e-6
+    )
     # Equal stages: the limit of the difference quotient.
     near = population_density_second_stage(L[1:], 1.0, 1e-4, 1e-4 * (1 - 1e-5))
     np.testing.assert_allclose(population_density_second_stage(L[1:], 1.0, 1e-4, 1e-4), near, rtol=1e-3)
@@ -161,7 +214,16 @@ def test_seed_chart_is_the_cube_root_law():
 
 def test_charts_draw():
     assert (
-        len(solubility_chart(SOLUBILITY, 283.15, 323.15, path_temperature=[305.0, 301.0], path_solute_per_solvent=[0.49, 0.43]).data) == 5
+        len(
+            solubility_chart(
+                SOLUBILITY,
+                283.15,
+                323.15,
+                path_temperature=[305.0, 301.0],
+                path_solute_per_solvent=[0.49, 0.43],
+            ).data
+        )
+        == 5
     )
     drawing = size_distribution_chart(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION))
     area = [float(np.nansum(t.y) * (t.x[1] - t.x[0])) for t in drawing.data]
@@ -173,9 +235,13 @@ def mixture() -> Mixture:
     edges = (0.0, *map(float, np.geomspace(2e-5, 2.5e-3, 40)))
     return Mixture(
         (Species("potassium nitrate", (("potassium nitrate", 1.0),), (2110.0,), (920.0,), -345e3),),
-        (Species("water", (("water", 1.0),), (998.0,), (4186.0,)), Species("potassium nitrate", (("potassium nitrate", 1.0),), (2500.0,), (900.0,))),
-        (Species("water", (("water", 1.0),), (), (1900.0,), 2.501e6, 0.018),), edges,
-    )  # fmt: skip
+        (
+            Species("water", (("water", 1.0),), (998.0,), (4186.0,)),
+            Species("potassium nitrate", (("potassium nitrate", 1.0),), (2500.0,), (900.0,)),
+        ),
+        (Species("water", (("water", 1.0),), (), (1900.0,), 2.501e6, 0.018),),
+        edges,
+    )
 
 
 @pytest.mark.parametrize("kind", ["msmpr", "evaporative", "vacuum", "classified", "batch"])
@@ -195,10 +261,15 @@ def test_equipment_closes_its_balances(kind):
             **kinetics,
         ),
         "batch": lambda: BatchCrystallizer(
-            temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0), duration=10800.0, seed_mass_per_solvent=0.01, **kinetics
+            temperature_program=PowerCooling(333.15, 293.15, 10800.0, 2.0),
+            duration=10800.0,
+            seed_mass_per_solvent=0.01,
+            **kinetics,
         ),
     }[kind]()
-    feed = empty(mixture(), 333.15).replace(liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02))
+    feed = empty(mixture(), 333.15).replace(
+        liquid=jnp.array([1.0, 1.0]), solid=jnp.zeros((1, 40)).at[0, 15].set(0.02)
+    )
     out = unit(feed=feed)
     streams = [s for s in (out.product, getattr(out, "vapor", None)) if s is not None]
     found = closure([feed], streams, out.heat_duty)

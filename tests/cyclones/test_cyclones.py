@@ -24,7 +24,8 @@ STAIRMAND = StandardCyclone()(1.0)
 
 
 def test_the_exercise_of_the_notes() -> None:
-    # V = 14.5 cm/s, d_c = 0.7 m, 19 g/cm³, 0.018 mPa s: 28.6 µm as printed, from the short form ¾ (η d_c/(π V ρ))^½
+    # V = 14.5 cm/s, d_c = 0.7 m, 19 g/cm³, 0.018 mPa s: 28.6 µm as printed, from the short form ¾ (η d_c/(π V
+    # ρ))^½
     found = efficiency.cut_size_turns(0.145, 0.7, 19000.0, 1.2, 1.8e-5)
     assert found == pytest.approx(28.6e-6, abs=0.05e-6)
     assert found == pytest.approx(0.75 * (1.8e-5 * 0.7 / (np.pi * 0.145 * 18998.8)) ** 0.5, rel=1e-9)
@@ -45,12 +46,16 @@ def test_leith_licht_configuration_numbers() -> None:
     # by hand: n = 0.67 at D = 1 m and 283 K
     tau = 1998.8 * 1e-10 / (18 * 1.8e-5)
     by_hand = 1 - np.exp(-2 * (551.2 * tau * 1.5 * 1.67) ** (0.5 / 1.67))
-    assert efficiency.cyclone_efficiency_leith_licht(1e-5, 1.5, *AIR, *STAIRMAND, 283.0) == pytest.approx(by_hand, rel=1e-4)
+    assert efficiency.cyclone_efficiency_leith_licht(1e-5, 1.5, *AIR, *STAIRMAND, 283.0) == pytest.approx(
+        by_hand, rel=1e-4
+    )
 
 
 def test_lapple() -> None:
     # classic exercise: b = 15 cm, N = 8, 20 m/s, 1 g/cm³, air at 350 K (2.08e-5 Pa s): 5.3 µm
-    assert efficiency.cut_size_lapple(20.0, 0.15, 1001.0, 1.0, 2.08e-5, 8.0) == pytest.approx(5.28e-6, rel=5e-3)
+    assert efficiency.cut_size_lapple(20.0, 0.15, 1001.0, 1.0, 2.08e-5, 8.0) == pytest.approx(
+        5.28e-6, rel=5e-3
+    )
     assert efficiency.turn_number_lapple(0.5, 2.0, 4.0) == 6.0
 
 
@@ -80,7 +85,8 @@ def test_barth_and_muschelknautz() -> None:
 
 def test_pressure_drops() -> None:
     lapple = StandardCyclone("lapple")(0.6)
-    # printed: Lapple's design loses 8 heads, Stairmand's 6.4 by Shepherd and Lapple; measured Eu = 320, that is 320 (0.4/π)² = 5.19 heads
+    # printed: Lapple's design loses 8 heads, Stairmand's 6.4 by Shepherd and Lapple; measured Eu = 320, that
+    # is 320 (0.4/π)² = 5.19 heads
     assert pressure.inlet_heads_shepherd_lapple(*lapple) == pytest.approx(8.0)
     assert pressure.inlet_heads_shepherd_lapple(*STAIRMAND) == pytest.approx(6.4)
     assert pressure.inlet_heads_stairmand(*STAIRMAND) == pytest.approx(5.19, rel=0.01)
@@ -170,7 +176,9 @@ def test_hydrocyclone_closes() -> None:
         size_edges=EDGES,
         liquid_viscosity=lambda w, T: 1e-3,
     )
-    feed = empty(water).replace(solid=jnp.full((1, 12), 0.01), liquid=jnp.array([3.0]), pressure=jnp.asarray(4e5))
+    feed = empty(water).replace(
+        solid=jnp.full((1, 12), 0.01), liquid=jnp.array([3.0]), pressure=jnp.asarray(4e5)
+    )
     unit = Hydrocyclone(0.1, 0.02)
     out = eqx.filter_jit(unit)(feed)
     assert float(closure([feed], list(out)).mass) < 1e-12
@@ -202,14 +210,22 @@ def test_sizing_meets_what_it_was_asked() -> None:
 def test_hydrocyclone_sizing_meets_its_own_rating() -> None:
     plant = hydrocyclone_sizing(50 / 3600, 1e-5, 2e5, 0.1, 2650.0)
     assert plant.parallel_number == int(plant.parallel_number)
-    rated = hydrocyclones.hydrocyclone_castilho_medronho(50 / 3600 / plant.parallel_number, plant.diameter, plant.underflow_diameter, 0.01,
-                                                         2650.0, 998.0, 1e-3)  # fmt: skip
+    rated = hydrocyclones.hydrocyclone_castilho_medronho(
+        50 / 3600 / plant.parallel_number, plant.diameter, plant.underflow_diameter, 0.01, 2650.0, 998.0, 1e-3
+    )
     assert rated.underflow_share == pytest.approx(0.1, rel=1e-9)
     assert rated.cut_size == pytest.approx(plant.cut_size)
     assert plant.pressure_drop <= 2e5
     # one fewer would cost more than allowed, at the same size
-    fewer = hydrocyclones.hydrocyclone_castilho_medronho(50 / 3600 / (plant.parallel_number - 1), plant.diameter, plant.underflow_diameter,
-                                                         0.01, 2650.0, 998.0, 1e-3)  # fmt: skip
+    fewer = hydrocyclones.hydrocyclone_castilho_medronho(
+        50 / 3600 / (plant.parallel_number - 1),
+        plant.diameter,
+        plant.underflow_diameter,
+        0.01,
+        2650.0,
+        998.0,
+        1e-3,
+    )
     assert fewer.pressure_drop > 2e5
     assert fewer.cut_size <= 1e-5 <= plant.cut_size * (1 + 1e-9)
     with pytest.raises(ApplicabilityError, match="No hydrocyclone"):

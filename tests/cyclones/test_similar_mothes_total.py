@@ -1,4 +1,6 @@
-"""Measured similarity numbers, Mothes and Löffler against their differential balance, wear, sizing for a total efficiency, drawings."""
+"""Measured similarity numbers, Mothes and Löffler against their differential balance, wear, sizing for a
+total efficiency, drawings.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +30,12 @@ def test_rhodes_example_and_stairmands_designs() -> None:
     for flow, D, cut in ((2.0, 1.014, 4.34e-6), (1.0, 0.717, 3.65e-6)):
         assert similar.diameter_similar(flow, 1177.0, 1.2) == pytest.approx(D, abs=1e-3)
         assert similar.cut_size_similar(flow, 1001.2, 1.2, 18.25e-6, D) == pytest.approx(cut, abs=5e-9)
-    # Stairmand's heads give the Euler number measured on his high-efficiency design, 320, to 1 %: N_H (π/(4·0.1))²
+    # Stairmand's heads give the Euler number measured on his high-efficiency design, 320, to 1 %: N_H
+    # (π/(4·0.1))²
     shape = StandardCyclone()(0.203)
     assert pressure.inlet_heads_stairmand(*shape) * (np.pi / 0.4) ** 2 == pytest.approx(320.0, rel=0.01)
-    # Muschelknautz' cut lies within 15 % of the one measured on the 203 mm cyclone at 223 m³/h (Stk = 1.4e-4: 1.55 µm); Barth's above it
+    # Muschelknautz' cut lies within 15 % of the one measured on the 203 mm cyclone at 223 m³/h (Stk = 1.4e-4:
+    # 1.55 µm); Barth's above it
     measured = similar.cut_size_similar(223 / 3600, *AIR, 0.203)
     assert efficiency.cut_size_muschelknautz(223 / 3600, *AIR, *shape) == pytest.approx(measured, rel=0.15)
     assert measured < efficiency.cut_size_barth(223 / 3600, *AIR, *shape)
@@ -42,22 +46,37 @@ def test_rhodes_example_and_stairmands_designs() -> None:
 
 
 def test_mothes_loffler_solves_its_balance() -> None:
-    # outer vortex down, inner vortex up, wall, turbulence and drift between them, integrated from near the bottom upwards
+    # outer vortex down, inner vortex up, wall, turbulence and drift between them, integrated from near the
+    # bottom upwards
     shape, Q, D_t = StandardCyclone()(0.3), 0.1, 0.0125
     H, S = shape.height, shape.finder_length
     R, r_i, length = 0.15, shape.outlet_diameter / 2, H - S
     velocity = mothes.swirl(Q, shape, 0.0075)
-    cone = np.pi * (H - shape.cylinder_height) / 3 * (R**2 + (shape.dust_outlet_diameter / 2) ** 2 + R * shape.dust_outlet_diameter / 2)
+    cone = (
+        np.pi
+        * (H - shape.cylinder_height)
+        / 3
+        * (R**2 + (shape.dust_outlet_diameter / 2) ** 2 + R * shape.dust_outlet_diameter / 2)
+    )
     r_a = np.sqrt((np.pi * R**2 * shape.cylinder_height + cone) / (np.pi * H))
     for x in (0.4e-6, 1.2e-6, 4e-6):
         fall = 1998.8 * x**2 / (18 * 1.8e-5)
         w_a, w_i = fall * float(velocity(r_a)) ** 2 / r_a, fall * float(velocity(r_i)) ** 2 / r_i
         inward = Q / (2 * np.pi * r_i * length)
 
-        def slopes(s, y, w_a=w_a, w_i=w_i, inward=inward):  # s = ln(1 - z/length); c outer, k core; flow Q(1 - z/length) in both
+        def slopes(
+            s, y, w_a=w_a, w_i=w_i, inward=inward
+        ):  # s = ln(1 - z/length); c outer, k core; flow Q(1 - z/length) in both
             c, k = y
             wall = 2 * np.pi * r_a * length / Q * w_a * c
-            outwards = 2 * np.pi * r_i * length / Q * (D_t / (r_a - r_i) * (k - c) + (w_i - inward) * (k if w_i > inward else c))
+            outwards = (
+                2
+                * np.pi
+                * r_i
+                * length
+                / Q
+                * (D_t / (r_a - r_i) * (k - c) + (w_i - inward) * (k if w_i > inward else c))
+            )
             # (1 - ζ) dc/dζ = c - wall + outwards; core: (1 - ζ) dk/dζ = k + outwards; d/ds = -(1 - ζ) d/dζ
             return [-(c - wall + outwards), -(k + outwards)]
 
@@ -82,14 +101,20 @@ def test_mothes_loffler_solves_its_balance() -> None:
 
 def test_wear() -> None:
     # Finnie: both branches meet at tan α = 1/3 with 0.3; no wear at grazing and right angles
-    low, high = np.asarray(erosion.wear_velocity_finnie(20.0, 0.1, np.arctan(1 / 3) + np.array([-1e-9, 1e-9]), 1e9))
+    low, high = np.asarray(
+        erosion.wear_velocity_finnie(20.0, 0.1, np.arctan(1 / 3) + np.array([-1e-9, 1e-9]), 1e9)
+    )
     assert low == pytest.approx(high, rel=1e-6)
     assert low == pytest.approx(0.1 * 0.1 * 400 / 4e9 * 0.3, rel=1e-6)
     assert erosion.wear_velocity_finnie(20.0, 0.1, 0.0, 1e9) == 0.0
     # coarse dust: the worst place opposite the inlet, by search over the angles reached
     angles = np.linspace(0.0, np.arccos(0.6), 20001)
     every = np.asarray(erosion.wear_velocity_finnie(20.0, 0.5 * np.sin(angles), angles, 1.2e9))
-    found = np.asarray(erosion.wear_velocity_cyclone_inlet(20.0, 0.5, 1.0, 0.2, np.array([1e-6, 1e-3]), 2600.0, 1.8e-5, 1.2e9))
+    found = np.asarray(
+        erosion.wear_velocity_cyclone_inlet(
+            20.0, 0.5, 1.0, 0.2, np.array([1e-6, 1e-3]), 2600.0, 1.8e-5, 1.2e9
+        )
+    )
     assert found[1] == pytest.approx(every.max(), rel=1e-6)
     # fine dust, by hand: St = 2 τ v/D = 3.21e-4, wear c m v²/(4p)·2 St²
     St = 2 * 2600e-12 / (18 * 1.8e-5) * 20.0
@@ -104,13 +129,20 @@ def test_sizing_for_a_total_efficiency() -> None:
     assert found.pressure_drop == pytest.approx(1200.0)
     # by an independent sum over the density of the distribution
     x = np.geomspace(1e-9, 1e-3, 20001)
-    grade = efficiency.cyclone_efficiency_muschelknautz(x, 4.0 / found.parallel_number, *AIR, *StandardCyclone()(found.diameter))
-    assert found.removal_efficiency == pytest.approx(float(np.trapezoid(np.asarray(grade) * np.asarray(dust.density(x)), x)), abs=1e-3)
+    grade = efficiency.cyclone_efficiency_muschelknautz(
+        x, 4.0 / found.parallel_number, *AIR, *StandardCyclone()(found.diameter)
+    )
+    assert found.removal_efficiency == pytest.approx(
+        float(np.trapezoid(np.asarray(grade) * np.asarray(dust.density(x)), x)), abs=1e-3
+    )
     # one cyclone fewer in parallel at the same drop would be wider and miss it
     wide = (4.0 / ((found.parallel_number - 1) * found.inlet_velocity * 0.1)) ** 0.5
-    grade = efficiency.cyclone_efficiency_muschelknautz(x, 4.0 / (found.parallel_number - 1), *AIR, *StandardCyclone()(wide))
+    grade = efficiency.cyclone_efficiency_muschelknautz(
+        x, 4.0 / (found.parallel_number - 1), *AIR, *StandardCyclone()(wide)
+    )
     assert float(np.trapezoid(np.asarray(grade) * np.asarray(dust.density(x)), x)) < 0.85
-    # in series: shares left multiply; the second stage sees finer dust; two wide stages do what one narrow does
+    # in series: shares left multiply; the second stage sees finer dust; two wide stages do what one narrow
+    # does
     pair = cyclone_for_efficiency(4.0, 0.85, 2000.0, dust, parallel_number=4.0, series_number=2)
     assert 1 - np.prod(1 - pair.stage_efficiency) == pytest.approx(0.85, abs=1e-9)
     assert pair.stage_efficiency[1] < pair.stage_efficiency[0]
@@ -137,8 +169,12 @@ def test_pair_of_the_example_and_its_script() -> None:
     found = read(EXAMPLES / "pair.toml").solve().as_json()
     assert found["audit"]["mass_closure"] < 1e-12
     assert all(check["ok"] for unit in found["units"].values() for check in unit["checks"])
-    first, second = (found["units"][name]["results"]["removal_efficiency"]["value"] for name in ("first", "second"))
-    streams = {s["name"]: s for s in found["streams"]} if isinstance(found["streams"], list) else found["streams"]
+    first, second = (
+        found["units"][name]["results"]["removal_efficiency"]["value"] for name in ("first", "second")
+    )
+    streams = (
+        {s["name"]: s for s in found["streams"]} if isinstance(found["streams"], list) else found["streams"]
+    )
     assert "clean_air" in streams
     assert first > 0.9 > second  # the first is overloaded, the second sees the fines
     runpy.run_path(str(EXAMPLES / "cyclone.py"))

@@ -10,7 +10,14 @@ import pytest
 from granum.core.errors import ApplicabilityError
 from granum.drying.contact.cells import Contact, Inlet, Network
 from granum.drying.contact.dryer import ready
-from granum.drying.contact.kinetics import DiffusionKinetics, Meeting, ReactionKinetics, SurfaceKinetics, ThinLayerKinetics, VanMeelKinetics
+from granum.drying.contact.kinetics import (
+    DiffusionKinetics,
+    Meeting,
+    ReactionKinetics,
+    SurfaceKinetics,
+    ThinLayerKinetics,
+    VanMeelKinetics,
+)
 from granum.drying.contact.matter import Matter
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.thin_layers.exponential import Page
@@ -24,7 +31,9 @@ FLOW, STAY, GAS = 0.5, 1800.0, 1.0
 INLET = Inlet(jnp.array([0.1]), jnp.array([293.15]), 0.01, 423.15)
 
 
-def contact(n: int, network: Network, units: float = 2.0, kinetics=SurfaceKinetics(critical_moisture=0.05), **more) -> Contact:
+def contact(
+    n: int, network: Network, units: float = 2.0, kinetics=SurfaceKinetics(critical_moisture=0.05), **more
+) -> Contact:
     """A dryer of 0.5 kg/s of sand in 1 kg/s of air, with a number of transfer units."""
     exchange = units * GAS * 1010.0 / (FLOW * STAY)
     solid, renewal = jnp.full((n, 1), FLOW * STAY / n), jnp.full((n, 1), n / STAY)
@@ -38,31 +47,44 @@ def water_and_heat(core: Contact, inlet: Inlet) -> tuple[float, float]:
     return float(water), float(heat + core.gas_flow * MATTER.moist_gas(inlet.gas_temperature, inlet.humidity))
 
 
-NETWORKS = {"co": Network.co_current, "counter": Network.counter_current, "cross": Network.cross_current, "mixed": Network.mixed}
+NETWORKS = {
+    "co": Network.co_current,
+    "counter": Network.counter_current,
+    "cross": Network.cross_current,
+    "mixed": Network.mixed,
+}
 
 
 @pytest.mark.parametrize("name", NETWORKS)
 def test_steady_state_conserves_water_and_energy(name: str) -> None:
     def solve(units):
-        core = contact(12, NETWORKS[name](12), units, heat_loss=500.0, wall_exchange=0.05, wall_temperature=400.0)
+        core = contact(
+            12, NETWORKS[name](12), units, heat_loss=500.0, wall_exchange=0.05, wall_temperature=400.0
+        )
         return core.steady(INLET)
 
     found = ready(solve)(2.0)
     water, heat = water_and_heat(contact(12, NETWORKS[name](12)), INLET)
     assert bool(found.converged)
     assert float(jnp.sum(found.water) + found.vapor) == pytest.approx(water, rel=1e-12)
-    assert float(jnp.sum(found.solid_enthalpy) + found.gas_enthalpy - found.heat_duty) == pytest.approx(heat, rel=1e-12)
+    assert float(jnp.sum(found.solid_enthalpy) + found.gas_enthalpy - found.heat_duty) == pytest.approx(
+        heat, rel=1e-12
+    )
 
 
 def test_cells_tend_to_the_plug_flow_closed_form_with_order_one() -> None:
-    """Wet solid at the wet bulb: gas cools along T − T_w = (T₁ − T_w) e^(−NTU); Stefan flow and rising heat capacity are kept small."""
+    """Wet solid at the wet bulb: gas cools along T − T_w = (T₁ − T_w) e^(−NTU); Stefan flow and rising heat
+    capacity are kept small.
+    """
     humidity, hot = 0.01, 333.15
     wet = state(temperature=hot, humidity_ratio=humidity).wet_bulb_temperature
     inlet = Inlet(jnp.array([0.5]), jnp.array([wet]), humidity, hot)
 
     errors = []
     for n in (10, 20, 40, 80):
-        exit_gas = float(ready(lambda n=n: contact(n, Network.co_current(n)).steady(inlet).gas_temperature[-1])())
+        exit_gas = float(
+            ready(lambda n=n: contact(n, Network.co_current(n)).steady(inlet).gas_temperature[-1])()
+        )
         errors.append(exit_gas)
     steps = -np.diff(errors)
     assert np.all((steps[:-1] / steps[1:] > 1.7) & (steps[:-1] / steps[1:] < 2.4))  # first order in 1/n
@@ -73,25 +95,36 @@ def test_cells_tend_to_the_plug_flow_closed_form_with_order_one() -> None:
 
 
 def test_wet_solid_goes_to_the_wet_bulb_of_humid_gas() -> None:
-    """Independent of this core: the adiabatic-saturation balance of the psychrometrics. Air and water have a Lewis factor near one."""
+    """Independent of this core: the adiabatic-saturation balance of the psychrometrics. Air and water have a
+    Lewis factor near one.
+    """
     for T, w in ((333.15, 0.01), (394.25, 0.04), (500.0, 0.1)):
         one = jnp.ones((1, 1))
         at = Meeting(one, 300.0 * one, T * one, w * one, one, MATTER)
-        assert float(at.wet_bulb[0, 0]) == pytest.approx(state(temperature=T, humidity_ratio=w).wet_bulb_temperature, abs=0.25)
+        assert float(at.wet_bulb[0, 0]) == pytest.approx(
+            state(temperature=T, humidity_ratio=w).wet_bulb_temperature, abs=0.25
+        )
 
 
 def test_dynamic_conserves_and_reaches_the_steady_state() -> None:
     n, steps, step = 20, 150, 40.0
     rng = np.random.default_rng(1)
     moist = jnp.asarray(0.1 + 0.02 * rng.standard_normal((steps, 1)))
-    inlets = Inlet(moist, jnp.full((steps, 1), 293.15), jnp.full(steps, 0.01), jnp.asarray(423.15 + 10.0 * rng.standard_normal(steps)))
+    inlets = Inlet(
+        moist,
+        jnp.full((steps, 1), 293.15),
+        jnp.full(steps, 0.01),
+        jnp.asarray(423.15 + 10.0 * rng.standard_normal(steps)),
+    )
 
     @ready
     def run(units):
         core = contact(n, Network.counter_current(n), units, gas_time=5.0)
         start = core.start(INLET)
         found, totals = core.dynamic(start, inlets, step)
-        calm, _ = core.dynamic(start, jax.tree.map(lambda v: jnp.broadcast_to(v, (steps, *jnp.shape(v))), INLET), step)
+        calm, _ = core.dynamic(
+            start, jax.tree.map(lambda v: jnp.broadcast_to(v, (steps, *jnp.shape(v))), INLET), step
+        )
         gas = core.gas_flow * core.gas_time / n
         held = [
             (
@@ -99,20 +132,31 @@ def test_dynamic_conserves_and_reaches_the_steady_state() -> None:
                 jnp.sum(core.solid * MATTER.moist_solid(T, X)) + gas * jnp.sum(MATTER.moist_gas(Tg, Y)),
             )
             for X, T, Y, Tg in (
-                (*(jnp.broadcast_to(v, (n, 1)) for v in (0.1, 293.15)), jnp.full(n, 0.01), jnp.full(n, 423.15)),
+                (
+                    *(jnp.broadcast_to(v, (n, 1)) for v in (0.1, 293.15)),
+                    jnp.full(n, 0.01),
+                    jnp.full(n, 423.15),
+                ),
                 (found.moisture[-1], found.temperature[-1], found.humidity[-1], found.gas_temperature[-1]),
             )
         ]
         water = jnp.sum(step * (core.solid_flow * inlets.moisture[:, 0] + core.gas_flow * inlets.humidity))
         heat = jnp.sum(
-            step * (core.solid_flow * MATTER.moist_solid(inlets.temperature, inlets.moisture)[:, 0]
-                    + core.gas_flow * MATTER.moist_gas(inlets.gas_temperature, inlets.humidity))
-        )  # fmt: skip
+            step
+            * (
+                core.solid_flow * MATTER.moist_solid(inlets.temperature, inlets.moisture)[:, 0]
+                + core.gas_flow * MATTER.moist_gas(inlets.gas_temperature, inlets.humidity)
+            )
+        )
         return held, totals[-1], water, heat, calm, core.steady(INLET)
 
     (before, after), totals, water, heat, calm, steady = run(2.0)
-    assert float(after[0] - before[0]) == pytest.approx(float(water - totals[0] - totals[2]), abs=1e-9 * float(water))
-    assert float(after[1] - before[1]) == pytest.approx(float(heat - 1e5 * (totals[1] + totals[3])), abs=1e-9 * abs(float(heat)))
+    assert float(after[0] - before[0]) == pytest.approx(
+        float(water - totals[0] - totals[2]), abs=1e-9 * float(water)
+    )
+    assert float(after[1] - before[1]) == pytest.approx(
+        float(heat - 1e5 * (totals[1] + totals[3])), abs=1e-9 * abs(float(heat))
+    )
     np.testing.assert_allclose(calm.moisture[-1], steady.moisture, atol=2e-6)
 
 
@@ -120,7 +164,9 @@ def test_second_order_in_time() -> None:
     def moisture(steps: int) -> float:
         inlets = jax.tree.map(lambda v: jnp.broadcast_to(v, (steps, *jnp.shape(v))), INLET)
         core = contact(10, Network.co_current(10), gas_time=60.0)
-        return float(ready(lambda: core.dynamic(core.start(INLET), inlets, 600.0 / steps)[0].moisture[-1, -1, 0])())
+        return float(
+            ready(lambda: core.dynamic(core.start(INLET), inlets, 600.0 / steps)[0].moisture[-1, -1, 0])()
+        )
 
     a, b, c = (moisture(n) for n in (20, 40, 80))
     assert 3.0 < (a - b) / (b - c) < 5.5
@@ -161,15 +207,21 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert rates[0] == pytest.approx(rates[2], rel=1e-3)
     # Page with n = 1 is Newton: the rate is k (X − X_e), where the film does not bound it
     newton = laws[3].rate(wet._replace(moisture=0.5 * one, exchange=1e3 * one))
-    assert float(newton[0, 0]) == pytest.approx(1e-3 * (0.5 - float(laws[3].equilibrium(wet)[0, 0])), rel=1e-6)
+    assert float(newton[0, 0]) == pytest.approx(
+        1e-3 * (0.5 - float(laws[3].equilibrium(wet)[0, 0])), rel=1e-6
+    )
     assert float(laws[3].rate(wet)[0, 0]) == pytest.approx(float(wet.film_rate()[0, 0]))
     cold = Meeting(0.5 * one, 283.0 * one, 300.0 * one, 0.02 * one, one, MATTER)  # dew point 24.7 °C
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
 
 
 def test_gas_that_meets_a_large_surface_against_the_solid_is_solved() -> None:
-    """Twenty transfer units: at first the gas would dry beyond nothing, and being without memory it would do so in the shortest of steps."""
-    core = contact(20, Network.counter_current(20), 20.0, SurfaceKinetics(0.1, isotherm=Gab(0.025, 10.0, 0.8)))
+    """Twenty transfer units: at first the gas would dry beyond nothing, and being without memory it would do
+    so in the shortest of steps.
+    """
+    core = contact(
+        20, Network.counter_current(20), 20.0, SurfaceKinetics(0.1, isotherm=Gab(0.025, 10.0, 0.8))
+    )
     inlet = Inlet(jnp.array([0.04]), jnp.array([278.15]), 0.002, 420.0)
     found = ready(lambda: core.steady(inlet))()
     assert bool(found.converged)
@@ -191,13 +243,17 @@ def test_solid_drinks_no_faster_than_its_film_where_equilibrium_lies_above_the_c
 
 def test_roots_within_a_law_are_known_as_well_as_the_core_asks() -> None:
     one = jnp.ones((50, 1))
-    at = Meeting(0.5 * one, 300.0 * one, jnp.linspace(310.0, 450.0, 50)[:, None], 0.004 * one, 1e3 * one, MATTER)
+    at = Meeting(
+        0.5 * one, 300.0 * one, jnp.linspace(310.0, 450.0, 50)[:, None], 0.004 * one, 1e3 * one, MATTER
+    )
     wet = at._replace(temperature=at.wet_bulb)  # there heat and vapor agree
     np.testing.assert_allclose(VanMeelKinetics(0.1).rate(wet), wet.film_rate(), rtol=1e-11)
     left = np.linspace(0.05, 0.95, 50)[:, None]
     page = ThinLayerKinetics(Page(1e-3, 1.2), 1.0)
     closed = left * 1e-3 * 1.2 * (-np.log(left) / 1e-3) ** (0.2 / 1.2)
-    np.testing.assert_allclose(page.rate(at._replace(moisture=left, temperature=350.0 * one)), closed, rtol=1e-11)
+    np.testing.assert_allclose(
+        page.rate(at._replace(moisture=left, temperature=350.0 * one)), closed, rtol=1e-11
+    )
 
 
 def test_a_mixture_without_its_vapor_is_refused() -> None:

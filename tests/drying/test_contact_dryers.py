@@ -50,7 +50,9 @@ def solved(name: str):
 
 
 def test_rotary_example_of_coulson_and_richardson() -> None:
-    """Example 16.5: air leaves at 331.5 K with 0.0347 kg/kg, solid with 0.005 kg/kg, not above 325 K, from a drum 10.1 m long."""
+    """Example 16.5: air leaves at 331.5 K with 0.0347 kg/kg, solid with 0.005 kg/kg, not above 325 K, from a
+    drum 10.1 m long.
+    """
     _run, figures, bad = solved("rotary")
     assert float(figures.temperature_exhaust) == pytest.approx(331.5, abs=1.5)
     assert float(figures.humidity_ratio) == pytest.approx(0.0347, rel=0.03)
@@ -59,7 +61,9 @@ def test_rotary_example_of_coulson_and_richardson() -> None:
 
 
 def test_a_fluidized_bed_of_every_size_from_dust_to_lumps_is_solved() -> None:
-    """Each class in turn runs into its critical moisture, a bend at which a solver that steps too far goes to and fro."""
+    """Each class in turn runs into its critical moisture, a bend at which a solver that steps too far goes to
+    and fro.
+    """
     mixture = mixture_of(["water"], ["starch"], ["dry air", "water"], list(np.geomspace(1e-5, 4e-3, 9)))
     dryer = FluidBedDryer(area=1.0, mass=200.0, kinetics=SurfaceKinetics(critical_moisture=0.005))
     found = dryer.profile(wet(0.22, 0.07, 298.0, mixture), air(0.83, 0.009, 388.0, mixture))
@@ -70,8 +74,10 @@ def test_a_fluidized_bed_of_every_size_from_dust_to_lumps_is_solved() -> None:
 
 @pytest.mark.parametrize("name", ["fluid-bed", "direct-fired"])
 def test_fluidized_bed_example_of_coulson_and_richardson(name: str) -> None:
-    """Example 16.6: gas at 811 K with 0.036 kg/kg, exhaust at 90 %: bed at 340 K, 4.54 m wide for 0.61 m/s. Its lines of heat and mass, drawn
-    with a constant heat capacity, cross at 8.3 kg/s of dry gas; they pass through 12.9 (mass) and 7.8 kg/s (heat) at 333 K."""
+    """Example 16.6: gas at 811 K with 0.036 kg/kg, exhaust at 90 %: bed at 340 K, 4.54 m wide for 0.61 m/s.
+    Its lines of heat and mass, drawn with a constant heat capacity, cross at 8.3 kg/s of dry gas; they pass
+    through 12.9 (mass) and 7.8 kg/s (heat) at 333 K.
+    """
     run, _figures, _bad = solved(name)
     assert run.figure("dryer.temperature_product") == pytest.approx(340.0, abs=1.0)
     assert run.figure("dryer.relative_humidity") == pytest.approx(0.90, abs=0.01)
@@ -88,12 +94,16 @@ def test_fluidized_bed_example_of_coulson_and_richardson(name: str) -> None:
         dry = feed.replace(liquid=0.0 * feed.liquid, temperature=333.0)
         vapor = hot.replace(gas=jnp.array([0.0, 1.26]), temperature=333.0)
         needed = dry.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow
-        assert needed / (hot.enthalpy_flow - cooled.enthalpy_flow) * hot.gas[0] == pytest.approx(7.8, rel=0.05)
+        assert needed / (hot.enthalpy_flow - cooled.enthalpy_flow) * hot.gas[0] == pytest.approx(
+            7.8, rel=0.05
+        )
 
 
 def test_tunnel_example_of_geankoplis() -> None:
-    """Air leaves with 0.0760 and stock with 0.0374 after 4.71 h (4.24 at constant and 0.47 at falling rate). The end where the stock enters
-    is driven by 0.0026 kg/kg only, read from a chart, so that moisture is compared within a tenth."""
+    """Air leaves with 0.0760 and stock with 0.0374 after 4.71 h (4.24 at constant and 0.47 at falling rate).
+    The end where the stock enters is driven by 0.0026 kg/kg only, read from a chart, so that moisture is
+    compared within a tenth.
+    """
     _run, figures, bad = solved("tunnel")
     assert float(figures.humidity_ratio) == pytest.approx(0.0760, rel=0.005)
     assert float(figures.moisture_dry_basis) == pytest.approx(0.0374, rel=0.1)
@@ -101,7 +111,9 @@ def test_tunnel_example_of_geankoplis() -> None:
 
 
 def test_belt_example_of_geankoplis() -> None:
-    """Through-circulation: 0.5 kg/kg in 850 s at constant rate; air leaves the layer at 60.1 °C. Stefan flow slows ours by 3.5 %."""
+    """Through-circulation: 0.5 kg/kg in 850 s at constant rate; air leaves the layer at 60.1 °C. Stefan flow
+    slows ours by 3.5 %.
+    """
     _run, figures, _bad = solved("belt")
     rate = (1.0 - float(figures.moisture_dry_basis)) / 400.0
     assert rate == pytest.approx(0.5 / 850.0, rel=0.05)
@@ -109,7 +121,9 @@ def test_belt_example_of_geankoplis() -> None:
 
 
 def test_silo_of_the_notes() -> None:
-    """Tables IV.11 and IV.12: maize from 35 to 15 %, 30 to 90 °C, 500 to 15 000 kg of water an hour, grain cooled to ambient."""
+    """Tables IV.11 and IV.12: maize from 35 to 15 %, 30 to 90 °C, 500 to 15 000 kg of water an hour, grain
+    cooled to ambient.
+    """
     _run, figures, bad = solved("silo")
     assert float(figures.moisture_dry_basis) == pytest.approx(0.15 / 0.85, abs=0.005)
     assert 500.0 < 3600.0 * float(figures.evaporation_rate) < 15000.0
@@ -118,7 +132,9 @@ def test_silo_of_the_notes() -> None:
 
 
 def test_flash_dryer_of_the_notes() -> None:
-    """Tables IV.13 and IV.14: starch from 40–45 to 8–10 %, 0.5 to 3.5 s, air from 100–350 to 70–120 °C at 15 to 30 m/s."""
+    """Tables IV.13 and IV.14: starch from 40–45 to 8–10 %, 0.5 to 3.5 s, air from 100–350 to 70–120 °C at
+    15 to 30 m/s.
+    """
     _run, figures, bad = solved("flash")
     X = float(figures.moisture_dry_basis)
     assert 0.08 <= X / (1.0 + X) <= 0.10
@@ -126,8 +142,9 @@ def test_flash_dryer_of_the_notes() -> None:
 
 
 def test_spray_dryer_of_a_worked_sheet() -> None:
-    """PowderProcess.net: concentrate with 45 % of solids, air at 176 °C with 0.0092; exhaust at 80 °C, 15 %, 0.0468. The ranges of the notes' table
-    IV.2 hold too: 10 to 30 s, 1 to 30 kg of water an hour and m³."""
+    """PowderProcess.net: concentrate with 45 % of solids, air at 176 °C with 0.0092; exhaust at 80 °C, 15 %,
+    0.0468. The ranges of the notes' table IV.2 hold too: 10 to 30 s, 1 to 30 kg of water an hour and m³.
+    """
     _run, figures, bad = solved("spray")
     assert float(figures.temperature_exhaust) - 273.15 == pytest.approx(80.0, abs=2.0)
     assert float(figures.humidity_ratio) == pytest.approx(0.0468, rel=0.01)
@@ -136,7 +153,9 @@ def test_spray_dryer_of_a_worked_sheet() -> None:
 
 
 def test_layer_follows_hukill() -> None:
-    """Rate proportional to moisture ratio and to the depression of the wet bulb, sensible heat of the solid small: Hukill's closed form."""
+    """Rate proportional to moisture ratio and to the depression of the wet bulb, sensible heat of the solid
+    small: Hukill's closed form.
+    """
     n, T, w = 60, 323.15, 0.01
     feed, gas = wet(1.0, 1.0), air(1.0, w, T)
     Tw = state(temperature=T, humidity_ratio=w).wet_bulb_temperature
@@ -144,11 +163,18 @@ def test_layer_follows_hukill() -> None:
     units, exchange, per_solid = 2.0, 30.0, 15.0e-3
     per_solid = exchange / (units * float(matter.gas_heat_capacity(0.5 * (T + Tw), w)) * (1.0 + w))
     column = Contact(
-        matter, VanMeelKinetics(critical_moisture=1.0), jnp.full((n, 1), 1.0 / n), jnp.zeros((n, 1)), 1.0, Network.co_current(n),
+        matter,
+        VanMeelKinetics(critical_moisture=1.0),
+        jnp.full((n, 1), 1.0 / n),
+        jnp.zeros((n, 1)),
+        1.0,
+        Network.co_current(n),
         lambda X, Ts, Tg, Y: exchange,
-    )  # fmt: skip
+    )
     rate = exchange * (T - Tw) / float(matter.heat_of_vaporization(Tw))
-    (found,) = jax.jit(lambda wetness: pass_zones(column, wetness, Tw, [Zone(2.0 / rate, per_solid, False, w, T)], 120))(1.0)
+    (found,) = jax.jit(
+        lambda wetness: pass_zones(column, wetness, Tw, [Zone(2.0 / rate, per_solid, False, w, T)], 120)
+    )(1.0)
     X = np.asarray(found.layers.moisture)[:, :, 0]
     depth = units * (np.arange(n) + 0.5) / n
     for i in (69, 94, 119):
@@ -180,20 +206,38 @@ def test_drops_have_the_mean_size_of_the_atomizer() -> None:
     shares = dryer.shares(feed, air(10.0, 0.01, 450.0, mixture))
     ratio = (1000.0 * (1.0 / float(feed.solid_density) + 1.5 / 997.0)) ** (1.0 / 3.0)
     assert float(jnp.sum(shares)) == pytest.approx(1.0, abs=1e-12)
-    assert 1.0 / float(jnp.sum(shares / (ratio * jnp.asarray(mixture.sizes)))) == pytest.approx(1e-4, rel=0.03)
+    assert 1.0 / float(jnp.sum(shares / (ratio * jnp.asarray(mixture.sizes)))) == pytest.approx(
+        1e-4, rel=0.03
+    )
 
 
 KINETICS = SurfaceKinetics(critical_moisture=0.3)
 SIZED = {  # how each type is sized, feed, gas
-    "rotary": (lambda f, g: RotaryDryer.size(0.1, f, g, 1.5, KINETICS, cells=8), wet(0.5, 0.4), air(3.0, 0.01, 450.0)),
-    "tunnel": (lambda f, g: TunnelDryer.size(0.1, f, g, 0.1, 1.0, 20.0, KINETICS, cells=8), wet(0.1, 0.4), air(3.0, 0.01, 360.0)),
+    "rotary": (
+        lambda f, g: RotaryDryer.size(0.1, f, g, 1.5, KINETICS, cells=8),
+        wet(0.5, 0.4),
+        air(3.0, 0.01, 450.0),
+    ),
+    "tunnel": (
+        lambda f, g: TunnelDryer.size(0.1, f, g, 0.1, 1.0, 20.0, KINETICS, cells=8),
+        wet(0.1, 0.4),
+        air(3.0, 0.01, 360.0),
+    ),
     "silo": (
         lambda f, g: SiloDryer.size(0.1, f, g, 0.3, 600.0, DiffusionKinetics(1e-9, 4e-3), layers=5, steps=10),
         wet(0.5, 0.3),
         air(8.0, 0.01, 360.0),
     ),
-    "flash": (lambda f, g: FlashDryer.size(0.1, f, g, 20.0, KINETICS, cells=20), wet(0.5, 0.4), air(4.0, 0.01, 450.0)),
-    "fluidized bed": (lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS, cells=4), wet(0.5, 0.4), air(8.0, 0.01, 400.0)),
+    "flash": (
+        lambda f, g: FlashDryer.size(0.1, f, g, 20.0, KINETICS, cells=20),
+        wet(0.5, 0.4),
+        air(4.0, 0.01, 450.0),
+    ),
+    "fluidized bed": (
+        lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS, cells=4),
+        wet(0.5, 0.4),
+        air(8.0, 0.01, 400.0),
+    ),
     "fluidized bed, mixed": (
         lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS),
         wet(0.5, 0.4),
@@ -242,18 +286,28 @@ def test_what_cannot_be_is_said() -> None:
 
 
 def test_flash_dryer_in_a_recycle() -> None:
-    """Half of the product goes back to the feed; the loop starts from an empty stream, whose residual says little."""
+    """Half of the product goes back to the feed; the loop starts from an empty stream, whose residual says
+    little.
+    """
     from granum.flowsheet import Flowsheet
     from granum.flowsheet.packing import compiled
     from granum.flowsheet.solving import solve
     from granum.streams.equipment.basics import Mixer, Splitter
 
-    units = {"mixer": Mixer(), "flash": FlashDryer(25.0, 1.4, KINETICS, feed_velocity=3.0, cells=20), "splitter": Splitter(0.5)}
+    units = {
+        "mixer": Mixer(),
+        "flash": FlashDryer(25.0, 1.4, KINETICS, feed_velocity=3.0, cells=20),
+        "splitter": Splitter(0.5),
+    }
     feeds = {"wet": wet(0.8, 0.7), "air": air(24.0, 0.01, 458.0)}
     links = {
-        "wet": ("", "mixer.fresh"), "air": ("", "flash.gas"), "mixed": ("mixer", "flash.feed"), "dry": ("flash.product", "splitter"),
-        "back": ("splitter.side", "mixer.back"), "product": ("splitter.product", ""),
-    }  # fmt: skip
+        "wet": ("", "mixer.fresh"),
+        "air": ("", "flash.gas"),
+        "mixed": ("mixer", "flash.feed"),
+        "dry": ("flash.product", "splitter"),
+        "back": ("splitter.side", "mixer.back"),
+        "product": ("splitter.product", ""),
+    }
     sheet = Flowsheet(units, feeds, links)
     found = compiled(solve)(sheet)
     assert bool(found.converged)
@@ -263,8 +317,14 @@ def test_flash_dryer_in_a_recycle() -> None:
 
 
 def test_a_layer_in_long_steps_dries_as_in_short_ones() -> None:
-    """A belt a hundred times too large in twelve steps: dry through and through, at the temperature of the gas, and the balance closes."""
-    dryer, feed, gas = BeltDryer(100.0, 0.05, 500.0, KINETICS, layers=6, steps=12), wet(0.05, 0.8), air(5.0, 0.01, 380.0)
+    """A belt a hundred times too large in twelve steps: dry through and through, at the temperature of the
+    gas, and the balance closes.
+    """
+    dryer, feed, gas = (
+        BeltDryer(100.0, 0.05, 500.0, KINETICS, layers=6, steps=12),
+        wet(0.05, 0.8),
+        air(5.0, 0.01, 380.0),
+    )
     found, out = dryer.profile(feed, gas), dryer(feed, gas)
     assert bool(found.converged)
     assert float(jnp.min(found.moisture)) >= -NO_WATER * 0.8  # what the core calls no water, of the wettest

@@ -37,8 +37,16 @@ def test_recirculated_air_returns_to_the_mixing_point():
 def test_energy_flows_add_up_in_both_languages():
     for code, first in (("en", "heater"), ("fr", "batterie de chauffage")):
         with language(code):
-            figure = dryer_energy_chart("25 degC", "50 %", "80 degC", "60 %", heat_loss="100 kW", shaft_power="20 kW",
-                                        temperature_product_inlet="20 degC", temperature_product_outlet="45 degC")  # fmt: skip
+            figure = dryer_energy_chart(
+                "25 degC",
+                "50 %",
+                "80 degC",
+                "60 %",
+                heat_loss="100 kW",
+                shaft_power="20 kW",
+                temperature_product_inlet="20 degC",
+                temperature_product_outlet="45 degC",
+            )
         sankey = figure.data[0]
         assert sankey.node.label[0].startswith(first)
         flows = np.asarray(sankey.link.value)

@@ -1,4 +1,6 @@
-"""Dryers in a closed circuit: heat pump, superheated steam, recompression; staged heating as dryers in a row; direct firing."""
+"""Dryers in a closed circuit: heat pump, superheated steam, recompression; staged heating as dryers in a row;
+direct firing.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ def checked(dryer: ClosedDryer, feed: Stream):
 
 
 def test_heat_pump_dryer_beside_coolprop() -> None:
-    """The same circuit reckoned with CoolProp's humid air: a trace of solid, water that enters at the wet bulb, so that the dryer is isenthalpic."""
+    """The same circuit reckoned with CoolProp's humid air: a trace of solid, water that enters at the wet
+    bulb, so that the dryer is isenthalpic.
+    """
     coolprop = pytest.importorskip("CoolProp.CoolProp")
     P, T1, coil, bypass, phi = 101325.0, 323.15, 285.15, 0.1, 0.8
 
@@ -67,13 +71,16 @@ def test_heat_pump_dryer_beside_coolprop() -> None:
     assert float(figures.temperature_outlet) == pytest.approx(T2, abs=0.1)
     assert float(figures.mass_flow_circulating) == pytest.approx(1.0 / (w2 - w1), rel=0.01)
     assert float(figures.shaft_power) == pytest.approx(work / (w2 - w1), rel=0.01)
-    assert 1.0 < float(figures.moisture_extraction_rate) * 3.6e6 < 4.0  # kg/kWh, the usual range (Mujumdar 2014)
+    assert (
+        1.0 < float(figures.moisture_extraction_rate) * 3.6e6 < 4.0
+    )  # kg/kWh, the usual range (Mujumdar 2014)
     assert all(checks.values())
 
 
 def test_superheated_steam_and_its_recompression() -> None:
-    """Steam tables at 1 atm, 200 to 120 °C, water at 20 °C: (2716.5 − 84)/(2875.4 − 2716.5) = 16.57. With compression of steam from a feed
-    at boiling heat the notes' table III.2 has 160 to 200 kJ/kg."""
+    """Steam tables at 1 atm, 200 to 120 °C, water at 20 °C: (2716.5 − 84)/(2875.4 − 2716.5) = 16.57. With
+    compression of steam from a feed at boiling heat the notes' table III.2 has 160 to 200 kJ/kg.
+    """
     dryer = ClosedDryer(SteamCircuit(393.15), 473.15, 0.0)
     figures, checks = checked(dryer, slurry(1e-6, 1.0, 293.15))
     assert float(figures.mass_flow_circulating) == pytest.approx(16.57, rel=0.01)
@@ -83,31 +90,44 @@ def test_superheated_steam_and_its_recompression() -> None:
     assert 160e3 < run.figure("dryer.energy_per_water") < 200e3
     assert run.figure("dryer.heat_duty_heater") < 0.0  # more than the circuit needs
     assert all(c.ok for c in run.units["dryer"].checks)
-    _figures, checks = checked(ClosedDryer(SteamCircuit("95 degC", "2 bar"), "150 degC", 0.05), slurry(1.0, 2.0, 373.0))
-    assert sorted(checks.values()) == [False, False, True]  # outlet below boiling, heat given off below the hot gas
+    _figures, checks = checked(
+        ClosedDryer(SteamCircuit("95 degC", "2 bar"), "150 degC", 0.05), slurry(1.0, 2.0, 373.0)
+    )
+    assert sorted(checks.values()) == [
+        False,
+        False,
+        True,
+    ]  # outlet below boiling, heat given off below the hot gas
 
 
 def test_four_shelves_with_reheated_air() -> None:
-    """Anantharaman and Begum, example 6.1, read from a chart: air leaves the shelves at 27, 34, 39 and 42 °C with 0.016, 0.023, 0.028 and 0.032;
-    515.6 kg of water an hour. The card gives the same without streams."""
+    """Anantharaman and Begum, example 6.1, read from a chart: air leaves the shelves at 27, 34, 39 and 42 °C
+    with 0.016, 0.023, 0.028 and 0.032; 515.6 kg of water an hour. The card gives the same without streams.
+    """
     run = gr.read("examples/dryers/staged.toml").solve()
     assert run.audit["energy_closure"] < 1e-12
     names = ("first", "second", "third", "fourth")
-    for name, celsius, humidity in zip(names, (27.0, 34.0, 39.0, 42.0), (0.016, 0.023, 0.028, 0.032), strict=True):
+    for name, celsius, humidity in zip(
+        names, (27.0, 34.0, 39.0, 42.0), (0.016, 0.023, 0.028, 0.032), strict=True
+    ):
         assert run.figure(f"{name}.temperature_outlet") - 273.15 == pytest.approx(celsius, abs=1.6)
         assert run.figure(f"{name}.humidity_ratio_outlet") == pytest.approx(humidity, abs=0.0014)
     assert 60.0 * float(run.streams["exhaust"].gas_volume_flow) == pytest.approx(300.0, rel=1e-3)
     water = 3600.0 * sum(run.figure(f"{name}.evaporation_rate") for name in names)
     assert water == pytest.approx(515.6, rel=0.01)
     card = gr.drying.staged_heating("25 degC", 0.005, "52 degC", "60 %", stage_count=4)
-    assert run.figure("fourth.humidity_ratio_outlet") == pytest.approx(float(card.humidity_ratio_outlet), rel=0.03)
+    assert run.figure("fourth.humidity_ratio_outlet") == pytest.approx(
+        float(card.humidity_ratio_outlet), rel=0.03
+    )
 
 
 FIRED = mixture_of(["water"], ["starch"], ["dry air", "water", "methane", "propane"], [1e-3, 1e-2])
 
 
 def test_burner_beside_the_real_flue_gas() -> None:
-    """Methane in five times its air: the temperature of carbon dioxide, vapor, nitrogen and oxygen, with CoolProp's enthalpies of dilute gases."""
+    """Methane in five times its air: the temperature of carbon dioxide, vapor, nitrogen and oxygen, with
+    CoolProp's enthalpies of dilute gases.
+    """
     coolprop = pytest.importorskip("CoolProp.CoolProp")
     from scipy.optimize import brentq
 
@@ -119,7 +139,11 @@ def test_burner_beside_the_real_flue_gas() -> None:
 
     def warmed(T: float) -> float:
         return sum(
-            k * (coolprop.PropsSI("Hmolar", "T", T, "P", 1.0, s) - coolprop.PropsSI("Hmolar", "T", 298.15, "P", 1.0, s))
+            k
+            * (
+                coolprop.PropsSI("Hmolar", "T", T, "P", 1.0, s)
+                - coolprop.PropsSI("Hmolar", "T", 298.15, "P", 1.0, s)
+            )
             for s, k in out.items()
         )
 
@@ -140,7 +164,9 @@ def test_burner_beside_the_real_flue_gas() -> None:
     assert float(fired.product.temperature) == pytest.approx(float(card.temperature), rel=2e-3)
     # without its heating value the gas stays as it came; propane burns too
     propane = empty(FIRED, 298.15).replace(gas=jnp.array([0.0, 0.0, 0.0, 0.01]))
-    assert float(Burner(heat_loss_share=1.0)(gas, propane).product.temperature) == pytest.approx(298.15, abs=1e-3)
+    assert float(Burner(heat_loss_share=1.0)(gas, propane).product.temperature) == pytest.approx(
+        298.15, abs=1e-3
+    )
     assert [c.ok for c in burner.operate(gas=gas, fuel=propane.part(gas=8.0)).checks] == [False, False]
     with pytest.raises(InputError, match="fuel"):
         burner(empty(MIXTURE), empty(MIXTURE))

@@ -15,20 +15,37 @@ from granum.drying.formulas.moisture import (
     moisture_dry_basis,
     moisture_wet_basis,
     water_activity,
-)  # fmt: skip
+)
 from granum.drying.isotherms import adsorption as ads
 from granum.drying.isotherms import empirical as emp
 from granum.drying.isotherms import grains
 
 T25 = 298.15
 ISOTHERMS = [
-    ads.Bet(0.05, 10.0), ads.BetLayers(0.05, 10.0, 8.0), ads.Gab(0.07, 12.0, 0.85), ads.Gab(0.0560, 0.017, 0.94, 1390.0, 20000.0, -920.0),
-    ads.HailwoodHorrobin(), emp.Oswin(0.12, 0.4), emp.LewickiTwo(0.12, 0.6), emp.LewickiThree(0.17, 0.33, 0.7), emp.Halsey(0.02, 1.5),
-    emp.FerroFontan(1.05, 0.03, 1.4), emp.Henderson(0.2, 1.8), emp.Smith(0.02, 0.1), emp.Peleg(0.15, 0.6, 0.27, 5.5),
-    emp.DoubleLog(0.1, -0.05, 0.01, 0.0), emp.IglesiasChirife(2.0, -1.2, 0.04), emp.Caurie(-3.0, 2.0), emp.Kuhn(0.02, 0.03),
-    emp.Bradley(1e-5, 3.0), emp.Chen(3.5, 14.0, -0.01), grains.HendersonModified(8.6541e-5, 1.8634, 49.810),
-    grains.ChungPfost(312.30, 16.958, 30.205), grains.HalseyModified(2.87, -0.0054, 1.38), grains.OswinModified(15.303, -0.10164, 3.0358),
-]  # fmt: skip
+    ads.Bet(0.05, 10.0),
+    ads.BetLayers(0.05, 10.0, 8.0),
+    ads.Gab(0.07, 12.0, 0.85),
+    ads.Gab(0.0560, 0.017, 0.94, 1390.0, 20000.0, -920.0),
+    ads.HailwoodHorrobin(),
+    emp.Oswin(0.12, 0.4),
+    emp.LewickiTwo(0.12, 0.6),
+    emp.LewickiThree(0.17, 0.33, 0.7),
+    emp.Halsey(0.02, 1.5),
+    emp.FerroFontan(1.05, 0.03, 1.4),
+    emp.Henderson(0.2, 1.8),
+    emp.Smith(0.02, 0.1),
+    emp.Peleg(0.15, 0.6, 0.27, 5.5),
+    emp.DoubleLog(0.1, -0.05, 0.01, 0.0),
+    emp.IglesiasChirife(2.0, -1.2, 0.04),
+    emp.Caurie(-3.0, 2.0),
+    emp.Kuhn(0.02, 0.03),
+    emp.Bradley(1e-5, 3.0),
+    emp.Chen(3.5, 14.0, -0.01),
+    grains.HendersonModified(8.6541e-5, 1.8634, 49.810),
+    grains.ChungPfost(312.30, 16.958, 30.205),
+    grains.HalseyModified(2.87, -0.0054, 1.38),
+    grains.OswinModified(15.303, -0.10164, 3.0358),
+]
 
 
 @pytest.mark.parametrize("isotherm", ISOTHERMS, ids=lambda i: type(i).__name__)
@@ -37,14 +54,18 @@ def test_both_directions_agree_and_rise(isotherm) -> None:
     X = np.asarray(isotherm.moisture(a, T25))
     assert np.all(np.diff(X) > 0)
     np.testing.assert_allclose(isotherm.activity(X, T25), a, rtol=1e-8)
-    slopes = jax.vmap(jax.grad(lambda x: jnp.sum(jnp.asarray(isotherm.moisture(x, T25)))))(jnp.array([0.0, 0.5, 1.0]))
+    slopes = jax.vmap(jax.grad(lambda x: jnp.sum(jnp.asarray(isotherm.moisture(x, T25)))))(
+        jnp.array([0.0, 0.5, 1.0])
+    )
     assert jnp.all(jnp.isfinite(slopes))
 
 
 def test_wood_handbook_table() -> None:
     # FPL-GTR-190, table 4-2, at 21.1 °C (70 °F): 30, 50, 65, 80 %
     wood = ads.HailwoodHorrobin()
-    np.testing.assert_allclose(wood.moisture(np.array([0.3, 0.5, 0.65, 0.8]), 294.25), [0.062, 0.092, 0.120, 0.160], atol=6e-4)
+    np.testing.assert_allclose(
+        wood.moisture(np.array([0.3, 0.5, 0.65, 0.8]), 294.25), [0.062, 0.092, 0.120, 0.160], atol=6e-4
+    )
 
 
 def test_potato_of_the_survey_and_grain_forms() -> None:
@@ -54,18 +75,30 @@ def test_potato_of_the_survey_and_grain_forms() -> None:
         assert 0.137 < x < 0.145
     # the printed E, F form of Chung and Pfost: M = E − F ln[−(t + C) ln a] with E = ln(A)/B, F = 1/B
     E, F = np.log(312.30) / 16.958, 1 / 16.958
-    assert float(ISOTHERMS[-3].moisture(0.7, T25)) == pytest.approx(E - F * np.log(-(25 + 30.205) * np.log(0.7)), rel=1e-12)
+    assert float(ISOTHERMS[-3].moisture(0.7, T25)) == pytest.approx(
+        E - F * np.log(-(25 + 30.205) * np.log(0.7)), rel=1e-12
+    )
 
 
 def test_equal_curves() -> None:
     a = np.linspace(0.1, 0.9, 9)
-    np.testing.assert_allclose(emp.Oswin(0.12, 0.4).moisture(a, T25), emp.LewickiTwo(0.12, 0.6).moisture(a, T25), rtol=1e-12)
+    np.testing.assert_allclose(
+        emp.Oswin(0.12, 0.4).moisture(a, T25), emp.LewickiTwo(0.12, 0.6).moisture(a, T25), rtol=1e-12
+    )
     A, B = 312.30 / 55.205, 16.958
-    np.testing.assert_allclose(emp.Bradley(np.exp(-B), A).moisture(a, T25), ISOTHERMS[-3].moisture(a, T25), rtol=1e-9)
-    np.testing.assert_allclose(emp.FerroFontan(1.0, 0.02, 1.5).moisture(a, T25), emp.Halsey(0.02, 1.5).moisture(a, T25), rtol=1e-9)
+    np.testing.assert_allclose(
+        emp.Bradley(np.exp(-B), A).moisture(a, T25), ISOTHERMS[-3].moisture(a, T25), rtol=1e-9
+    )
+    np.testing.assert_allclose(
+        emp.FerroFontan(1.0, 0.02, 1.5).moisture(a, T25), emp.Halsey(0.02, 1.5).moisture(a, T25), rtol=1e-9
+    )
     # BET with many layers, GAB with K = 1
-    np.testing.assert_allclose(ads.Gab(0.05, 10.0, 1.0).moisture(a, T25), ads.Bet(0.05, 10.0).moisture(a, T25), rtol=1e-12)
-    np.testing.assert_allclose(ads.BetLayers(0.05, 10.0, 1.0).moisture(a, T25), 0.05 * 10 * a / (1 + 10 * a), rtol=1e-9)  # Langmuir
+    np.testing.assert_allclose(
+        ads.Gab(0.05, 10.0, 1.0).moisture(a, T25), ads.Bet(0.05, 10.0).moisture(a, T25), rtol=1e-12
+    )
+    np.testing.assert_allclose(
+        ads.BetLayers(0.05, 10.0, 1.0).moisture(a, T25), 0.05 * 10 * a / (1 + 10 * a), rtol=1e-9
+    )  # Langmuir
 
 
 def test_isosteric_heat() -> None:
@@ -73,7 +106,9 @@ def test_isosteric_heat() -> None:
     T, X = 298.15, 0.15
     by_hand = 8.314462618 / 0.018015268 * T**2 * 312.30 / (T - 273.15 + 30.205) ** 2 * np.exp(-16.958 * X)
     assert isosteric_heat(X, corn, T).isosteric_heat_net == pytest.approx(by_hand, rel=1e-9)
-    assert isosteric_heat(0.1, ads.Gab(0.07, 12.0, 0.85), T).isosteric_heat_net == pytest.approx(0.0, abs=1e-6)
+    assert isosteric_heat(0.1, ads.Gab(0.07, 12.0, 0.85), T).isosteric_heat_net == pytest.approx(
+        0.0, abs=1e-6
+    )
     assert isosteric_heat(X, corn, T).isosteric_heat > 2.44e6
     # Clausius–Clapeyron between two temperatures, as laboratories do it
     one, two = (float(corn.activity(X, t)) for t in (298.14, 298.16))

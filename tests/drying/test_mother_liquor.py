@@ -1,4 +1,6 @@
-"""Dryers in cells fed with crystals wet with their mother liquor, and with a solution: what was dissolved stays as crystal."""
+"""Dryers in cells fed with crystals wet with their mother liquor, and with a solution: what was dissolved
+stays as crystal.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ from granum.streams.audit import closure
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 
-SALT = mixture_of(["water", "potassium nitrate"], ["quartz", "potassium nitrate"], ["dry air", "water"], [1e-4, 3e-4, 9e-4])
+SALT = mixture_of(
+    ["water", "potassium nitrate"], ["quartz", "potassium nitrate"], ["dry air", "water"], [1e-4, 3e-4, 9e-4]
+)
 KINETICS = SurfaceKinetics(critical_moisture=0.02)
 DISSOLVED = 0.37  # per kg of water, potassium nitrate at 25 °C
 DRYERS = {
@@ -42,7 +46,9 @@ def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     assert float(closed.energy) < 1e-12
     water, salt = out.product.liquid
     assert 0.0 < float(water) < 0.015
-    assert float(salt / water) == pytest.approx(DISSOLVED, rel=1e-12)  # the liquor left is still the saturated one
+    assert float(salt / water) == pytest.approx(
+        DISSOLVED, rel=1e-12
+    )  # the liquor left is still the saturated one
     assert float(jnp.sum(out.product.solid[1]) + salt) == pytest.approx(0.3 + 0.02 * DISSOLVED, rel=1e-12)
 
 

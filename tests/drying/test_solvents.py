@@ -94,7 +94,9 @@ def closures(made, inlets) -> tuple[float, float]:
 
 @pytest.mark.parametrize("name", DRYERS)
 def test_ethanol_in_nitrogen_in_either_order(name):
-    """Mass and energy close, no figure depends on the order of the gases, and a dryer heated by its walls boils at 78.3 °C at 1 atm (CRC Handbook)."""
+    """Mass and energy close, no figure depends on the order of the gases, and a dryer heated by its walls
+    boils at 78.3 °C at 1 atm (CRC Handbook).
+    """
     unit, found = DRYERS[name], []
     orders = (["ethanol", "nitrogen"], ["nitrogen", "ethanol"])
     for gases in orders if name in BOTH else orders[:1]:
@@ -112,31 +114,41 @@ def test_ethanol_in_nitrogen_in_either_order(name):
 def test_water_before_air():
     """A mixture that names the vapor first dried nothing, and said so with a closed balance."""
     figures = [
-        operated(DRYERS["balance"], duty(g, "water", **{"dry air": 1.5})).figures for g in (["dry air", "water"], ["water", "dry air"])
+        operated(DRYERS["balance"], duty(g, "water", **{"dry air": 1.5})).figures
+        for g in (["dry air", "water"], ["water", "dry air"])
     ]
     assert float(figures[0].humidity_ratio_outlet) == pytest.approx(0.02 / 1.5, rel=1e-9)
     assert [float(v) for v in figures[0]] == pytest.approx([float(v) for v in figures[1]], rel=1e-9)
 
 
 def test_exhaust_of_ethanol_is_saturated_by_ethanol():
-    """Ethanol has 7.87 kPa at 25 °C (CRC Handbook, vapor pressure); water's 3.17 kPa would say 2.5 times as much."""
+    """Ethanol has 7.87 kPa at 25 °C (CRC Handbook, vapor pressure); water's 3.17 kPa would say 2.5 times as
+    much.
+    """
     unit = ConvectiveDryer(temperature_inlet=353.15, temperature_outlet=298.15)
     made = operated(unit, duty(["nitrogen", "ethanol"], "ethanol", nitrogen=0.4))
     gas = made.outlets.exhaust.gas
     fraction = float(gas[1] / 46.07 / (gas[1] / 46.07 + gas[0] / 28.01))
-    assert float(made.figures.relative_humidity_outlet) == pytest.approx(fraction * 101325.0 / 7870.0, rel=0.01)
+    assert float(made.figures.relative_humidity_outlet) == pytest.approx(
+        fraction * 101325.0 / 7870.0, rel=0.01
+    )
 
 
 def test_surface_is_at_the_wet_bulb_of_its_pair():
-    """What the trays of solvent come to is the wet bulb of the psychrometric relations, which are written on the pair alone; only the drop of the heat capacity with
-    composition parts them."""
+    """What the trays of solvent come to is the wet bulb of the psychrometric relations, which are written on
+    the pair alone; only the drop of the heat capacity with composition parts them.
+    """
     made = operated(DRYERS["tray"], duty(["nitrogen", "ethanol"], "ethanol", nitrogen=4.0))
-    film = state(temperature=353.15, humidity_ratio=float(made.figures.humidity_ratio), pair="nitrogen_ethanol").wet_bulb_temperature
+    film = state(
+        temperature=353.15, humidity_ratio=float(made.figures.humidity_ratio), pair="nitrogen_ethanol"
+    ).wet_bulb_temperature
     assert float(made.figures.surface_temperature) == pytest.approx(float(film), abs=1.5)
 
 
 def test_vapor_in_air_and_oxygen_in_nitrogen():
-    """3.3 % of ethanol in air burns (NFPA 325), 10.5 % of oxygen under nitrogen does not (NFPA 69): checks are a quarter and 60 % of these."""
+    """3.3 % of ethanol in air burns (NFPA 325), 10.5 % of oxygen under nitrogen does not (NFPA 69): checks
+    are a quarter and 60 % of these.
+    """
     inlets = duty(["dry air", "ethanol"], "ethanol", **{"dry air": 2.9})
     moles = 2.9 / 0.0289655 / (1.0 / 0.033 - 1.0)
     gas = inlets["gas"].replace(gas=jnp.array([2.9, moles * 0.04606844]))
@@ -159,8 +171,10 @@ def test_what_no_pair_can_do_is_refused():
 
 
 def test_steam_alone_condenses_at_its_boiling_point():
-    """A vapor without carrier: steam and as much water, both of 87 °C, come to the boiling point; the vapor that warms them there is 1.5 % of
-    them, by heat capacities of 1.9 and 4.2 kJ/(kg K) over 13.1 K and 2 257 kJ/kg."""
+    """A vapor without carrier: steam and as much water, both of 87 °C, come to the boiling point; the vapor
+    that warms them there is 1.5 % of them, by heat capacities of 1.9 and 4.2 kJ/(kg K) over 13.1 K and 2
+    257 kJ/kg.
+    """
     m = mixture_of(["water"], [], ["water"], [1e-4, 2e-4])
     both = empty(m, 360.0).replace(gas=jnp.array([0.5]), liquid=jnp.array([0.5]))
     found = HumidMixture(m, alone=True).at_own_enthalpy(both)
@@ -170,10 +184,14 @@ def test_steam_alone_condenses_at_its_boiling_point():
 
 
 def test_solvent_example_closes_its_loop():
-    """All ethanol leaves with the granules, the condensate and the vent; the purge holds the air of the loop at that of what comes in, by mass and without ethanol."""
+    """All ethanol leaves with the granules, the condensate and the vent; the purge holds the air of the loop
+    at that of what comes in, by mass and without ethanol.
+    """
     run = gr.read(EXAMPLES / "dryers" / "solvent.toml").solve()
     s = run.streams
-    assert float(s["ethanol"].liquid[0] + s["dry_granules"].liquid[0] + s["vent"].gas[1]) == pytest.approx(40.0 / 3600.0, rel=1e-9)
+    assert float(s["ethanol"].liquid[0] + s["dry_granules"].liquid[0] + s["vent"].gas[1]) == pytest.approx(
+        40.0 / 3600.0, rel=1e-9
+    )
     assert float(s["exhaust"].gas[2] / s["exhaust"].gas[0]) == pytest.approx(1.0 / 9.0, rel=1e-6)
     names = [check.name for check in run.units["dryer"].checks]
     assert any("limiting oxygen" in name for name in names)

@@ -10,7 +10,11 @@ import pytest
 from granum.core.errors import InputError
 from granum.drying.bodies import body_drying
 from granum.drying.contact.kinetics import DiffusionKinetics
-from granum.drying.formulas.diffusion import diffusivity_arrhenius, moisture_ratio_plate, moisture_ratio_sphere
+from granum.drying.formulas.diffusion import (
+    diffusivity_arrhenius,
+    moisture_ratio_plate,
+    moisture_ratio_sphere,
+)
 from granum.drying.isotherms import grains
 from granum.drying.lab_tests.diffusivity import EffectiveDiffusivity
 from granum.drying.lab_tests.isotherm_temperatures import MODELS, IsothermTemperatures
@@ -29,7 +33,11 @@ def test_best_law_and_isosteric_heat_of_the_grain_standard() -> None:
     test = IsothermTemperatures(T, AW, measured(0.01), moisture_reference=0.15)
     fit = test.fit()
     assert fit.flags[-1]["name"] == "chung_pfost"
-    for name, truth in (("isotherm_coefficient", 312.30), ("isotherm_exponent", 16.958), ("isotherm_temperature_offset", 30.205)):
+    for name, truth in (
+        ("isotherm_coefficient", 312.30),
+        ("isotherm_exponent", 16.958),
+        ("isotherm_temperature_offset", 30.205),
+    ):
         assert abs(fit[name].value - truth) < 3.0 * fit[name].standard_error
     # by hand: q = R T²/M_w · A/(t + C)² · exp(−B X) at X = 0.15 and the mean temperature
     mean = float(np.mean(T))
@@ -37,7 +45,9 @@ def test_best_law_and_isosteric_heat_of_the_grain_standard() -> None:
     assert abs(fit["isosteric_heat_net"].value - heat) < 3.0 * fit["isosteric_heat_net"].standard_error
     assert fit["isosteric_heat_net"].value == pytest.approx(heat, rel=0.1)
     chosen = IsothermTemperatures(T, AW, measured(0.01), model="chung_pfost")
-    assert float(chosen.law().moisture(0.7, 298.15)) == pytest.approx(0.163, rel=0.01)  # the standard's own value at 25 °C, 70 %
+    assert float(chosen.law().moisture(0.7, 298.15)) == pytest.approx(
+        0.163, rel=0.01
+    )  # the standard's own value at 25 °C, 70 %
     assert len(chosen.chart().data) == 8
 
 
@@ -63,7 +73,9 @@ def test_every_law_gives_back_its_own_constants() -> None:
         found = test.fit()
         heat = float(law.net_isosteric_heat(0.1, float(np.mean(T))))
         assert found["isosteric_heat_net"].value == pytest.approx(heat, rel=1e-3, abs=50.0)
-        np.testing.assert_allclose(np.asarray(test.law_of(MODELS[name], found.values).moisture(AW, T)), X, rtol=1e-5)
+        np.testing.assert_allclose(
+            np.asarray(test.law_of(MODELS[name], found.values).moisture(AW, T)), X, rtol=1e-5
+        )
 
 
 def test_isotherm_errors() -> None:
@@ -76,32 +88,53 @@ def test_isotherm_errors() -> None:
 def test_diffusivity_and_activation_energy() -> None:
     time, temperature = np.tile(np.linspace(600.0, 12000.0, 10), 3), np.repeat([313.15, 333.15, 353.15], 10)
     true = 2e-10 * np.exp(-28e3 / R * (1.0 / temperature - 1.0 / 333.15))
-    ratio = np.asarray(moisture_ratio_plate(time, 3e-3, true)) + 0.004 * np.random.default_rng(2).normal(size=30)
+    ratio = np.asarray(moisture_ratio_plate(time, 3e-3, true)) + 0.004 * np.random.default_rng(2).normal(
+        size=30
+    )
     test = EffectiveDiffusivity(time, np.clip(ratio, 0.0, 1.0), 3e-3, temperature)
     fit = test.fit()
     at = 2e-10 * np.exp(-28e3 / R * (1.0 / test.reference_temperature - 1.0 / 333.15))  # type: ignore[operator]
     assert abs(fit["diffusivity"].value - at) < 3.0 * fit["diffusivity"].standard_error
-    assert abs(fit["diffusion_activation_energy"].value - 28e3) < 3.0 * fit["diffusion_activation_energy"].standard_error
-    # the line of Arrhenius through the three temperatures meets 1/T = 0 at 2e-10 exp(28000 / (8.314463 · 333.15)) = 4.910e-6 m²/s
+    assert (
+        abs(fit["diffusion_activation_energy"].value - 28e3)
+        < 3.0 * fit["diffusion_activation_energy"].standard_error
+    )
+    # the line of Arrhenius through the three temperatures meets 1/T = 0 at 2e-10 exp(28000 / (8.314463 ·
+    # 333.15)) = 4.910e-6 m²/s
     factor = fit["diffusivity_preexponential"]
     assert abs(np.log(factor.value / 4.910e-6)) < 3.0 * factor.standard_error / factor.value
-    again = diffusivity_arrhenius(test.reference_temperature, factor.value, fit["diffusion_activation_energy"].value)
+    again = diffusivity_arrhenius(
+        test.reference_temperature, factor.value, fit["diffusion_activation_energy"].value
+    )
     assert float(again) == pytest.approx(fit["diffusivity"].value, rel=1e-9)
     assert len(test.chart().data) == 6
 
 
 def test_the_factor_of_arrhenius_is_not_a_diffusivity_at_some_temperature() -> None:
-    """By hand: E/RT = 30000 / (8.314463 · 333.15) = 10.8305, e^-10.8305 = 1.9787e-5. The name that could be taken for either is gone."""
-    found = diffusivity_arrhenius(temperature="60 degC", diffusivity_preexponential="1e-4 m^2/s", diffusion_activation_energy="30 kJ/mol")
+    """By hand: E/RT = 30000 / (8.314463 · 333.15) = 10.8305, e^-10.8305 = 1.9787e-5. The name that could be
+    taken for either is gone.
+    """
+    found = diffusivity_arrhenius(
+        temperature="60 degC",
+        diffusivity_preexponential="1e-4 m^2/s",
+        diffusion_activation_energy="30 kJ/mol",
+    )
     assert float(found) == pytest.approx(1.9787e-9, rel=1e-4)
     told = r"diffusivity_reference.*Did you mean 'diffusivity_preexponential'"
     with pytest.raises(InputError, match=told):
-        diffusivity_arrhenius.evaluate(temperature="60 degC", diffusivity_reference="1e-9 m^2/s", diffusion_activation_energy="30 kJ/mol")
+        diffusivity_arrhenius.evaluate(
+            temperature="60 degC", diffusivity_reference="1e-9 m^2/s", diffusion_activation_energy="30 kJ/mol"
+        )
     with pytest.raises(InputError, match=told):
         body_drying(
-            time=[0.0, 3600.0], half_thickness="5 mm", initial_moisture=4.0, temperature="60 degC", humidity_ratio=0.01,
-            heat_transfer_coefficient=30.0, diffusivity_reference=5e-10,
-        )  # fmt: skip
+            time=[0.0, 3600.0],
+            half_thickness="5 mm",
+            initial_moisture=4.0,
+            temperature="60 degC",
+            humidity_ratio=0.01,
+            heat_transfer_coefficient=30.0,
+            diffusivity_reference=5e-10,
+        )
     with pytest.raises(InputError, match=told):
         DiffusionKinetics(diffusivity_reference=1e-9, radius=1e-3)  # type: ignore[call-arg]
 
@@ -122,7 +155,12 @@ def test_half_times_of_crank() -> None:
 
 
 def test_read_from_a_file_with_units() -> None:
-    file = io.StringIO("temperature [degC],water_activity [percent],moisture_dry_basis [percent]\n" + "\n".join(
-        f"{t - 273.15:.2f},{100 * a:.3f},{100 * x:.5f}" for t, a, x in zip(T, AW, measured(0.0), strict=True)))  # fmt: skip
+    file = io.StringIO(
+        "temperature [degC],water_activity [percent],moisture_dry_basis [percent]\n"
+        + "\n".join(
+            f"{t - 273.15:.2f},{100 * a:.3f},{100 * x:.5f}"
+            for t, a, x in zip(T, AW, measured(0.0), strict=True)
+        )
+    )
     fit = IsothermTemperatures.read(file, model="chung_pfost").fit()
     assert fit["isotherm_exponent"].value == pytest.approx(16.958, rel=1e-3)

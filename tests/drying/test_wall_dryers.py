@@ -1,4 +1,6 @@
-"""Tray, drum and paddle dryers: textbook examples, the course notes' tables, closed forms and independent integrations."""
+"""Tray, drum and paddle dryers: textbook examples, the course notes' tables, closed forms and independent
+integrations.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def inlets_of(line):
 
 
 def test_tray_of_the_textbook():
-    """Dutta's example: 43.3 W/(m² K), 41.5 °C, 1.412 g/(m² s); 1.10 h and 2.63 h to 0.005 from 0.28 with 35 kg/m²."""
+    """Dutta's example: 43.3 W/(m² K), 41.5 °C, 1.412 g/(m² s); 1.10 h and 2.63 h to 0.005 from 0.28 with
+    35 kg/m².
+    """
     run = gr.read(EXAMPLES / "tray.toml").solve()
     assert run.figure("oven.heat_transfer_coefficient") == pytest.approx(43.3, rel=0.005)
     assert run.figure("oven.surface_temperature") - 273.15 == pytest.approx(41.5, abs=0.4)
@@ -47,8 +51,10 @@ def test_tray_reports_what_cannot_be():
 
 
 def test_a_load_on_trays_over_time():
-    """The textbook's load under a low ceiling: water and heat of trays and air close; while all is wet the air cools as the closed form says; the
-    edge that meets the air first leads; the whole takes as long as mean fluxes say."""
+    """The textbook's load under a low ceiling: water and heat of trays and air close; while all is wet the
+    air cools as the closed form says; the edge that meets the air first leads; the whole takes as long as
+    mean fluxes say.
+    """
     line = gr.read(EXAMPLES / "tray.toml")
     unit, inlets = dataclasses.replace(line.sheet.units["oven"], tray_gap=0.04), inlets_of(line)
     feed, gas = inlets["feed"], inlets["gas"]
@@ -61,16 +67,23 @@ def test_a_load_on_trays_over_time():
     through = float(load.dry_gas)
     X, T = np.asarray(load.moisture), np.asarray(load.temperature)
     assert float(load.vapor) - through * w == pytest.approx(0.28 - X[-1].mean(), rel=1e-9)
-    held = float(np.mean(matter.moist_solid(T[-1][:, None], X[-1][:, None]))) - float(matter.moist_solid(np.array([[Tw]]), 0.28)[0, 0])
+    held = float(np.mean(matter.moist_solid(T[-1][:, None], X[-1][:, None]))) - float(
+        matter.moist_solid(np.array([[Tw]]), 0.28)[0, 0]
+    )
     brought = through * float(matter.moist_gas(unit.temperature_inlet, w)) - float(load.gas_enthalpy)
     assert brought == pytest.approx(held, rel=1e-9)
     wet = int(np.argmin(abs(np.asarray(load.moisture_mean) - 0.18)))
     cooled = float(unit.temperature_inlet) - float(figures.temperature_outlet)
-    # which knows neither the cold vapor that joins the air nor, half as strong, the heat that it keeps from the surface (Ackermann), nor six mixed cells
+    # which knows neither the cold vapor that joins the air nor, half as strong, the heat that it keeps from
+    # the surface (Ackermann), nor six mixed cells
     above = float(unit.temperature_inlet) - Tw
     more = 0.5 * 1890.0 * (above - 0.5 * cooled) / 2.4e6 - cooled / above / 12.0
-    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(cooled * (1.0 + more), rel=0.005)
-    assert T[wet] == pytest.approx(Tw, abs=0.2)  # the logarithm of Stefan flow against a difference of humidities
+    assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(
+        cooled * (1.0 + more), rel=0.005
+    )
+    assert T[wet] == pytest.approx(
+        Tw, abs=0.2
+    )  # the logarithm of Stefan flow against a difference of humidities
     assert np.all(np.diff(X, axis=1) >= -1e-9)
     assert float(load.drying_time) == pytest.approx(float(figures.drying_time), rel=0.01)
     with pytest.raises(ApplicabilityError, match="radiated"):
@@ -78,10 +91,18 @@ def test_a_load_on_trays_over_time():
 
 
 def test_gas_along_a_tray():
-    """A tutorial of the University of Glasgow: 90 °C and 10 %, 0.3 kg/s on 0.5 m, 200 W/(m² K), 60 °C at the end: 3.59 m."""
+    """A tutorial of the University of Glasgow: 90 °C and 10 %, 0.3 kg/s on 0.5 m, 200 W/(m² K), 60 °C at the
+    end: 3.59 m.
+    """
     air = state(temperature=363.15, relative_humidity=0.1)
     heat = 1005 + 1884 * air.humidity_ratio
-    length = brentq(lambda L: c.temperature_outlet_tray(363.15, air.wet_bulb_temperature, 200.0, 6.0, L, 0.1, heat) - 333.15, 0.1, 20.0)
+    length = brentq(
+        lambda L: (
+            c.temperature_outlet_tray(363.15, air.wet_bulb_temperature, 200.0, 6.0, L, 0.1, heat) - 333.15
+        ),
+        0.1,
+        20.0,
+    )
     assert length == pytest.approx(3.59, rel=0.025)
 
 
@@ -110,10 +131,16 @@ def test_penetration_is_stefans_problem_without_wall_resistance():
 
 
 def test_penetration_between_its_limits():
-    wet, dry = c.penetration_drying(1e4, 390.0, 330.0, 400.0, 80.0), c.penetration_drying(1e-6, 390.0, 330.0, 400.0, 80.0)
+    wet, dry = (
+        c.penetration_drying(1e4, 390.0, 330.0, 400.0, 80.0),
+        c.penetration_drying(1e-6, 390.0, 330.0, 400.0, 80.0),
+    )
     assert wet.heat_transfer_coefficient == pytest.approx(400.0, rel=1e-3)
     assert dry.heat_transfer_coefficient == pytest.approx(1 / (1 / 400 + 1 / 80), rel=1e-3)
-    flux = [float(c.penetration_drying(X, 390.0, 330.0, 400.0, 80.0).drying_flux) for X in (0.02, 0.05, 0.1, 0.2, 0.4)]
+    flux = [
+        float(c.penetration_drying(X, 390.0, 330.0, 400.0, 80.0).drying_flux)
+        for X in (0.02, 0.05, 0.1, 0.2, 0.4)
+    ]
     assert np.all(np.diff(flux) > 0)
     assert c.penetration_drying(0.2, 330.0, 330.0, 400.0, 80.0).drying_flux == pytest.approx(0.0, abs=1e-12)
 
@@ -125,25 +152,34 @@ def test_wall_coefficient_falls_with_vacuum_and_size():
 
 
 def test_paddle_dryer_has_the_capacity_of_the_notes():
-    """Tables IV.21 and IV.22: sludge from 70 to 3.2 % with steam at 120 to 130 °C, 10 to 15 kg/(m² h), 10 min to 10 h."""
+    """Tables IV.21 and IV.22: sludge from 70 to 3.2 % with steam at 120 to 130 °C, 10 to 15 kg/(m² h), 10 min
+    to 10 h.
+    """
     line = gr.read(EXAMPLES / "paddle.toml")
     run = line.solve()
     assert 10.0 <= run.figure("dryer.evaporation_per_area") * 3600 <= 15.0
     assert 600 <= run.figure("dryer.residence_time") <= 36000
     assert run.figure("dryer.temperature_product") < 403.15
-    assert run.figure("dryer.energy_per_water") == pytest.approx(2.65e6, rel=0.02)  # boiling dryers 2400 to 3300 kJ/kg (table III.2)
+    assert run.figure("dryer.energy_per_water") == pytest.approx(
+        2.65e6, rel=0.02
+    )  # boiling dryers 2400 to 3300 kJ/kg (table III.2)
     assert run.audit["mass_closure"] < 1e-12
     assert run.audit["energy_closure"] < 1e-9
     assert all(check.ok for check in run.units["dryer"].checks)
     vacuum = line.with_values(**{"dryer.pressure": 1e4, "dryer.wall_temperature": 373.15}).solve()
     assert vacuum.figure("dryer.temperature_product") < 350.0
-    assert vacuum.figure("dryer.boiling_temperature") - 273.15 == pytest.approx(45.8, abs=0.1)  # steam tables at 0.1 bar
+    assert vacuum.figure("dryer.boiling_temperature") - 273.15 == pytest.approx(
+        45.8, abs=0.1
+    )  # steam tables at 0.1 bar
 
 
 def test_paddle_curve_conserves_heat():
     """Heat through the wall, integrated over the way, is what vapor and bed took up."""
     line = gr.read(EXAMPLES / "paddle.toml")
-    unit, feed = dataclasses.replace(line.sheet.units["dryer"], pasty_moisture=None), line.sheet.feeds["sludge"]
+    unit, feed = (
+        dataclasses.replace(line.sheet.units["dryer"], pasty_moisture=None),
+        line.sheet.feeds["sludge"],
+    )
     bed = unit.curve(feed)
     X, T = np.asarray(bed.moisture), np.asarray(bed.temperature)
     boiling, wall, coefficient, capacity, _liquid = (float(x) for x in unit._heat(feed))
@@ -159,13 +195,17 @@ def test_paddle_curve_conserves_heat():
 
 
 def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
-    """By hand: a mixture of 3.33 kg of solid and water at rest for the contact time takes 2√(ρcλ/(πt)); its water leaves at h ΔT/L until 1 kg/kg."""
+    """By hand: a mixture of 3.33 kg of solid and water at rest for the contact time takes 2√(ρcλ/(πt)); its
+    water leaves at h ΔT/L until 1 kg/kg.
+    """
     line = gr.read(EXAMPLES / "paddle.toml")
     unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
     inlets = {"feed": feed}
     figures = unit.operate(**inlets).figures
     X, capacity = 7 / 3, float(unit._heat(feed)[3])
-    held = (capacity + X * 4216.0) / (1.0 / float(feed.solid_density) + X / 958.4)  # water of 100 °C, steam tables
+    held = (capacity + X * 4216.0) / (
+        1.0 / float(feed.solid_density) + X / 958.4
+    )  # water of 100 °C, steam tables
     h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))
     assert float(figures.heat_transfer_coefficient_paste) == pytest.approx(h, rel=1e-3)
     flux = h * (403.15 - 373.124) / 2256.5e3
@@ -183,14 +223,18 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
 
 
 def test_drum_dryer_of_the_notes():
-    """Tables IV.3 and IV.4: potato flakes from 80 to about 5 %, 100 to 180 °C, 3 to 30 s, 15 to 40 kg/(m² h); 1.1 to 1.6 kg of steam."""
+    """Tables IV.3 and IV.4: potato flakes from 80 to about 5 %, 100 to 180 °C, 3 to 30 s, 15 to 40 kg/(m² h);
+    1.1 to 1.6 kg of steam.
+    """
     line = gr.read(EXAMPLES / "drum.toml")
     run = line.solve()
     moisture = run.figure("drum.moisture_dry_basis")
     assert moisture / (1 + moisture) == pytest.approx(0.05, abs=0.015)
     assert 15 <= run.figure("drum.evaporation_per_area") * 3600 <= 40
     assert 3 <= run.figure("drum.contact_time") <= 30
-    assert run.figure("drum.wall_temperature") - 273.15 == pytest.approx(151.8, abs=0.1)  # steam tables at 5 bar
+    assert run.figure("drum.wall_temperature") - 273.15 == pytest.approx(
+        151.8, abs=0.1
+    )  # steam tables at 5 bar
     assert 1.1 <= run.figure("drum.steam_per_water") <= 1.6
     assert run.figure("drum.drying_flux") == pytest.approx(780 * (151.84 - 99.97) / 2256.5e3, rel=2e-3)
     assert run.audit["mass_closure"] < 1e-12

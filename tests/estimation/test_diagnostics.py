@@ -16,7 +16,12 @@ from granum.filtration.lab_tests.leaf_test import LeafTest
 
 X = np.array([1.0, 2.0, 3.0, 4.0, 6.0, 7.0, 9.0, 10.0, 12.0, 15.0])
 NOISE = np.array([0.3, -0.5, 0.4, 0.1, -0.6, 0.2, 0.5, -0.3, -0.2, 0.1])
-DEAR = {"crystallization.batch_kinetics", "settling.compression_test", "comminution.grinding_kinetics", "drying.thin_layer_test"}
+DEAR = {
+    "crystallization.batch_kinetics",
+    "settling.compression_test",
+    "comminution.grinding_kinetics",
+    "drying.thin_layer_test",
+}
 """Lab tests that simulate a whole process at every trial, or fit 22 models."""
 CAUTIONS = {"no relation", "not significant", "at bound", "poorly identified"}
 
@@ -42,7 +47,9 @@ def test_influence_is_what_leaving_out_each_point_does():
         inverse = np.linalg.inv(design[rest].T @ design[rest])
         spread = np.sqrt(left[0] / 7 * (1.0 + design[k] @ inverse @ design[k]))
         assert found.studentized[k] == pytest.approx((y[k] - design[k] @ without) / spread, rel=1e-8)
-        assert found.leverage[k] == pytest.approx(design[k] @ np.linalg.inv(design.T @ design) @ design[k], rel=1e-10)
+        assert found.leverage[k] == pytest.approx(
+            design[k] @ np.linalg.inv(design.T @ design) @ design[k], rel=1e-10
+        )
         moved = design @ (whole - without)
         assert found.cook[k] == pytest.approx(moved @ moved / (2 * variance), rel=1e-8)
         own = np.sqrt(left[0] / 7 * found.leverage[k])
@@ -81,14 +88,18 @@ def leaf(volume_factor: float = 1.0) -> LeafTest:
     made = data("filtration.leaf_test")
     V = made.columns["filtrate_volume"] * (1 + 2e-3 * np.resize(NOISE, 12))
     V[6] *= volume_factor
-    return LeafTest(time=np.append(0.0, made.columns["time"]), filtrate_volume=np.append(0.0, V), **made.conditions)
+    return LeafTest(
+        time=np.append(0.0, made.columns["time"]), filtrate_volume=np.append(0.0, V), **made.conditions
+    )
 
 
 def test_a_stray_point_is_named_with_what_it_does():
     found = leaf(0.93).fit()
     (flag,) = [f for f in found.flags if f["flag"] == "stray point"]
     volume = leaf(0.93).filtrate_volume[7] * 1e3
-    assert flag["message"].startswith("Row 8 (time 35 min; filtrate volume ")  # the first row, at time zero, is no point
+    assert flag["message"].startswith(
+        "Row 8 (time 35 min; filtrate volume "
+    )  # the first row, at time zero, is no point
     assert f"{volume:.4g}"[:4] in flag["message"] or f"{volume:.3g}" in flag["message"]
     without = found.diagnostics.without["cake_resistance"]
     assert without == pytest.approx(leaf().fit()["cake_resistance"].value, rel=0.01)
@@ -108,24 +119,33 @@ def test_a_bound_is_named_with_its_value():
 
 
 def flags_of(key: str, values: np.ndarray) -> set[str]:
-    """Words of the flags of a lab test with other values in its measured column; one word where it is refused."""
+    """Words of the flags of a lab test with other values in its measured column; one word where it is
+    refused.
+    """
     made = data(key)
     try:
         test = registry.find(key)(**{**made.columns, made.measured: values}, **made.conditions)
         found = test.fit()
     except (InputError, ConvergenceError):
         return {"refused"}
-    assert (found.defaults, found.ranges) == (test.defaults(), test.ranges())  # whatever the test does to its fit
+    assert (found.defaults, found.ranges) == (
+        test.defaults(),
+        test.ranges(),
+    )  # whatever the test does to its fit
     return {f["flag"] for f in found.flags}
 
 
 @pytest.mark.parametrize("key", [k for k in keys() if k not in DEAR])
 def test_a_wild_point_never_passes_without_a_word(key):
     made, rng = data(key), np.random.default_rng(3)
-    values = made.columns[made.measured] * (1.0 + made.scatter * rng.standard_normal(made.columns[made.measured].size))
+    values = made.columns[made.measured] * (
+        1.0 + made.scatter * rng.standard_normal(made.columns[made.measured].size)
+    )
     values = np.clip(values, 0.0, 1.0) if made.columns[made.measured].max() <= 1.0 else values
     values[values.size // 2] *= 0.1
-    assert flags_of(key, values) & ({"refused", "stray point", "made falling", "overshoot", "points excluded"} | CAUTIONS)
+    assert flags_of(key, values) & (
+        {"refused", "stray point", "made falling", "overshoot", "points excluded"} | CAUTIONS
+    )
 
 
 @pytest.mark.parametrize("key", [k for k in keys() if k not in DEAR | {"particles.image_analysis"}])
@@ -134,5 +154,9 @@ def test_pure_noise_is_told(key):
     made, rng = data(key), np.random.default_rng(11)
     values = made.columns[made.measured]
     noise = rng.uniform(0.02 * values.max(), values.max(), values.size)
-    noise = np.append(0.0, np.append(np.sort(noise)[1:-1], 1.0)) if made.measured == "cumulative_fraction" else noise
+    noise = (
+        np.append(0.0, np.append(np.sort(noise)[1:-1], 1.0))
+        if made.measured == "cumulative_fraction"
+        else noise
+    )
     assert flags_of(key, noise) & (CAUTIONS | {"refused"})

@@ -1,4 +1,5 @@
-"""Known numbers in any dress of a data file: read as they are, or refused in one sentence; never another number.
+"""Known numbers in any dress of a data file: read as they are, or refused in one sentence; never another
+number.
 
 ``GRANUM_RANDOM_SAMPLES=10000 pytest -n 0 tests/estimation/test_dressed_tables.py`` is the long search.
 """
@@ -18,7 +19,25 @@ from granum.filtration.lab_tests.leaf_test import LeafTest
 
 FILES = max(300, int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0")))
 COLUMNS = [p for p in LeafTest.card.parameters if p.series]
-SPOILED = ["", "NaN", "inf", "-", "n/a", "#N/A", "#DIV/0!", "1.2.3", "12 min", "-5", "1e999", "<3", "True", "12%", "0x10", "12:30", "?"]
+SPOILED = [
+    "",
+    "NaN",
+    "inf",
+    "-",
+    "n/a",
+    "#N/A",
+    "#DIV/0!",
+    "1.2.3",
+    "12 min",
+    "-5",
+    "1e999",
+    "<3",
+    "True",
+    "12%",
+    "0x10",
+    "12:30",
+    "?",
+]
 """Cells that hold no number that a time or a volume may be."""
 
 
@@ -32,12 +51,19 @@ def dressed(rng: np.random.Generator) -> tuple[bytes, np.ndarray, np.ndarray, bo
     thousands = str(rng.choice(["", "", ".", ",", "\u202f", " "]))
     if thousands == mark:
         thousands = ""
-    if thousands in (".", ","):  # a column of which every number looks like 1,200 says nothing about its marks
+    if thousands in (
+        ".",
+        ",",
+    ):  # a column of which every number looks like 1,200 says nothing about its marks
         for column in written:
             column[0] = 7.0
 
     def number(value: float) -> str:
-        text = f"{value:,.{digits}f}" if rng.random() < 0.5 or digits == 0 else f"{value:,.{digits}f}".rstrip("0").rstrip(".")
+        text = (
+            f"{value:,.{digits}f}"
+            if rng.random() < 0.5 or digits == 0
+            else f"{value:,.{digits}f}".rstrip("0").rstrip(".")
+        )
         text = text.translate(str.maketrans({",": thousands, ".": mark}))
         return f'"{text}"' if separator in text and rng.random() < 0.7 else text
 
@@ -69,7 +95,9 @@ def test_a_dressed_table_is_read_as_it_is_or_refused() -> None:
         content, time, volume, spoiled = dressed(rng)
         for source in (content, None):
             try:
-                found = read_table(io.BytesIO(content) if source else io.StringIO(as_csv(io.BytesIO(content))), COLUMNS)
+                found = read_table(
+                    io.BytesIO(content) if source else io.StringIO(as_csv(io.BytesIO(content))), COLUMNS
+                )
             except GranumError:
                 continue
             assert not spoiled, content
@@ -83,9 +111,18 @@ def test_a_dressed_table_is_read_as_it_is_or_refused() -> None:
     ("text", "words"),
     [
         ("time [min],filtrate_volume [L]\n1,5,2,5\n2,5,3,5\n", "Line 2 has 4 cells, the header 2"),
-        ('time [s],filtrate_volume [L]\n900,1.5\n"1,200",1.8\n', "Line 3, column 'time': '1,200' may be thousands or decimals"),
-        ("time [s];filtrate_volume [L]\n900;1,5\n1.200;1,8\n", "Line 3, column 'time': '1.200' may be thousands or decimals"),
-        ("time [s],filtrate_volume [L]\n900,1.5\n#N/A,1.8\n", "Line 3, column 'time': '#N/A' is not a number"),
+        (
+            'time [s],filtrate_volume [L]\n900,1.5\n"1,200",1.8\n',
+            "Line 3, column 'time': '1,200' may be thousands or decimals",
+        ),
+        (
+            "time [s];filtrate_volume [L]\n900;1,5\n1.200;1,8\n",
+            "Line 3, column 'time': '1.200' may be thousands or decimals",
+        ),
+        (
+            "time [s],filtrate_volume [L]\n900,1.5\n#N/A,1.8\n",
+            "Line 3, column 'time': '#N/A' is not a number",
+        ),
         ("time [],filtrate_volume [L]\n900,1.5\n", "'time' has no unit"),
     ],
 )

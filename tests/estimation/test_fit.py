@@ -1,4 +1,6 @@
-"""``fit`` against the certified results of NIST's Statistical Reference Datasets and closed forms of linear regression."""
+"""``fit`` against the certified results of NIST's Statistical Reference Datasets and closed forms of linear
+regression.
+"""
 
 from __future__ import annotations
 
@@ -27,9 +29,27 @@ def saturating(p, x):
 @pytest.mark.parametrize(
     ("data", "start", "values", "errors", "deviation"),
     [
-        (MISRA, (500.0, 1e-4), (2.3894212918e02, 5.5015643181e-04), (2.7070075241, 7.2668688436e-06), 1.0187876330e-01),
-        (MISRA, (250.0, 5e-4), (2.3894212918e02, 5.5015643181e-04), (2.7070075241, 7.2668688436e-06), 1.0187876330e-01),
-        (BOXBOD, (100.0, 0.75), (2.1380940889e02, 5.4723748542e-01), (1.2354515176e01, 1.0455993237e-01), 1.7088072423e01),
+        (
+            MISRA,
+            (500.0, 1e-4),
+            (2.3894212918e02, 5.5015643181e-04),
+            (2.7070075241, 7.2668688436e-06),
+            1.0187876330e-01,
+        ),
+        (
+            MISRA,
+            (250.0, 5e-4),
+            (2.3894212918e02, 5.5015643181e-04),
+            (2.7070075241, 7.2668688436e-06),
+            1.0187876330e-01,
+        ),
+        (
+            BOXBOD,
+            (100.0, 0.75),
+            (2.1380940889e02, 5.4723748542e-01),
+            (1.2354515176e01, 1.0455993237e-01),
+            1.7088072423e01,
+        ),
     ],
 )
 def test_nist_certified_values(data, start, values, errors, deviation):
@@ -48,7 +68,13 @@ def line(p, x):
 
 
 def test_straight_line_is_ordinary_regression():
-    found = fit(line, {"start": 1.0, "slope": 1.0}, X, Y, derived=lambda p: {"double": 2.0 * p["slope"], "ratio": p["start"] / p["slope"]})
+    found = fit(
+        line,
+        {"start": 1.0, "slope": 1.0},
+        X,
+        Y,
+        derived=lambda p: {"double": 2.0 * p["slope"], "ratio": p["start"] / p["slope"]},
+    )
     known = stats.linregress(X, Y)
     assert found["slope"].value == pytest.approx(known.slope, rel=1e-12)
     assert found["slope"].standard_error == pytest.approx(known.stderr, rel=1e-10)
@@ -58,7 +84,9 @@ def test_straight_line_is_ordinary_regression():
     assert found["slope"].interval_95 == pytest.approx((known.slope - reach, known.slope + reach), rel=1e-10)
     assert found["double"].standard_error == pytest.approx(2.0 * known.stderr, rel=1e-10)
     band = found.predict(np.array([5.0]))
-    by_hand = found.statistics["residual_standard_deviation"] * np.sqrt(1 / 8 + (5.0 - X.mean()) ** 2 / np.sum((X - X.mean()) ** 2))
+    by_hand = found.statistics["residual_standard_deviation"] * np.sqrt(
+        1 / 8 + (5.0 - X.mean()) ** 2 / np.sum((X - X.mean()) ** 2)
+    )
     assert band.high[0] - band.value[0] == pytest.approx(stats.t.ppf(0.975, 6) * by_hand, rel=1e-9)
     # the profile of a parameter that enters linearly is its t-interval
     assert found.profile("slope").interval_95 == pytest.approx(found["slope"].interval_95, rel=1e-6)
@@ -69,8 +97,11 @@ def test_weights_joint_data_and_excluded_points():
     # two data sets with a common slope = one regression with a shift for the second set
     joint = fit(
         lambda p, x: (line(p, x[0]), line(p, x[1]) + p["shift"]),
-        {"slope": 1.0, "start": 0.5, "shift": 0.1}, (X[:5], X[5:]), (Y[:5], Y[5:] + 4.0), sigma=(0.1, 0.1),
-    )  # fmt: skip
+        {"slope": 1.0, "start": 0.5, "shift": 0.1},
+        (X[:5], X[5:]),
+        (Y[:5], Y[5:] + 4.0),
+        sigma=(0.1, 0.1),
+    )
     design = np.stack([X, np.ones(8), X > 6.5], axis=1).astype(float)
     known, *_ = np.linalg.lstsq(design, Y + 4.0 * (X > 6.5), rcond=None)
     np.testing.assert_allclose([joint[n].value for n in ("slope", "start", "shift")], known, rtol=1e-9)

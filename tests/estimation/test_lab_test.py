@@ -28,7 +28,9 @@ class Emptying(LabTest):
 
     def fit(self) -> Fit:
         self.increasing("time")
-        return self.fitted(lambda p, t: p["velocity"] * self.area * t, {"velocity": 1e-3}, self.time, self.filtrate_volume)
+        return self.fitted(
+            lambda p, t: p["velocity"] * self.area * t, {"velocity": 1e-3}, self.time, self.filtrate_volume
+        )
 
 
 CSV = "filtrate_volume [L],note,time [min]\n# a comment\n1.2,first,1\n2.4,,2\n\n3.6,x,3\n"
@@ -53,7 +55,17 @@ def test_same_data_in_any_dress(text, tmp_path):
     assert found["card"] == "user.emptying"
     assert found["parameters"]["velocity"]["unit"] == "m/s"
     assert found["parameters"]["velocity"]["value"] == pytest.approx(1e-3, rel=1e-12)
-    assert set(found) == {"card", "parameters", "derived", "statistics", "flags", "diagnostics", "defaults", "ranges", "from"}
+    assert set(found) == {
+        "card",
+        "parameters",
+        "derived",
+        "statistics",
+        "flags",
+        "diagnostics",
+        "defaults",
+        "ranges",
+        "from",
+    }
     assert len(test.chart().data) == 4
 
 

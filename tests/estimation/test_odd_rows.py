@@ -1,4 +1,6 @@
-"""No rows, one row, an empty column, text, zeros: one sentence, or a fit that says what is wrong with it; never a traceback."""
+"""No rows, one row, an empty column, text, zeros: one sentence, or a fit that says what is wrong with it;
+never a traceback.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +15,14 @@ from granum.core.errors import ConvergenceError, InputError
 from granum.estimation.lines import polynomial, straight_line
 from granum.filtration.lab_tests.starts import bad_start
 
-DEAR = {"crystallization.batch_kinetics", "settling.compression_test", "comminution.grinding_kinetics", "drying.thin_layer_test",
-        "drying.isotherm", "drying.isotherm_temperatures"}  # fmt: skip
+DEAR = {
+    "crystallization.batch_kinetics",
+    "settling.compression_test",
+    "comminution.grinding_kinetics",
+    "drying.thin_layer_test",
+    "drying.isotherm",
+    "drying.isotherm_temperatures",
+}
 
 
 def written(key: str, measured: list[str]) -> str:
@@ -22,7 +30,11 @@ def written(key: str, measured: list[str]) -> str:
     made, units = data(key), {p.name: p.kind.unit for p in registry.find(key).card.parameters if p.series}
     lines = [",".join(f"{name} [{units[name]}]" for name in made.columns)]
     for i, cell in enumerate(measured):
-        lines.append(",".join(cell if name == made.measured else f"{values[i]:.9g}" for name, values in made.columns.items()))
+        lines.append(
+            ",".join(
+                cell if name == made.measured else f"{values[i]:.9g}" for name, values in made.columns.items()
+            )
+        )
     return "\n".join(lines)
 
 
@@ -47,7 +59,9 @@ def test_zeros_are_told(key):
     made, test = data(key), registry.find(key)
     for names in (tuple(made.columns), (made.measured,)):
         try:
-            found = test(**{**made.columns, **{n: np.zeros_like(made.columns[n]) for n in names}}, **made.conditions).fit()
+            found = test(
+                **{**made.columns, **{n: np.zeros_like(made.columns[n]) for n in names}}, **made.conditions
+            ).fit()
         except (InputError, ConvergenceError):
             continue
         assert found.flags

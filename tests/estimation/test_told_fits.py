@@ -1,4 +1,6 @@
-"""What a fit took without being told, how far it holds, and that all of it reaches whoever uses the numbers."""
+"""What a fit took without being told, how far it holds, and that all of it reaches whoever uses the
+numbers.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ def test_false_alarms_are_rare_where_scatter_is_in_proportion() -> None:
     """A decay to a tenth, read to a percent: the first readings scatter ten times more than the last."""
     x, rng = np.linspace(0.0, 1.0, 13), np.random.default_rng(2)
     clean = np.exp(-2.4 * x)
-    problem = fit(lambda p, x: p["start"] * np.e ** (-p["rate"] * x), {"start": 1.0, "rate": 2.0}, x, clean).problem
+    problem = fit(
+        lambda p, x: p["start"] * np.e ** (-p["rate"] * x), {"start": 1.0, "rate": 2.0}, x, clean
+    ).problem
     alarms, named = 0, 0
     for trial in range(80):
         y = clean * (1.0 + 0.01 * rng.standard_normal(x.size))
@@ -40,25 +44,41 @@ def test_false_alarms_are_rare_where_scatter_is_in_proportion() -> None:
     assert named == 20
 
 
-def test_a_second_settling_curve_of_the_same_length_is_not_compiled_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_settling_curve_of_the_same_length_is_not_compiled_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     made = data("settling.batch_test")
     first = batch_test.BatchTest(**made.columns, **made.conditions).fit()
     calls = []
-    monkeypatch.setattr(batch_test, "kynch_height", lambda *args: calls.append(1) or kynch.kynch_height(*args))
+    monkeypatch.setattr(
+        batch_test, "kynch_height", lambda *args: calls.append(1) or kynch.kynch_height(*args)
+    )
     higher = {**made.columns, "interface_height": 1.01 * made.columns["interface_height"]}
     second = batch_test.BatchTest(**higher, **{**made.conditions, "initial_concentration": 3.05}).fit()
     assert not calls
     # all heights and velocities are scaled alike, concentrations by 3.05/3
-    assert second["vesilind_velocity"].value == pytest.approx(1.01 * first["vesilind_velocity"].value, rel=1e-3)
-    assert second["vesilind_coefficient"].value == pytest.approx(first["vesilind_coefficient"].value * 3.0 / 3.05, rel=1e-3)
+    assert second["vesilind_velocity"].value == pytest.approx(
+        1.01 * first["vesilind_velocity"].value, rel=1e-3
+    )
+    assert second["vesilind_coefficient"].value == pytest.approx(
+        first["vesilind_coefficient"].value * 3.0 / 3.05, rel=1e-3
+    )
 
 
 def filtered(pressures: np.ndarray, volumes: np.ndarray) -> VariablePressureTest:
-    """Readings of a rigid cake (1e11 m/kg, medium 5e10 1/m) at 0.01 m², exact between many small intervals; only every 40th is read."""
+    """Readings of a rigid cake (1e11 m/kg, medium 5e10 1/m) at 0.01 m², exact between many small intervals;
+    only every 40th is read.
+    """
     per_volume = 1e-3 / 0.01 * (1e11 * 20.0 * volumes / 0.01 + 5e10) / pressures
     time = np.concatenate([[0.0], np.cumsum(0.5 * (per_volume[1:] + per_volume[:-1]) * np.diff(volumes))])
-    return VariablePressureTest(time=time[::40], filtrate_volume=volumes[::40], pressure_drop=pressures[::40], area=0.01,
-                                dynamic_viscosity=1e-3, dry_cake_per_filtrate=20.0)  # fmt: skip
+    return VariablePressureTest(
+        time=time[::40],
+        filtrate_volume=volumes[::40],
+        pressure_drop=pressures[::40],
+        area=0.01,
+        dynamic_viscosity=1e-3,
+        dry_cake_per_filtrate=20.0,
+    )
 
 
 def test_jumps_of_pressure_that_the_readings_do_not_show_are_told() -> None:
@@ -86,6 +106,10 @@ def test_a_line_says_what_its_fit_says_and_where_it_extrapolates() -> None:
 def test_a_fitted_formula_says_its_defaults_and_its_range() -> None:
     rows = "\n".join(f"{p},{1e10 * p**0.4:.9g}" for p in (1e4, 3e4, 1e5, 3e5, 1e6))
     file = io.StringIO(f"pressure_drop [Pa],cake_resistance [m/kg]\n{rows}\n")
-    found = CardData.read("filtration.cake_resistance_power_law", file, estimate=["cake_resistance_reference", "compressibility"]).fit()
+    found = CardData.read(
+        "filtration.cake_resistance_power_law",
+        file,
+        estimate=["cake_resistance_reference", "compressibility"],
+    ).fit()
     assert found.ranges == {"pressure_drop": (1e4, 1e6)}
     assert found.defaults == {"reference_pressure": 1.0}

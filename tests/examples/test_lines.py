@@ -26,7 +26,9 @@ def test_closes(name: str) -> None:
 
 
 def test_primary_clarifier_removes_what_plants_remove() -> None:
-    """Lin, Water and Wastewater Calculations Manual: 50 to 60 % of the suspended solids and 90 to 95 % of those that settle, so 50 to 70 %."""
+    """Lin, Water and Wastewater Calculations Manual: 50 to 60 % of the suspended solids and 90 to 95 % of
+    those that settle, so 50 to 70 %.
+    """
     line = run("sewage-sludge")
     assert 0.5 < line.figure("clarifier.removal_efficiency") < 0.7
     assert float(line.streams["dry_sludge"].moisture_dry_basis) < 0.111
@@ -36,7 +38,9 @@ def test_primary_clarifier_removes_what_plants_remove() -> None:
 
 
 def test_circulating_load_of_a_grinding_circuit() -> None:
-    """100 to 350 % of the new feed in plants, 250 % in the test of Bond; his law for the energy within a third."""
+    """100 to 350 % of the new feed in plants, 250 % in the test of Bond; his law for the energy within a
+    third.
+    """
     line = run("ore-grinding")
     load = float(line.streams["coarse"].solid_flow / line.streams["ore"].solid_flow)
     assert 1.5 < load < 3.5
@@ -49,7 +53,9 @@ def test_circulating_load_of_a_grinding_circuit() -> None:
 
 
 def test_batch_yield_is_that_of_the_solubilities() -> None:
-    """0.493 kg/kg at 32 °C (Miller and Rawlings 1994) down to 0.1286 + 5.88e-3·28 + 1.721e-4·28² = 0.428 kg/kg at 28 °C: 13 %."""
+    """0.493 kg/kg at 32 °C (Miller and Rawlings 1994) down to 0.1286 + 5.88e-3·28 + 1.721e-4·28² =
+    0.428 kg/kg at 28 °C: 13 %.
+    """
     line = run("batch-pharma")
     assert line.figure("crystallizer.yield_fraction") == pytest.approx((0.493 - 0.4282) / 0.493, rel=0.02)
     assert float(line.streams["dry_product"].moisture_dry_basis) < 0.01
@@ -57,16 +63,22 @@ def test_batch_yield_is_that_of_the_solubilities() -> None:
 
 
 def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
-    """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery (Mujumdar 2014, from memory)."""
+    """Exhaust of 50 to 60 °C and 3 to 5 MJ per kg of water, usual for convective dryers without heat recovery
+    (Mujumdar 2014, from memory).
+    """
     line = run("starch-drying")
     assert 3e6 < line.figure("heater.heat_duty") / line.figure("dryer.evaporation_rate") < 5e6
     assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
-    assert 0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16  # of storage; 8 to 14 % of the whole
+    assert (
+        0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16
+    )  # of storage; 8 to 14 % of the whole
     assert {c.name for c in line.units["dryer"].checks if not c.ok} == {"gas temperature at the outlet"}
 
 
 def test_start_up_ends_in_the_steady_states() -> None:
-    """Two hours are nine turnovers of the mill with its circulating load: the circuit stands before the feed changes, and again at the end."""
+    """Two hours are nine turnovers of the mill with its circulating load: the circuit stands before the feed
+    changes, and again at the end.
+    """
     line = gr.read(EXAMPLES / "start-up" / "circuit.toml")
     data = line.solve().as_json()["dynamic"]
     assert data["mass_balance"] < 1e-4
@@ -80,7 +92,9 @@ def test_start_up_ends_in_the_steady_states() -> None:
 
 
 def test_crystallizer_starts_and_follows_its_feed() -> None:
-    """Four hours and more after each change the line stands within 0.2 % of the steady states of 1500 and of 1800 kg/h; matter closes."""
+    """Four hours and more after each change the line stands within 0.2 % of the steady states of 1500 and of
+    1800 kg/h; matter closes.
+    """
     line = gr.read(EXAMPLES / "start-up" / "crystallizer.toml")
     course, liquid = line.march(), line.sheet.feeds["hot_liquor"].liquid
     assert float(course.balance) < 1e-9

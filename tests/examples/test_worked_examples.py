@@ -31,14 +31,21 @@ def test_worked_examples(domain: str) -> None:
 
 
 def test_mccabes_leaf_tests() -> None:
-    # McCabe, Smith and Harriott, example 30.2: 440 cm², 23.5 g/L; slopes and intercepts read from a chart there
+    # McCabe, Smith and Harriott, example 30.2: 440 cm², 23.5 g/L; slopes and intercepts read from a chart
+    # there
     runs = (
         (965.0, [17.3, 41.3, 72, 108.3, 152.1, 201.7], 1.121e11, 6.49e10),
         (7070.0, [4.4, 9.5, 16.3, 24.6, 34.7, 46.1, 59, 73.6, 89.4, 107.3], 1.887e11, 1.07e11),
     )
     for pressure, times, resistance, medium in runs:
-        test = LeafTest(np.array(times), 5e-4 * np.arange(1, len(times) + 1), area="440 cm^2", pressure_drop=f"{pressure} lbf/ft^2",
-                        dynamic_viscosity="5.95e-4 lb/ft/s", dry_cake_per_filtrate="23.5 g/L")  # fmt: skip
+        test = LeafTest(
+            np.array(times),
+            5e-4 * np.arange(1, len(times) + 1),
+            area="440 cm^2",
+            pressure_drop=f"{pressure} lbf/ft^2",
+            dynamic_viscosity="5.95e-4 lb/ft/s",
+            dry_cake_per_filtrate="23.5 g/L",
+        )
         found = test.fit().values
         assert found["cake_resistance"] == pytest.approx(resistance, rel=0.01)
         assert found["medium_resistance"] == pytest.approx(medium, rel=0.02)

@@ -1,4 +1,6 @@
-"""Backwash against the expansion it inverts, pleats against quadrature of the channels, a deep bed in a line."""
+"""Backwash against the expansion it inverts, pleats against quadrature of the channels, a deep bed in a
+line.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +24,14 @@ WATER = (2650.0, 999.1, 1.14e-3)
 
 def test_backwash_inverts_the_expansion() -> None:
     U = backwash.backwash_velocity(0.2, SIZES, PARTS, *WATER, 0.42, 0.8)
-    assert graded_bed_expansion(SIZES, PARTS, 0.7, U, *WATER, 0.42, 0.8).bed_expansion == pytest.approx(0.2, rel=1e-8)
+    assert graded_bed_expansion(SIZES, PARTS, 0.7, U, *WATER, 0.42, 0.8).bed_expansion == pytest.approx(
+        0.2, rel=1e-8
+    )
     # colder, more viscous water needs less; heavier grains more
     assert backwash.backwash_velocity(0.2, SIZES, PARTS, 2650.0, 1000.0, 1.6e-3, 0.42, 0.8) < U
     assert backwash.backwash_velocity(0.2, SIZES, PARTS, 4000.0, 999.1, 1.14e-3, 0.42, 0.8) > U
-    # spheres of 0.7 mm against another law, Wen and Yu's ε^4.7 Ar = 18 Re + 2.7 Re^1.687 at ε = 1 - 0.58/1.2, by hand:
+    # spheres of 0.7 mm against another law, Wen and Yu's ε^4.7 Ar = 18 Re + 2.7 Re^1.687 at ε = 1 - 0.58/1.2,
+    # by hand:
     # Ar = 4268, ε^4.7 Ar = 191: Re = 6.8, 39.9 m/h
     one = backwash.backwash_velocity(0.2, SIZES[1:2], np.ones(1), *WATER, 0.42)
     assert 3600 * one == pytest.approx(39.9, rel=0.03)
@@ -43,7 +48,8 @@ def test_backwash_of_sand_whose_fines_go_first() -> None:
 def test_pleats_by_quadrature_of_the_channels() -> None:
     v, h, p, t, eta, k = 1.5, 0.05, 5e-3, 5e-4, 1.8e-5, 2000.0
     gap, u0 = p / 2 - t, 1.5 * p / (p / 2 - t)
-    # along the way of each share of the air: in to x, through, out from x, between plates 12 η u/w², averaged over the shares
+    # along the way of each share of the air: in to x, through, out from x, between plates 12 η u/w², averaged
+    # over the shares
     x = np.linspace(0.0, h, 2001)
     fall = 12 * eta * u0 / gap**2 * (1 - x / h)
     into = np.concatenate([[0.0], np.cumsum(0.5 * (fall[1:] + fall[:-1]) * np.diff(x))])
@@ -52,8 +58,12 @@ def test_pleats_by_quadrature_of_the_channels() -> None:
     found = pleats.pressure_drop_pleated(v, h, p, t, eta, k)
     assert found == pytest.approx(k * v * p / (2 * h) + np.trapezoid(into + out, x) / h, rel=1e-6)
     # the best pitch is the least of the curve
-    least = minimize_scalar(lambda q: float(pleats.pressure_drop_pleated(v, h, q, t, eta, k)), bounds=(1.2e-3, 2e-2), method="bounded",
-                            options={"xatol": 1e-10})  # fmt: skip
+    least = minimize_scalar(
+        lambda q: float(pleats.pressure_drop_pleated(v, h, q, t, eta, k)),
+        bounds=(1.2e-3, 2e-2),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
     assert pleats.pleat_pitch_best(h, t, eta, k) == pytest.approx(least.x, rel=1e-5)
     with pytest.raises(ApplicabilityError, match="pitch of the pleats"):
         pleats.pressure_drop_pleated(v, h, 0.9e-3, t, eta, k)
@@ -70,7 +80,9 @@ CLAY = Mixture(
 
 def test_deep_bed_in_a_line() -> None:
     # 10 m/h of water with 10 mg/L over 20 m²
-    feed = empty(CLAY).replace(solid=jnp.full((1, 8), 10e-3 / 8 * 200 / 3600), liquid=jnp.array([999.1 * 200 / 3600]))
+    feed = empty(CLAY).replace(
+        solid=jnp.full((1, 8), 10e-3 / 8 * 200 / 3600), liquid=jnp.array([999.1 * 200 / 3600])
+    )
     bed = DeepBedFilter(20.0, 1.0, 8e-4)
     out = eqx.filter_jit(bed)(feed)
     assert float(closure([feed], list(out)).mass) < 1e-12

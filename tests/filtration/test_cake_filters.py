@@ -8,8 +8,20 @@ import numpy as np
 import pytest
 
 from granum.core.constants import ZERO_CELSIUS
-from granum.filtration.equipment.batch import CandleFilter, ChamberPress, MembranePress, Nutsche, PlateAndFramePress, PressureLeafFilter
-from granum.filtration.equipment.continuous import HorizontalBeltFilter, PrecoatDrum, RotaryDiscFilter, RotaryVacuumDrum
+from granum.filtration.equipment.batch import (
+    CandleFilter,
+    ChamberPress,
+    MembranePress,
+    Nutsche,
+    PlateAndFramePress,
+    PressureLeafFilter,
+)
+from granum.filtration.equipment.continuous import (
+    HorizontalBeltFilter,
+    PrecoatDrum,
+    RotaryDiscFilter,
+    RotaryVacuumDrum,
+)
 from granum.streams.audit import closure
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream
@@ -18,7 +30,10 @@ from granum.streams.stream import Stream
 def mixture(solid_density=2710.0, viscosity=0.8937e-3, liquid_density=996.9):
     return Mixture(
         solids=(Species("chalk", (("chalk", 1.0),), (solid_density,), (840.0,)),),
-        liquids=(Species("water", (("water", 1.0),), (liquid_density,), (4186.0,)), Species("salt", (("salt", 1.0),), (2000.0,), (900.0,))),
+        liquids=(
+            Species("water", (("water", 1.0),), (liquid_density,), (4186.0,)),
+            Species("salt", (("salt", 1.0),), (2000.0,), (900.0,)),
+        ),
         gases=(Species("air", (("air", 1.0),), heat_capacity=(1005.0,), molar_mass=0.029),),
         size_edges=(0.0, 2e-5, 5e-5, 1e-4, 2e-4),
         liquid_viscosity=lambda fractions, temperature: viscosity,
@@ -27,7 +42,9 @@ def mixture(solid_density=2710.0, viscosity=0.8937e-3, liquid_density=996.9):
 
 def stream(m, solid=0.0, water=0.0, salt=0.0, temperature=ZERO_CELSIUS + 25):
     shares = jnp.array([[0.1, 0.3, 0.4, 0.2]])
-    return Stream(solid * shares, jnp.array([water, salt]), jnp.zeros(1), jnp.asarray(temperature), jnp.asarray(1e5), m)
+    return Stream(
+        solid * shares, jnp.array([water, salt]), jnp.zeros(1), jnp.asarray(temperature), jnp.asarray(1e5), m
+    )
 
 
 # cake with two kilograms of wet cake per kilogram dry: ε ρ / ((1 - ε) ρ_s) = 1
@@ -39,9 +56,15 @@ def test_geankoplis_example_14_2_4_drum_area():
     m = mixture()
     feed = stream(m, 0.778 * 0.191, 0.778 * 0.809)
     drum = RotaryVacuumDrum.size(
-        feed, pressure_drop="67 kPa", cake_resistance=4.37e9, compressibility=0.3, reference_pressure=1.0, void_fraction=loose(m),
-        rotation_speed=2 * np.pi / 250, submergence=0.33,
-    )  # fmt: skip
+        feed,
+        pressure_drop="67 kPa",
+        cake_resistance=4.37e9,
+        compressibility=0.3,
+        reference_pressure=1.0,
+        void_fraction=loose(m),
+        rotation_speed=2 * np.pi / 250,
+        submergence=0.33,
+    )
     # printed 6.60 m2; its own intermediate figures (α = 1.225e11, W = 308.1, 4.823e-4 m3/s) give 6.66
     assert drum.area == pytest.approx(6.66, abs=0.005)
     assert drum.area == pytest.approx(6.60, rel=0.01)
@@ -55,9 +78,15 @@ def test_mccabe_example_29_2_drum_area():
     solid = 0.302 * 0.45359237
     feed = stream(m, solid, solid * 62.3 / 14.7)
     drum = RotaryVacuumDrum.size(
-        feed, pressure_drop=1414 * 47.880259, cake_resistance=2.90e10 * 0.3048 / 0.45359237, compressibility=0.26, reference_pressure=47.880259,
-        void_fraction=loose(m), rotation_speed=2 * np.pi / 300, submergence=0.3,
-    )  # fmt: skip
+        feed,
+        pressure_drop=1414 * 47.880259,
+        cake_resistance=2.90e10 * 0.3048 / 0.45359237,
+        compressibility=0.26,
+        reference_pressure=47.880259,
+        void_fraction=loose(m),
+        rotation_speed=2 * np.pi / 300,
+        submergence=0.3,
+    )
     assert drum.area / 0.3048**2 == pytest.approx(81.7, rel=0.003)
 
 
@@ -102,7 +131,14 @@ def test_balances_close_and_figures_make_sense(name, washed):
 def test_cycle_of_a_press_by_hand():
     m = mixture(2600.0, 1e-3, 1000.0)
     feed, wash = stream(m, 0.1, 0.9), stream(m, water=0.05)
-    unit = PlateAndFramePress(area=30.0, chamber_depth=0.04, pressure_drop=2e5, cake_resistance=1e10, void_fraction=0.5, dead_time=900)
+    unit = PlateAndFramePress(
+        area=30.0,
+        chamber_depth=0.04,
+        pressure_drop=2e5,
+        cake_resistance=1e10,
+        void_fraction=0.5,
+        dead_time=900,
+    )
     figures = unit.operate(feed=feed, wash=wash).figures
     loading = 0.02 * 0.5 * 2600
     void = 0.1 / 2600  # equal to the solid volume at ε = 0.5, m3/s
@@ -115,7 +151,14 @@ def test_cycle_of_a_press_by_hand():
     assert figures.cycle_time == pytest.approx(formation + washing + 900, rel=1e-10)
     assert figures.area_required == pytest.approx(0.1 * (formation + washing + 900) / loading, rel=1e-10)
     sized = PlateAndFramePress.size(
-        feed, wash, chamber_depth=0.04, pressure_drop=2e5, cake_resistance=1e10, void_fraction=0.5, dead_time=900, capacity_use=0.8
+        feed,
+        wash,
+        chamber_depth=0.04,
+        pressure_drop=2e5,
+        cake_resistance=1e10,
+        void_fraction=0.5,
+        dead_time=900,
+        capacity_use=0.8,
     )
     assert float(sized.area) == pytest.approx(float(figures.area_required) / 0.8, rel=1e-12)
 
@@ -124,7 +167,9 @@ def test_wide_candle_is_a_flat_leaf():
     feed = stream(mixture(), 0.1, 0.6, 0.1)
     flat = PressureLeafFilter(area=20.0, full_cake_thickness="1 cm", **BATCH).inside(feed).plan
     wide = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius=300.0, **BATCH).inside(feed).plan
-    thin = CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).inside(feed).plan
+    thin = (
+        CandleFilter(area=20.0, full_cake_thickness="1 cm", candle_radius="3 cm", **BATCH).inside(feed).plan
+    )
     assert float(wide.formation_time) == pytest.approx(float(flat.formation_time), rel=1e-4)
     assert thin.dry_cake_mass_per_area > flat.dry_cake_mass_per_area
 
@@ -138,7 +183,9 @@ def test_gradient_through_a_drum_and_many_cases_at_once():
 
     slope = jax.grad(salt_in_cake)(0.04, 0.05)
     h = 1e-6
-    assert float(slope) == pytest.approx(float((salt_in_cake(0.04 + h, 0.05) - salt_in_cake(0.04 - h, 0.05)) / (2 * h)), rel=1e-6)
+    assert float(slope) == pytest.approx(
+        float((salt_in_cake(0.04 + h, 0.05) - salt_in_cake(0.04 - h, 0.05)) / (2 * h)), rel=1e-6
+    )
     assert slope < 0
     batch = jax.jit(jax.vmap(salt_in_cake))(jnp.linspace(0.01, 0.1, 50), jnp.full(50, 0.05))
     assert np.all(np.diff(np.asarray(batch)) < 0)
@@ -147,7 +194,12 @@ def test_gradient_through_a_drum_and_many_cases_at_once():
 def test_precoat_limits_the_rate_of_a_clear_feed():
     m = mixture()
     feed = stream(m, 0.002, 2.0)
-    fields = {**COMMON, "rotation_speed": "0.5 rpm", "precoat_permeability": 1e-13, "knife_advance": "0.05 mm"}
+    fields = {
+        **COMMON,
+        "rotation_speed": "0.5 rpm",
+        "precoat_permeability": 1e-13,
+        "knife_advance": "0.05 mm",
+    }
     drum = PrecoatDrum.size(feed, precoat_thickness="80 mm", **fields)
     # hardly any cake: the flux is that of 40 mm of precoat for half of the time
     flux = 6e4 / (0.8937e-3 * 0.04 / 1e-13)

@@ -1,4 +1,6 @@
-"""Cycle optimum, pump curve and cake profiles against independent numerical solutions; depth, gas and membrane filters by hand."""
+"""Cycle optimum, pump curve and cake profiles against independent numerical solutions; depth, gas and
+membrane filters by hand.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ def test_best_cycle_is_the_best_of_all(wash, cost):
     bare = {**CASE, "medium_resistance": 0.0}
 
     def price(V):
-        running = float(filtration_time_constant_pressure(V, **CASE)) + wash * float(filtration_time_constant_pressure(V, **bare))
+        running = float(filtration_time_constant_pressure(V, **CASE)) + wash * float(
+            filtration_time_constant_pressure(V, **bare)
+        )
         return (running + cost * 1500) / V
 
     found = minimize_scalar(price, bounds=(0.1, 50), method="bounded", options={"xatol": 1e-9})
@@ -51,7 +55,9 @@ def test_v_opt_of_the_notes_and_equal_times_without_medium():
 def test_many_cycles_at_once_are_those_of_one_by_one():
     dead = np.linspace(100, 5000, 1000)
     flows = np.asarray(cy.filtration_cycle(**CASE, dead_time=dead).mean_filtrate_flow)
-    assert flows[17] == pytest.approx(cy.filtration_cycle(**CASE, dead_time=float(dead[17])).mean_filtrate_flow, rel=1e-12)
+    assert flows[17] == pytest.approx(
+        cy.filtration_cycle(**CASE, dead_time=float(dead[17])).mean_filtrate_flow, rel=1e-12
+    )
     assert np.all(np.diff(flows) < 0)  # time lost is filtrate lost
 
 
@@ -112,8 +118,11 @@ def test_single_collector_has_its_minimum_near_a_micrometer():
     d = np.geomspace(1e-8, 2e-5, 60)
     eta = np.asarray(de.collector_efficiency_tufenkji(d, 5e-4, 1e-3, 0.38, 1050, 998, 1e-3))
     assert 3e-7 < d[np.argmin(eta)] < 3e-6
-    # dimensionless groups worked out one by one for 1 µm on 0.6 mm at 2 mm/s and 20 °C: 3.492e-4 + 1.808e-4 + 4.4e-6
-    assert de.collector_efficiency_tufenkji("1 um", "0.6 mm", "2 mm/s", 0.4, 1050, 998, 1e-3) == pytest.approx(5.344e-4, rel=1e-3)
+    # dimensionless groups worked out one by one for 1 µm on 0.6 mm at 2 mm/s and 20 °C: 3.492e-4 + 1.808e-4 +
+    # 4.4e-6
+    assert de.collector_efficiency_tufenkji(
+        "1 um", "0.6 mm", "2 mm/s", 0.4, 1050, 998, 1e-3
+    ) == pytest.approx(5.344e-4, rel=1e-3)
     assert de.filter_coefficient(5.344e-4, 6e-4, 0.4) == pytest.approx(1.5 * 0.6 * 5.344e-4 / 6e-4)
 
 

@@ -1,4 +1,6 @@
-"""Squeezing against Terzaghi's table and the diffusion equation; crystals lost to the wash by hand; membrane press."""
+"""Squeezing against Terzaghi's table and the diffusion equation; crystals lost to the wash by hand; membrane
+press.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ from granum.streams.stream import empty
 
 
 def test_terzaghi_table_and_series() -> None:
-    # the table of every textbook of soil mechanics: U = 10, 20 … 90 % at T = 0.008, 0.031, 0.071, 0.126, 0.197, 0.287, 0.403, 0.567, 0.848
+    # the table of every textbook of soil mechanics: U = 10, 20 … 90 % at T = 0.008, 0.031, 0.071, 0.126,
+    # 0.197, 0.287, 0.403, 0.567, 0.848
     T = np.array([0.00785, 0.0314, 0.0707, 0.126, 0.197, 0.287, 0.403, 0.567, 0.848])
     np.testing.assert_allclose(consolidation_ratio_terzaghi(T), np.arange(0.1, 0.95, 0.1), atol=1e-3)
     # two thousand terms of the series, both sides of the change
@@ -29,7 +32,9 @@ def test_terzaghi_table_and_series() -> None:
     assert consolidation_ratio_terzaghi(0.0) == 0.0
     # without creep Shirato's short form is Terzaghi's but for the first term's 8/π²
     late = 1 - consolidation_ratio_terzaghi(1.2)
-    assert 1 - consolidation_ratio_shirato(1.2, 900.0, 0.0, 1e-3) == pytest.approx(late * np.pi**2 / 8, rel=1e-4)
+    assert 1 - consolidation_ratio_shirato(1.2, 900.0, 0.0, 1e-3) == pytest.approx(
+        late * np.pi**2 / 8, rel=1e-4
+    )
 
 
 def test_squeezing_test_recovers() -> None:
@@ -38,20 +43,29 @@ def test_squeezing_test_recovers() -> None:
     L = 0.014 - 0.004 * np.asarray(consolidation_ratio_terzaghi(Ce * t / solid**2))
     noisy = L + 1e-5 * np.random.default_rng(2).normal(size=t.size)
     found = ExpressionTest(t, noisy, solid).fit()
-    for name, true in (("consolidation_coefficient", Ce), ("cake_thickness_initial", 0.014), ("cake_thickness_final", 0.010)):
+    for name, true in (
+        ("consolidation_coefficient", Ce),
+        ("cake_thickness_initial", 0.014),
+        ("cake_thickness_final", 0.010),
+    ):
         low, high = found[name].interval_95
         assert low - 0.3 * (high - low) < true < high + 0.3 * (high - low), name
         assert (high - low) < 0.25 * true
     # drained on both faces the same data mean a quarter of the coefficient
     both = ExpressionTest(t, noisy, solid, drainage_faces=2.0).fit()
-    assert both["consolidation_coefficient"].value == pytest.approx(found["consolidation_coefficient"].value / 4, rel=1e-3)
+    assert both["consolidation_coefficient"].value == pytest.approx(
+        found["consolidation_coefficient"].value / 4, rel=1e-3
+    )
     with pytest.raises(InputError, match="thinner"):
         ExpressionTest(t, L[::-1], solid).fit()
 
 
 SALT = Mixture(
     solids=(Species("salt", (("salt", 1.0),), (2000.0,), (900.0,), -4e5),),
-    liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)), Species("salt", (("salt", 1.0),), (2000.0,), (1500.0,))),
+    liquids=(
+        Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),
+        Species("salt", (("salt", 1.0),), (2000.0,), (1500.0,)),
+    ),
     gases=(),
     size_edges=tuple(np.geomspace(5e-5, 1e-3, 6)),
     liquid_viscosity=lambda w, T: 1e-3,
@@ -71,7 +85,8 @@ def test_wash_takes_up_crystals_until_saturated() -> None:
     feed, wash = feed_and_wash()
     law = SaturatingWash("salt", "water", 0.3)
     plain, lossy = belt()(feed, wash), belt(wash_dissolution=law)(feed, wash)
-    # by hand: mother liquor is saturated, so the wash of 0.2 kg/s of water takes up 0.06 kg/s of salt, wherever it goes
+    # by hand: mother liquor is saturated, so the wash of 0.2 kg/s of water takes up 0.06 kg/s of salt,
+    # wherever it goes
     lost = float(plain.cake.solid_flow - lossy.cake.solid_flow)
     assert lost == pytest.approx(0.06, rel=1e-9)
     for stream in (lossy.cake, lossy.washings):
@@ -96,8 +111,13 @@ def test_wash_takes_up_crystals_until_saturated() -> None:
 
 
 def test_hydrate_gives_its_water_back() -> None:
-    m = Mixture(solids=(Species("decahydrate", (("salt", 0.44), ("water", 0.56)), (1460.0,), (1900.0,), 0.0),), liquids=SALT.liquids, gases=(),
-                size_edges=SALT.size_edges, liquid_viscosity=lambda w, T: 1e-3)  # fmt: skip
+    m = Mixture(
+        solids=(Species("decahydrate", (("salt", 0.44), ("water", 0.56)), (1460.0,), (1900.0,), 0.0),),
+        liquids=SALT.liquids,
+        gases=(),
+        size_edges=SALT.size_edges,
+        liquid_viscosity=lambda w, T: 1e-3,
+    )
     feed = empty(m).replace(solid=jnp.full((1, 5), 0.1), liquid=jnp.array([1.0, 0.2]))
     wash = empty(m).replace(liquid=jnp.array([0.2, 0.0]))
     out = belt(wash_dissolution=SaturatingWash("decahydrate", "water", 0.2))(feed, wash)
@@ -116,8 +136,14 @@ def test_membrane_press_squeezes_towards_its_end() -> None:
         "chamber_depth": 0.03,
         "void_fraction_squeezed": 0.45,
     }
-    wet = [float(MembranePress(**fields, squeezing_time=t, consolidation_coefficient=5e-8)(feed).cake.moisture_dry_basis)
-           for t in (0.0, 197 / 5e-2 * 0.036, 1e6)]  # fmt: skip
+    wet = [
+        float(
+            MembranePress(**fields, squeezing_time=t, consolidation_coefficient=5e-8)(
+                feed
+            ).cake.moisture_dry_basis
+        )
+        for t in (0.0, 197 / 5e-2 * 0.036, 1e6)
+    ]
     # ω = 15 mm · 0.4 = 6 mm: half way at T = 0.197, that is after 0.197·36e-6/5e-8 = 141.8 s
     assert wet[1] == pytest.approx(0.5 * (wet[0] + wet[2]), rel=2e-3)
     assert wet[2] == pytest.approx(float(MembranePress(**fields)(feed).cake.moisture_dry_basis), rel=1e-6)
@@ -127,7 +153,10 @@ def test_membrane_press_squeezes_towards_its_end() -> None:
 
 @pytest.mark.parametrize(("solid", "water"), [(0.0, 1.0), (0.1, 0.0), (0.0, 0.0)])
 def test_empty_feeds_give_numbers(solid: float, water: float) -> None:
-    feed, wash = empty(SALT).replace(solid=jnp.full((1, 5), solid), liquid=jnp.array([water, 0.3 * water])), feed_and_wash()[1]
+    feed, wash = (
+        empty(SALT).replace(solid=jnp.full((1, 5), solid), liquid=jnp.array([water, 0.3 * water])),
+        feed_and_wash()[1],
+    )
     unit = belt(wash_dissolution=SaturatingWash("salt", "water", 0.3))
     out = unit(feed, wash)
     assert all(np.isfinite(float(x)) for x in unit.operate(feed=feed, wash=wash).figures)

@@ -12,7 +12,9 @@ from granum.cases import read
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-@pytest.mark.parametrize("path", ["leaf-filter/leaf_filter.py", "centrifuges/bowls.py", "worked-filters/worked_filters.py"])
+@pytest.mark.parametrize(
+    "path", ["leaf-filter/leaf_filter.py", "centrifuges/bowls.py", "worked-filters/worked_filters.py"]
+)
 def test_scripts_assert_the_books_numbers(path):
     runpy.run_path(str(EXAMPLES / path))
 
@@ -20,7 +22,8 @@ def test_scripts_assert_the_books_numbers(path):
 @pytest.mark.parametrize(
     ("path", "unit", "driest", "wettest"),
     [
-        # saturated chalk cake; sucked dry on a drum; settled quartz at half solid; spun salt, of which handbooks say 2 to 5 %
+        # saturated chalk cake; sucked dry on a drum; settled quartz at half solid; spun salt, of which
+        # handbooks say 2 to 5 %
         ("filters/press.toml", "press", 0.35, 0.55),
         ("filters/drum.toml", "drum", 0.08, 0.30),
         ("filters/crystals.toml", "belt", 0.05, 0.15),

@@ -15,12 +15,18 @@ from granum.filtration.formulas.readings import ruth_constants_readings
 from granum.filtration.lab_tests.leaf_test import LeafTest
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "leaf-filter"
-GEANKOPLIS = {"area": "0.0439 m2", "pressure_drop": "338 kPa", "dynamic_viscosity": 8.937e-4, "dry_cake_per_filtrate": 23.47}
+GEANKOPLIS = {
+    "area": "0.0439 m2",
+    "pressure_drop": "338 kPa",
+    "dynamic_viscosity": 8.937e-4,
+    "dry_cake_per_filtrate": 23.47,
+}
 
 
 def test_geankoplis_example_14_2_1_leaves_out_the_first_point():
     found = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS).fit()
-    # printed: slope 3.00e6 s/m6 and intercept 6400 s/m3 read from a drawn line, α = 1.863e11 m/kg, R = 10.63e10 1/m
+    # printed: slope 3.00e6 s/m6 and intercept 6400 s/m3 read from a drawn line, α = 1.863e11 m/kg, R =
+    # 10.63e10 1/m
     assert found["cake_resistance"].value == pytest.approx(1.863e11, rel=0.005)
     assert found["medium_resistance"].value == pytest.approx(10.63e10, rel=0.005)
     assert found["line_slope"].value == pytest.approx(3.00e6, rel=0.005)
@@ -30,18 +36,25 @@ def test_geankoplis_example_14_2_1_leaves_out_the_first_point():
     assert [f["flag"] for f in found.flags] == ["points excluded"]
     assert found.statistics["points_excluded"] == 1
     whole = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS, first_points_excluded="0").fit()
-    assert whole["cake_resistance"].value == pytest.approx(1.79e11, rel=0.005)  # by numpy.polyfit over all ten points
+    assert whole["cake_resistance"].value == pytest.approx(
+        1.79e11, rel=0.005
+    )  # by numpy.polyfit over all ten points
     figure = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS).chart()
     assert figure.data[-1].name == "excluded"
     assert len(figure.data[-1].x) == 1
 
 
 def test_holdich_spreadsheet():
-    # moisture ratio 1280/635 and 10 % solids give 125.24655 kg/m3; printed α = 5.215e11 m/kg, R = 2.861e12 1/m, R² = 0.9943521
+    # moisture ratio 1280/635 and 10 % solids give 125.24655 kg/m3; printed α = 5.215e11 m/kg, R = 2.861e12
+    # 1/m, R² = 0.9943521
     W = dry_cake_per_filtrate(solids_mass_fraction=0.1, liquid_density=1000, wet_to_dry_mass_ratio=1280 / 635)
     assert pytest.approx(125.24655, rel=1e-7) == W
     test = LeafTest.read(
-        EXAMPLES / "leaf_holdich.csv", area="2.72 m2", pressure_drop="3 bar", dynamic_viscosity="1 mPa*s", dry_cake_per_filtrate=W
+        EXAMPLES / "leaf_holdich.csv",
+        area="2.72 m2",
+        pressure_drop="3 bar",
+        dynamic_viscosity="1 mPa*s",
+        dry_cake_per_filtrate=W,
     )
     found = test.fit()
     assert found["cake_resistance"].value == pytest.approx(5.215e11, rel=1e-4)
@@ -55,7 +68,9 @@ CONDITIONS = {"area": 0.5, "pressure_drop": 8e4, "dynamic_viscosity": 1.2e-3, "d
 
 def synthetic(alpha=1e11, Rm=5e10, points=15, noise=0.0, seed=0):
     V = np.linspace(0.02, 0.3, points)
-    t = np.asarray(filtration_time_constant_pressure(V, **CONDITIONS, cake_resistance=alpha, medium_resistance=Rm))
+    t = np.asarray(
+        filtration_time_constant_pressure(V, **CONDITIONS, cake_resistance=alpha, medium_resistance=Rm)
+    )
     return t * (1 + noise * np.random.default_rng(seed).standard_normal(points)), V
 
 
@@ -72,7 +87,11 @@ def test_intervals_cover_the_truth_about_95_times_in_100():
     hits = 0
     for seed in range(40):
         t, V = synthetic(noise=0.01, seed=seed)
-        low, high = LeafTest(time=t, filtrate_volume=V, first_points_excluded=0, **CONDITIONS).fit()["cake_resistance"].interval_95
+        low, high = (
+            LeafTest(time=t, filtrate_volume=V, first_points_excluded=0, **CONDITIONS)
+            .fit()["cake_resistance"]
+            .interval_95
+        )
         hits += low < 1e11 < high
     assert hits >= 34  # fewer has probability 1 in 400
 
@@ -89,7 +108,9 @@ def test_late_clock_at_the_start_is_found(bad):
 def test_flags_settling_and_negative_intercept():
     t, V = synthetic()
     settled = np.where(V > 0.15, t[7] + (t - t[7]) * 0.55, t)
-    assert "bent line" in [f["flag"] for f in LeafTest(time=settled, filtrate_volume=V, **CONDITIONS).fit().flags]
+    assert "bent line" in [
+        f["flag"] for f in LeafTest(time=settled, filtrate_volume=V, **CONDITIONS).fit().flags
+    ]
     early = LeafTest(time=1e3 * V**2 - 1.0 * V, filtrate_volume=V, **CONDITIONS).fit()
     assert "negative intercept" in [f["flag"] for f in early.flags]
     assert early["medium_resistance"].value == 0.0
@@ -97,9 +118,21 @@ def test_flags_settling_and_negative_intercept():
 
 def test_clear_messages():
     with pytest.raises(InputError, match="Did you mean 'pressure_drop'"):
-        LeafTest.read(EXAMPLES / "leaf_holdich.csv", area=1, presure_drop=1e5, dynamic_viscosity=1e-3, dry_cake_per_filtrate=10)
+        LeafTest.read(
+            EXAMPLES / "leaf_holdich.csv",
+            area=1,
+            presure_drop=1e5,
+            dynamic_viscosity=1e-3,
+            dry_cake_per_filtrate=10,
+        )
     with pytest.raises(UnitError, match="unit 's' does not fit"):
-        LeafTest.read(EXAMPLES / "leaf_holdich.csv", area="3 s", pressure_drop=1e5, dynamic_viscosity=1e-3, dry_cake_per_filtrate=10)
+        LeafTest.read(
+            EXAMPLES / "leaf_holdich.csv",
+            area="3 s",
+            pressure_drop=1e5,
+            dynamic_viscosity=1e-3,
+            dry_cake_per_filtrate=10,
+        )
     with pytest.raises(InputError, match="'time' must increase"):
         LeafTest(time=[1, 3, 2], filtrate_volume=[1, 2, 3], **CONDITIONS).fit()
     with pytest.raises(InputError, match="too few"):

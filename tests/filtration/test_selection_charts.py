@@ -28,9 +28,9 @@ def test_plain_advice():
     assert dilute["pusher centrifuge"] < 0.05
     # nothing that settles when there is no density difference
     same, found = ranked("20 um", 0.0, 0.05, "5 m^3/hour")
-    assert max(same[m["name"]] for m in dataset("filtration", "separators_svarovsky2001") if m["settles"]) < min(
-        same["membrane press"], same["rotary vacuum drum"]
-    )
+    assert max(
+        same[m["name"]] for m in dataset("filtration", "separators_svarovsky2001") if m["settles"]
+    ) < min(same["membrane press"], same["rotary vacuum drum"])
     assert "settles too slowly" in found.speaks_against[found.separator.index("scroll decanter")]
 
 
@@ -41,7 +41,10 @@ def test_every_machine_has_a_french_name_and_a_sound_range():
         assert m["solids_low"] < m["solids_high"] <= 0.65
         assert m["flow_low"] < m["flow_high"]
     with language("fr"):
-        assert separator_choice("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15).separator[0] == "essoreuse à poussoir"
+        assert (
+            separator_choice("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15).separator[0]
+            == "essoreuse à poussoir"
+        )
 
 
 def test_charts():

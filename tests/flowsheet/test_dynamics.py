@@ -1,4 +1,6 @@
-"""A line in time against closed forms and SciPy; start-up and disturbances from a case file; cycles of batch units."""
+"""A line in time against closed forms and SciPy; start-up and disturbances from a case file; cycles of batch
+units.
+"""
 
 from __future__ import annotations
 
@@ -49,11 +51,19 @@ def test_start_up_of_a_stirred_tank() -> None:
 
 
 def test_a_ramp_and_a_recycle_against_scipy() -> None:
-    """A tank with a recycle around it; the salt of the feed ramps up. The recycle only turns the tank over faster."""
+    """A tank with a recycle around it; the salt of the feed ramps up. The recycle only turns the tank over
+    faster.
+    """
     feed = empty(BRINE, 300.0).replace(liquid=jnp.array([1.0, 0.0]))
     salt = empty(BRINE, 300.0).replace(liquid=jnp.array([0.0, 1.0]))
     units = {"mix": Mixer(), "tank": StirredTank(50.0), "split": Splitter(0.6)}
-    links = {"f": ("", "mix.f"), "s": ("", "mix.s"), "m": ("mix", "tank"), "t": ("tank", "split"), "back": ("split.side", "mix.back")}
+    links = {
+        "f": ("", "mix.f"),
+        "s": ("", "mix.s"),
+        "m": ("mix", "tank"),
+        "t": ("tank", "split"),
+        "back": ("split.side", "mix.back"),
+    }
     line = Flowsheet(units, {"f": feed, "s": salt}, links)
     ramp = Profile("s.mass_flow", [0.0, 20.0, 60.0], [0.1, 0.1, 0.5])
     times = np.linspace(0.0, 120.0, 481)
@@ -96,7 +106,9 @@ def test_grinding_circuit_settles_and_follows_scipy() -> None:
     line, mill = circuit()
     steady = solve_compiled(line)
     still = _march(line, np.linspace(0.0, 100.0, 6))
-    assert np.allclose(still.streams["p"].solid, np.asarray(steady.streams["p"].solid)[None], rtol=1e-6, atol=1e-9)
+    assert np.allclose(
+        still.streams["p"].solid, np.asarray(steady.streams["p"].solid)[None], rtol=1e-6, atol=1e-9
+    )
     times = np.linspace(0.0, 1200.0, 241)
     course = _march(line, times, start="empty")
     assert bool(course.converged.all())
@@ -117,8 +129,11 @@ def test_grinding_circuit_settles_and_follows_scipy() -> None:
     found = np.asarray(course.streams["p"].solid).sum(axis=(1, 3))
     assert np.abs(found - expected).max() < 2e-3  # of a feed of 1 kg/s, from a mill full of the finest size
     assert np.abs(found[-40:] - expected[-40:]).max() < 1e-4
-    # the moisture classes ride along: the second one, absent at the start, comes in as the mill is turned over in 800 s
-    assert float(course.streams["p"].solid[-1, 0, :, 1].sum()) == pytest.approx(0.7 * -np.expm1(-1200.0 / 800.0), rel=0.02)
+    # the moisture classes ride along: the second one, absent at the start, comes in as the mill is turned
+    # over in 800 s
+    assert float(course.streams["p"].solid[-1, 0, :, 1].sum()) == pytest.approx(
+        0.7 * -np.expm1(-1200.0 / 800.0), rel=0.02
+    )
 
 
 def test_second_order_and_gradient() -> None:
@@ -126,14 +141,21 @@ def test_second_order_and_gradient() -> None:
     ramp = Profile("f.mass_flow", [0.0, 200.0], [1.0, 1.5])
 
     def fine(step: float, scale: Any = 1.0) -> jax.Array:
-        course = march(line, jnp.arange(0.0, 200.1, step), (ramp._replace(values=jnp.array([1.0, 1.5 * scale])),))
+        course = march(
+            line, jnp.arange(0.0, 200.1, step), (ramp._replace(values=jnp.array([1.0, 1.5 * scale])),)
+        )
         return jnp.sum(course.streams["p"].solid[-1, 0, :6])
 
     along = compiled(lambda scale: jax.jvp(lambda x: fine(40.0, x), (scale,), (1.0,)))
-    (coarse, slope), half, best = along(jnp.asarray(1.0)), *(compiled(lambda _x, s=s: fine(s))(jnp.zeros(())) for s in (20.0, 5.0))
+    (coarse, slope), half, best = (
+        along(jnp.asarray(1.0)),
+        *(compiled(lambda _x, s=s: fine(s))(jnp.zeros(())) for s in (20.0, 5.0)),
+    )
     assert abs(coarse - best) / abs(half - best) > 3.0
     h = 1e-5
-    assert slope == pytest.approx((along(jnp.asarray(1.0 + h))[0] - along(jnp.asarray(1.0 - h))[0]) / (2 * h), rel=1e-6)
+    assert slope == pytest.approx(
+        (along(jnp.asarray(1.0 + h))[0] - along(jnp.asarray(1.0 - h))[0]) / (2 * h), rel=1e-6
+    )
 
 
 CASE = """
@@ -176,18 +198,25 @@ def test_a_unit_without_solution_at_some_instant_is_told_with_the_time() -> None
     line = Flowsheet({"pass": Thirsty()}, {"f": feed}, {"f": ("", "pass")})
     fading = Profile("f.mass_flow", [0.0, 10.0], [2.0, 1.0])
     moving = Line("fading", line, movement=Movement(np.linspace(0.0, 10.0, 11), (fading,)))
-    with pytest.raises(ConvergenceError, match=r"At 6 s: Unit 'pass' has no solution: Too little comes\.") as caught:
+    with pytest.raises(
+        ConvergenceError, match=r"At 6 s: Unit 'pass' has no solution: Too little comes\."
+    ) as caught:
         moving.march()
     assert caught.value.exit_code == 3
 
 
 def test_case_file_in_time() -> None:
     course = gr.cases.read_text(CASE).march()
-    salt, flow = np.asarray(course.streams["product"].liquid[:, 1]), np.asarray(course.streams["product"].liquid.sum(axis=1))
+    salt, flow = (
+        np.asarray(course.streams["product"].liquid[:, 1]),
+        np.asarray(course.streams["product"].liquid.sum(axis=1)),
+    )
     assert salt[30] / flow[30] == pytest.approx(0.1 * -np.expm1(-1800.0 / 600.0), rel=1e-6)
     assert flow[-1] == pytest.approx(2.0, rel=1e-9)
     # half an hour at twice the flow: 1800 s at 2 kg/s less the ramp's minute at 1.5
-    assert salt[-1] / flow[-1] == pytest.approx(0.1 * -np.expm1(-(1800.0 + 90.0 + 2 * 1740.0) / 600.0), rel=1e-5)
+    assert salt[-1] / flow[-1] == pytest.approx(
+        0.1 * -np.expm1(-(1800.0 + 90.0 + 2 * 1740.0) / 600.0), rel=1e-5
+    )
 
 
 @pytest.mark.parametrize(

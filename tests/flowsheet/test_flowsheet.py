@@ -1,4 +1,6 @@
-"""Flowsheets: order, recycle against closed forms, gradients, open and doubled ports, design specifications."""
+"""Flowsheets: order, recycle against closed forms, gradients, open and doubled ports, design
+specifications.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +30,12 @@ def loop(side_fraction: float = 0.7) -> Flowsheet:
         "cool": Heater(temperature=300.0),
     }
     links = {
-        "feed": ("", "mix.fresh"), "mixed": ("mix", "heat"), "hot": ("heat", "split"), "back_hot": ("split.side", "cool"),
+        "feed": ("", "mix.fresh"),
+        "mixed": ("mix", "heat"),
+        "hot": ("heat", "split"),
+        "back_hot": ("split.side", "cool"),
         "back": ("cool", "mix.back"),
-    }  # fmt: skip
+    }
     return Flowsheet(units, {"feed": FEED}, links)
 
 
@@ -40,7 +45,9 @@ def test_recycle_is_the_geometric_series() -> None:
     assert float(solution.streams["mixed"].mass_flow) == pytest.approx(1 / (1 - 0.7), rel=1e-11)
     assert float(solution.streams["split.product"].mass_flow) == pytest.approx(1.0, rel=1e-11)
     # by hand: (330·1 + 300·7/3)/(10/3) = 309 K, heated to 333.15 K
-    assert float(solution.powers["heat"]["heat_duty"]) == pytest.approx(10 / 3 * 4000.0 * (333.15 - 309.0), rel=1e-10)
+    assert float(solution.powers["heat"]["heat_duty"]) == pytest.approx(
+        10 / 3 * 4000.0 * (333.15 - 309.0), rel=1e-10
+    )
 
 
 def test_units_and_line_close() -> None:
@@ -69,7 +76,7 @@ def test_a_loop_without_a_way_out_is_not_called_converged() -> None:
 def test_batch_of_lines() -> None:
     flows = jax.jit(
         jax.vmap(lambda f: solve(loop().with_values({"split.side_fraction": f})).streams["mixed"].mass_flow)
-    )(jnp.array([0.1, 0.5, 0.9]))  # fmt: skip
+    )(jnp.array([0.1, 0.5, 0.9]))
     assert flows.tolist() == pytest.approx([1 / 0.9, 2.0, 10.0], rel=1e-10)
 
 
@@ -81,7 +88,9 @@ def test_specification_finds_the_split() -> None:
 
 
 def test_specification_out_of_reach_is_refused() -> None:
-    assert not bool(design(loop(), (Target("split.side_fraction", "mix.mass_flow", 400.0, 0.0, 0.95),)).converged)
+    assert not bool(
+        design(loop(), (Target("split.side_fraction", "mix.mass_flow", 400.0, 0.0, 0.95),)).converged
+    )
 
 
 def test_order_tears_one_stream_of_a_simple_loop_and_the_author_decides() -> None:
@@ -92,8 +101,12 @@ def test_order_tears_one_stream_of_a_simple_loop_and_the_author_decides() -> Non
 
 def test_nested_loops_share_one_torn_stream() -> None:
     links = (
-        Link("ab", "a.o", "b.i"), Link("bc", "b.o", "c.i"), Link("cb", "c.p", "b.j"), Link("cd", "c.o", "d.i"), Link("da", "d.o", "a.i"),
-    )  # fmt: skip
+        Link("ab", "a.o", "b.i"),
+        Link("bc", "b.o", "c.i"),
+        Link("cb", "c.p", "b.j"),
+        Link("cd", "c.o", "d.i"),
+        Link("da", "d.o", "a.i"),
+    )
     (block,) = plan(("d", "c", "b", "a"), links)
     assert block.tears == ("bc",)  # one stream breaks both loops
 
@@ -101,15 +114,34 @@ def test_nested_loops_share_one_torn_stream() -> None:
 @pytest.mark.parametrize(
     ("links", "message"),
     [
-        ({"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "x": ("haet", "split")}, "haet.*Did you mean 'heat'"),
-        ({"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "h": ("heat", "split"), "r": ("split.sid", "cool")}, "sid.*Did you mean 'side'"),
-        ({"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "h": ("heat", "split")}, "Inlet 'feed' of unit 'cool' is open"),
+        (
+            {"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "x": ("haet", "split")},
+            "haet.*Did you mean 'heat'",
+        ),
+        (
+            {
+                "feed": ("", "mix.fresh"),
+                "m": ("mix", "heat"),
+                "h": ("heat", "split"),
+                "r": ("split.sid", "cool"),
+            },
+            "sid.*Did you mean 'side'",
+        ),
+        (
+            {"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "h": ("heat", "split")},
+            "Inlet 'feed' of unit 'cool' is open",
+        ),
         ({"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "n": ("mix", "cool")}, "both connected"),
         ({"feed": ("", "mix.fresh"), "m": ("mix", "heat"), "g": ("", "split")}, "comes from nowhere"),
     ],
 )
 def test_wrong_connections_say_what_and_where(links: dict[str, tuple[str, str]], message: str) -> None:
-    units = {"mix": Mixer(), "heat": Heater(temperature=333.15), "split": Splitter(side_fraction=0.5), "cool": Heater(temperature=300.0)}
+    units = {
+        "mix": Mixer(),
+        "heat": Heater(temperature=333.15),
+        "split": Splitter(side_fraction=0.5),
+        "cool": Heater(temperature=300.0),
+    }
     with pytest.raises(CaseError, match=message):
         Flowsheet(units, {"feed": FEED}, links)
 

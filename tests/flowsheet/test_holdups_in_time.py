@@ -1,4 +1,6 @@
-"""Crystallizer, clarifier and thickener in time: against SciPy and closed forms, conservative in every component and in heat, ending in the steady solve."""
+"""Crystallizer, clarifier and thickener in time: against SciPy and closed forms, conservative in every
+component and in heat, ending in the steady solve.
+"""
 
 from __future__ import annotations
 
@@ -37,19 +39,29 @@ def flows(stream: Stream, what: str) -> np.ndarray:
 
 def gained(course: Any, what: str) -> np.ndarray:
     """What the feed brings and the products take over the run, by the trapezoidal rule."""
-    net = flows(course.streams["f"], what) - sum(flows(s, what) for n, s in course.streams.items() if n != "f")
+    net = flows(course.streams["f"], what) - sum(
+        flows(s, what) for n, s in course.streams.items() if n != "f"
+    )
     return np.trapezoid(net, course.times, axis=0)
 
 
 def test_start_up_of_a_crystallizer() -> None:
-    """Moments 0 to 3 and the solute by SciPy, all densities being alike so that the vessel keeps its volume by itself."""
+    """Moments 0 to 3 and the solute by SciPy, all densities being alike so that the vessel keeps its volume
+    by itself.
+    """
     salt = Species("salt", (("salt", 1.0),), (1000.0,), (3000.0,), 0.0, 0.1)
     grains = Species("salt", (("salt", 1.0),), (1000.0,), (1000.0,), 0.0, 0.1)
     mixture = Mixture((grains,), (WATER, salt), (), tuple(np.geomspace(5e-6, 3e-3, 25)))
     fine = np.zeros((1, 24))
     fine[0, 10] = 2e-3
     feed = empty(mixture, 350.0).replace(solid=jnp.asarray(fine), liquid=jnp.array([0.7, 0.45]))
-    unit = Msmpr(300.0, 2.0, PolynomialSolubility([0.35]), PowerLawGrowth(1.161e-4, 1.32), PowerLawNucleation(2.196e8, 1.78))
+    unit = Msmpr(
+        300.0,
+        2.0,
+        PolynomialSolubility([0.35]),
+        PowerLawGrowth(1.161e-4, 1.32),
+        PowerLawNucleation(2.196e8, 1.78),
+    )
     line = Flowsheet({"u": unit}, {"f": feed}, {"f": ("", "u"), "p": ("u.product", ""), "v": ("u.vapor", "")})
     times = np.linspace(0.0, 54000.0, 451)
     course, steady = _run(line, times, np.array([350.0, 350.0]), {"u": "empty"})
@@ -75,18 +87,32 @@ def test_start_up_of_a_crystallizer() -> None:
 
     seeds = 2.0 / (cube * 1e-12) * 1e-4 ** np.arange(4)
     solvent = 1998.0 / 1.35
-    path = solve_ivp(slope, (0.0, times[-1]), np.append(seeds, [0.35 * solvent + 2.0, solvent]), "LSODA", times[::30], rtol=1e-9, atol=1e-9)
+    path = solve_ivp(
+        slope,
+        (0.0, times[-1]),
+        np.append(seeds, [0.35 * solvent + 2.0, solvent]),
+        "LSODA",
+        times[::30],
+        rtol=1e-9,
+        atol=1e-9,
+    )
     expected = q * cube * path.y[3]
     assert np.abs(product[::30].sum(axis=1) - expected).max() < 3e-3 * expected[-1]
 
 
 def test_clarifier_and_thickener() -> None:
-    """Salt and heat of the mixed basin by hand; a sludge whose sizes travel with it; every component and the heat close."""
+    """Salt and heat of the mixed basin by hand; a sludge whose sizes travel with it; every component and the
+    heat close.
+    """
     salt = Species("salt", (("salt", 1.0),), (1000.0,), (4180.0,), 0.0, 0.058)
     sludge = Species("sludge", (("sludge", 1.0),), (1400.0,), (1900.0,), 0.0, 0.1)
-    mixture = Mixture((sludge,), (WATER, salt), (), tuple(np.geomspace(1e-6, 1e-3, 7)), liquid_viscosity=lambda _w, _T: 1e-3)
+    mixture = Mixture(
+        (sludge,), (WATER, salt), (), tuple(np.geomspace(1e-6, 1e-3, 7)), liquid_viscosity=lambda _w, _T: 1e-3
+    )
     shares = np.arange(1.0, 7.0) / 21.0
-    feed = empty(mixture, 290.0).replace(solid=jnp.asarray(0.6 * shares)[None], liquid=jnp.array([198.0, 2.0]))
+    feed = empty(mixture, 290.0).replace(
+        solid=jnp.asarray(0.6 * shares)[None], liquid=jnp.array([198.0, 2.0])
+    )
     thickener = ClarifierThickener(500.0, 4.0, 0.08, Vesilind("7 m/hour", 0.4), cells=12)
     links = {
         "f": ("", "b"),
@@ -103,8 +129,14 @@ def test_clarifier_and_thickener() -> None:
     last, first = course.holdups, {"b": basin.initial_holdup(mixture), "t": thickener.initial_holdup(mixture)}
 
     def holding(held: dict[str, Any], what: str) -> Any:
-        inside = [feed.replace(solid=held["b"].solid, liquid=held["b"].liquid, temperature=held["b"].temperature),
-                  feed.replace(solid=jnp.sum(held["t"].solid, axis=0), liquid=held["t"].liquid, temperature=held["t"].temperature)]  # fmt: skip
+        inside = [
+            feed.replace(solid=held["b"].solid, liquid=held["b"].liquid, temperature=held["b"].temperature),
+            feed.replace(
+                solid=jnp.sum(held["t"].solid, axis=0),
+                liquid=held["t"].liquid,
+                temperature=held["t"].temperature,
+            ),
+        ]
         return sum(np.asarray(getattr(s, what)) for s in inside)
 
     for what in ("components", "enthalpy_flow"):
@@ -121,4 +153,9 @@ def test_clarifier_and_thickener() -> None:
         -flow / volume * times
     )  # of the water at the start: salt is 2 (1 - left), liquid 200 (1 - left) and what is left of the water
     clear = np.asarray(course.streams["clear"].liquid)
-    assert np.abs(clear[:, 1] / clear.sum(axis=1) - 2.0 * (1.0 - left) / (200.0 + (1000.0 * flow - 200.0) * left)).max() < 1e-4 * 0.01
+    assert (
+        np.abs(
+            clear[:, 1] / clear.sum(axis=1) - 2.0 * (1.0 - left) / (200.0 + (1000.0 * flow - 200.0) * left)
+        ).max()
+        < 1e-4 * 0.01
+    )

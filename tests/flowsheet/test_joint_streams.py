@@ -1,4 +1,5 @@
-"""Size × attribute × composition through every unit there is: nothing is lost, made, or moved to another class of an axis nobody knows.
+"""Size × attribute × composition through every unit there is: nothing is lost, made, or moved to another
+class of an axis nobody knows.
 
 Two solids, a size and a porosity that go together with size and solid, a liquid of two components, humid air.
 """
@@ -45,81 +46,211 @@ SLURRY = {
     "centrifuges.tubular_bowl": BOWL | {"bowl_length": 0.7},
     "cyclones.hydrocyclone": {"diameter": "100 mm", "underflow_diameter": "20 mm"},
     "filtration.deep_bed_filter": {"area": 2.0, "bed_depth": 1.0, "collector_diameter": "0.8 mm"},
-    "fluidization.liquid_fluidized_bed": {"area": 0.02, "mass": 20.0, "particle_diameter": "0.5 mm", "particle_density": 2650.0},
+    "fluidization.liquid_fluidized_bed": {
+        "area": 0.02,
+        "mass": 20.0,
+        "particle_diameter": "0.5 mm",
+        "particle_density": 2650.0,
+    },
     "settling.api_separator": {"length": 10.0, "width": 2.0, "height": 1.0},
     "settling.circular_clarifier": {"diameter": 5.0, "height": 3.0, "underflow_concentration": 300.0},
     "settling.clarifier": {"area": 10.0, "underflow_concentration": 300.0},
-    "settling.clarifier_thickener": {"area": 20.0, "height": 3.0, "underflow_volume_flow": 3e-4, "settling": {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.02}, "settling_time": "1 day", "cells": 10},
+    "settling.clarifier_thickener": {
+        "area": 20.0,
+        "height": 3.0,
+        "underflow_volume_flow": 3e-4,
+        "settling": {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.02},
+        "settling_time": "1 day",
+        "cells": 10,
+    },
     "settling.grit_chamber": {"length": 5.0, "width": 1.0, "height": 1.0},
-    "settling.lamella": {"plate_number": 10, "plate_length": 2.0, "plate_width": 1.0, "plate_spacing": 0.05, "underflow_concentration": 300.0},
-    "settling.rectangular_clarifier": {"length": 10.0, "width": 2.0, "height": 2.0, "underflow_concentration": 300.0},
-    "settling.thickener": {"area": 20.0, "underflow_concentration": 300.0, "settling": {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.02}},
+    "settling.lamella": {
+        "plate_number": 10,
+        "plate_length": 2.0,
+        "plate_width": 1.0,
+        "plate_spacing": 0.05,
+        "underflow_concentration": 300.0,
+    },
+    "settling.rectangular_clarifier": {
+        "length": 10.0,
+        "width": 2.0,
+        "height": 2.0,
+        "underflow_concentration": 300.0,
+    },
+    "settling.thickener": {
+        "area": 20.0,
+        "underflow_concentration": 300.0,
+        "settling": {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.02},
+    },
     "streams.heater": {"temperature": "80 degC"},
     "streams.splitter": {"side_fraction": 0.3},
     "streams.stirred_tank": {"mass": 100.0},
-}  # fmt: skip
+}
 WASHED = {
-    "centrifuges.peeler": BASKET | {"cake_radius": 0.32, "basket_height": 0.5, "radius_inner": 0.28, "basket_number": 4.0},
+    "centrifuges.peeler": BASKET
+    | {"cake_radius": 0.32, "basket_height": 0.5, "radius_inner": 0.28, "basket_number": 4.0},
     "centrifuges.pusher": BASKET | {"cake_radius": 0.36, "basket_length": 0.5},
-    "centrifuges.scroll_screen": BASKET | {"basket_length": 0.5, "scroll_pitch": 0.05, "differential_speed": "20 rpm"},
+    "centrifuges.scroll_screen": BASKET
+    | {"basket_length": 0.5, "scroll_pitch": 0.05, "differential_speed": "20 rpm"},
     "centrifuges.sliding_screen": BASKET | {"basket_length": 0.5, "cone_angle": 0.5, "friction_angle": 0.4},
-    "centrifuges.tumbling_screen": BASKET | {"basket_length": 0.5, "cone_angle": 0.25, "friction_angle": 0.4, "tumbling_angle": 0.1},
-    "centrifuges.vibrating_screen": BASKET | {"basket_length": 0.5, "cone_angle": 0.25, "friction_angle": 0.4, "vibration_acceleration": 30.0},
+    "centrifuges.tumbling_screen": BASKET
+    | {"basket_length": 0.5, "cone_angle": 0.25, "friction_angle": 0.4, "tumbling_angle": 0.1},
+    "centrifuges.vibrating_screen": BASKET
+    | {"basket_length": 0.5, "cone_angle": 0.25, "friction_angle": 0.4, "vibration_acceleration": 30.0},
     "filtration.candle_filter": FILTER | {"area": 20.0, "full_cake_thickness": 0.02, "candle_radius": 0.03},
     "filtration.chamber_press": FILTER | {"area": 20.0, "chamber_depth": 0.03},
     "filtration.horizontal_belt_filter": FILTER | {"area": 2.0, "belt_length": 4.0, "belt_speed": 0.05},
-    "filtration.membrane_press": FILTER | {"area": 20.0, "chamber_depth": 0.03, "void_fraction_squeezed": 0.4},
+    "filtration.membrane_press": FILTER
+    | {"area": 20.0, "chamber_depth": 0.03, "void_fraction_squeezed": 0.4},
     "filtration.nutsche": FILTER | {"area": 20.0, "full_cake_thickness": 0.2},
     "filtration.plate_and_frame_press": FILTER | {"area": 20.0, "chamber_depth": 0.03},
-    "filtration.precoat_drum": FILTER | {"area": 10.0, "rotation_speed": "1 rpm", "precoat_thickness": 0.05, "precoat_permeability": 1e-13, "knife_advance": 1e-4},
+    "filtration.precoat_drum": FILTER
+    | {
+        "area": 10.0,
+        "rotation_speed": "1 rpm",
+        "precoat_thickness": 0.05,
+        "precoat_permeability": 1e-13,
+        "knife_advance": 1e-4,
+    },
     "filtration.pressure_leaf_filter": FILTER | {"area": 20.0, "full_cake_thickness": 0.03},
     "filtration.rotary_disc_filter": FILTER | {"area": 20.0, "rotation_speed": "1 rpm"},
     "filtration.rotary_vacuum_drum": FILTER | {"area": 10.0, "rotation_speed": "1 rpm"},
-}  # fmt: skip
+}
 POWDER = {
-    "comminution.ball_mill": {"selection": {"law": "austin_selection", "selection_rate": 0.01, "selection_exponent": 0.9}, "breakage": BREAKAGE, "holdup_mass": 100.0, "shaft_power": 1e3},
+    "comminution.ball_mill": {
+        "selection": {"law": "austin_selection", "selection_rate": 0.01, "selection_exponent": 0.9},
+        "breakage": BREAKAGE,
+        "holdup_mass": 100.0,
+        "shaft_power": 1e3,
+    },
     "comminution.bond_mill": {"shaft_power": 1e3, "work_index": "12 kWh/t"},
-    "comminution.cone_crusher": {"always_passing_size": "100 um", "always_broken_size": "1 mm", "breakage": BREAKAGE},
-    "comminution.double_deck_screen": {"upper_deck": PARTITION, "lower_deck": PARTITION | {"cut_size": "100 um"}},
+    "comminution.cone_crusher": {
+        "always_passing_size": "100 um",
+        "always_broken_size": "1 mm",
+        "breakage": BREAKAGE,
+    },
+    "comminution.double_deck_screen": {
+        "upper_deck": PARTITION,
+        "lower_deck": PARTITION | {"cut_size": "100 um"},
+    },
     "comminution.screen": {"separation": PARTITION, "liquid_split_oversize": 0.4},
-    "comminution.triple_deck_screen": {"upper_deck": PARTITION | {"cut_size": "600 um"}, "middle_deck": PARTITION, "lower_deck": PARTITION | {"cut_size": "100 um"}},
+    "comminution.triple_deck_screen": {
+        "upper_deck": PARTITION | {"cut_size": "600 um"},
+        "middle_deck": PARTITION,
+        "lower_deck": PARTITION | {"cut_size": "100 um"},
+    },
     "comminution.vibrating_screen": {"aperture": "300 um", "screen_area": 1.0},
-    "streams.agglomerator": {"agglomeration_kernel": {"law": "constant_kernel", "agglomeration_coefficient": 1e-13}, "holdup_mass": 50.0, "volume": 1.0},
+    "streams.agglomerator": {
+        "agglomeration_kernel": {"law": "constant_kernel", "agglomeration_coefficient": 1e-13},
+        "holdup_mass": 50.0,
+        "volume": 1.0,
+    },
     "drying.closed_dryer": {
         "drying_circuit": {"law": "circuit_steam", "temperature_outlet": "105 degC"},
         "temperature_inlet": "150 degC",
         "moisture_outlet": 0.02,
     },
-    "drying.drum_dryer": {"diameter": 1.0, "width": 2.0, "rotation_speed": "3 rpm", "pressure_steam": "5 bar"},
-    "drying.paddle_dryer": {"wall_temperature": "130 degC", "moisture_outlet": 0.02, "pressure": "1 atm", "particle_diameter": "0.5 mm", "rotation_speed": "15 rpm", "diameter": 0.6},
-}  # fmt: skip
+    "drying.drum_dryer": {
+        "diameter": 1.0,
+        "width": 2.0,
+        "rotation_speed": "3 rpm",
+        "pressure_steam": "5 bar",
+    },
+    "drying.paddle_dryer": {
+        "wall_temperature": "130 degC",
+        "moisture_outlet": 0.02,
+        "pressure": "1 atm",
+        "particle_diameter": "0.5 mm",
+        "rotation_speed": "15 rpm",
+        "diameter": 0.6,
+    },
+}
 GAS = {
-    "drying.belt_dryer": {"area": 10.0, "layer_depth": 0.05, "bulk_density_dry": 640.0, "kinetics": SURFACE, "layers": 8, "steps": 20},
+    "drying.belt_dryer": {
+        "area": 10.0,
+        "layer_depth": 0.05,
+        "bulk_density_dry": 640.0,
+        "kinetics": SURFACE,
+        "layers": 8,
+        "steps": 20,
+    },
     "drying.convective_dryer": {"temperature_inlet": "120 degC", "moisture_outlet": 0.02},
     "drying.flash_dryer": {"length": 20.0, "diameter": 0.6, "kinetics": SURFACE},
     "drying.fluidized_bed_dryer": {"area": 2.0, "mass": 300.0, "kinetics": SURFACE},
     "drying.rotary_dryer": {"length": 10.0, "diameter": 1.5, "kinetics": SURFACE, "cells": 10},
-    "drying.silo_dryer": {"volume": 20.0, "layer_depth": 0.3, "bulk_density_dry": 640.0, "kinetics": SURFACE, "layers": 8, "steps": 20},
-    "drying.tray_dryer": {"temperature_inlet": "120 degC", "gas_velocity": 2.0, "dry_mass_per_area": 30.0, "moisture_outlet": 0.05, "critical_moisture": 0.1},
-    "drying.tunnel_dryer": {"residence_time": "2 hour", "surface_per_mass": 0.06, "free_area": 1.0, "volume": 10.0, "kinetics": SURFACE, "cells": 10},
+    "drying.silo_dryer": {
+        "volume": 20.0,
+        "layer_depth": 0.3,
+        "bulk_density_dry": 640.0,
+        "kinetics": SURFACE,
+        "layers": 8,
+        "steps": 20,
+    },
+    "drying.tray_dryer": {
+        "temperature_inlet": "120 degC",
+        "gas_velocity": 2.0,
+        "dry_mass_per_area": 30.0,
+        "moisture_outlet": 0.05,
+        "critical_moisture": 0.1,
+    },
+    "drying.tunnel_dryer": {
+        "residence_time": "2 hour",
+        "surface_per_mass": 0.06,
+        "free_area": 1.0,
+        "volume": 10.0,
+        "kinetics": SURFACE,
+        "cells": 10,
+    },
     "drying.well_mixed_dryer": {"residence_time": "15 min", "gas_velocity": 1.0},
-}  # fmt: skip
+}
 LIQUOR = {
-    "crystallization.batch_crystallizer": GROWTH | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
+    "crystallization.batch_crystallizer": GROWTH
+    | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
     "crystallization.classified_crystallizer": GROWTH | {"temperature": "30 degC", "volume": 2.0},
-    "crystallization.jacketed_batch_crystallizer": GROWTH | {"jacket_program": COOLING, "duration": "1 hour", "volume": 4.0, "area": 10.0, "heat_transfer_coefficient": 800.0, "seed_mass_per_solvent": 0.01},
+    "crystallization.jacketed_batch_crystallizer": GROWTH
+    | {
+        "jacket_program": COOLING,
+        "duration": "1 hour",
+        "volume": 4.0,
+        "area": 10.0,
+        "heat_transfer_coefficient": 800.0,
+        "seed_mass_per_solvent": 0.01,
+    },
     "crystallization.msmpr": GROWTH | {"temperature": "30 degC", "volume": 2.0},
-    "crystallization.plug_flow_crystallizer": GROWTH | {"temperature_program": COOLING, "volume": 2.0, "seed_mass_per_solvent": 0.01},
-    "crystallization.vacuum_batch_crystallizer": GROWTH | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
+    "crystallization.plug_flow_crystallizer": GROWTH
+    | {"temperature_program": COOLING, "volume": 2.0, "seed_mass_per_solvent": 0.01},
+    "crystallization.vacuum_batch_crystallizer": GROWTH
+    | {"temperature_program": COOLING, "duration": "1 hour", "seed_mass_per_solvent": 0.01},
     "crystallization.vacuum_crystallizer": GROWTH | {"temperature": "30 degC", "volume": 2.0},
-}  # fmt: skip
+}
 OTHERS = {
-    "streams.mixer": {}, "streams.humid_mixer": {}, "streams.adiabatic_humidifier": {}, "streams.condenser_cooler": {"temperature": "5 degC"},
-    "streams.dehumidifying_coil": {"coil_temperature": "5 degC"}, "cyclones.gas_cyclone": {"diameter": 0.5},
+    "streams.mixer": {},
+    "streams.humid_mixer": {},
+    "streams.adiabatic_humidifier": {},
+    "streams.condenser_cooler": {"temperature": "5 degC"},
+    "streams.dehumidifying_coil": {"coil_temperature": "5 degC"},
+    "cyclones.gas_cyclone": {"diameter": 0.5},
     "fluidization.fluidized_bed": {"area": 2.0, "mass": 300.0},
-    "drying.spray_dryer": {"length": 8.0, "diameter": 4.0, "atomizer": {"law": "atomizer_pressure_nozzle", "pressure_difference": "20 MPa"}, "kinetics": SURFACE, "cells": 20},
-    "drying.freeze_dryer": {"pressure_chamber": "150 mtorr", "temperature_shelf": "20 degC", "area_vial": "3.8 cm^2", "area_product": "3.14 cm^2", "volume_fill": "2 mL", "vial_coefficient_contact": "2.75e-4 cal/(s*K*cm^2)", "vial_coefficient_gas": "8.93e-4 cal/(s*K*cm^2*torr)", "vial_coefficient_saturation": "0.46 1/torr", "vapor_resistance": "1.4 cm^2*hour*torr/g", "vapor_resistance_slope": "16 cm*hour*torr/g"},
-}  # fmt: skip
+    "drying.spray_dryer": {
+        "length": 8.0,
+        "diameter": 4.0,
+        "atomizer": {"law": "atomizer_pressure_nozzle", "pressure_difference": "20 MPa"},
+        "kinetics": SURFACE,
+        "cells": 20,
+    },
+    "drying.freeze_dryer": {
+        "pressure_chamber": "150 mtorr",
+        "temperature_shelf": "20 degC",
+        "area_vial": "3.8 cm^2",
+        "area_product": "3.14 cm^2",
+        "volume_fill": "2 mL",
+        "vial_coefficient_contact": "2.75e-4 cal/(s*K*cm^2)",
+        "vial_coefficient_gas": "8.93e-4 cal/(s*K*cm^2*torr)",
+        "vial_coefficient_saturation": "0.46 1/torr",
+        "vapor_resistance": "1.4 cm^2*hour*torr/g",
+        "vapor_resistance_slope": "16 cm*hour*torr/g",
+    },
+}
 ALL = SLURRY | WASHED | POWDER | GAS | LIQUOR | OTHERS
 
 
@@ -127,29 +258,46 @@ ALL = SLURRY | WASHED | POWDER | GAS | LIQUOR | OTHERS
 def feeds(liquids: tuple[str, ...]) -> dict[str, Stream]:
     """What the units are fed with."""
     mixture = mixture_of(
-        liquids, ("potassium nitrate", "quartz"), ("dry air", "water"), np.geomspace(1e-5, 2e-3, 13),
+        liquids,
+        ("potassium nitrate", "quartz"),
+        ("dry air", "water"),
+        np.geomspace(1e-5, 2e-3, 13),
         axes=(("porosity", (0.0, 0.1, 0.3, 0.5)),),
-    )  # fmt: skip
+    )
     x = np.linspace(-1.5, 1.5, 12)
-    joint = np.stack([np.exp(-((x[:, None] - 0.2 * np.arange(3) - s) ** 2)) * np.array([0.5, 0.3, 0.2]) for s in (0.0, 0.3)])
+    joint = np.stack(
+        [
+            np.exp(-((x[:, None] - 0.2 * np.arange(3) - s) ** 2)) * np.array([0.5, 0.3, 0.2])
+            for s in (0.0, 0.3)
+        ]
+    )
     solid = jnp.asarray(joint / joint.sum() * 0.2)
     cold, warm, hot = empty(mixture, 298.15), empty(mixture, 330.0), empty(mixture, 400.0)
     saturated, liquor = jnp.array([1.0, 0.3][: len(liquids)]), jnp.array([0.5, 0.55][: len(liquids)])
     return {
-        "slurry": cold.replace(solid=solid, liquid=1.5 * saturated), "wash": cold.replace(liquid=0.02 * saturated),
-        "cake": cold.replace(solid=solid, liquid=0.03 * saturated), "air": hot.replace(gas=jnp.array([3.0, 0.03])),
-        "liquor": warm.replace(solid=0.1 * solid, liquid=liquor), "wet air": warm.replace(gas=jnp.array([1.0, 0.08])),
-        "dusty air": warm.replace(solid=0.1 * solid, gas=jnp.array([0.5, 0.01])), "water": cold.replace(liquid=0.1 * jnp.eye(len(liquids))[0]),
-    }  # fmt: skip
+        "slurry": cold.replace(solid=solid, liquid=1.5 * saturated),
+        "wash": cold.replace(liquid=0.02 * saturated),
+        "cake": cold.replace(solid=solid, liquid=0.03 * saturated),
+        "air": hot.replace(gas=jnp.array([3.0, 0.03])),
+        "liquor": warm.replace(solid=0.1 * solid, liquid=liquor),
+        "wet air": warm.replace(gas=jnp.array([1.0, 0.08])),
+        "dusty air": warm.replace(solid=0.1 * solid, gas=jnp.array([0.5, 0.01])),
+        "water": cold.replace(liquid=0.1 * jnp.eye(len(liquids))[0]),
+    }
 
 
 SPECIAL = {
-    "streams.mixer": {"one": "slurry", "two": "dusty air"}, "streams.humid_mixer": {"one": "wet air", "two": "air"},
-    "streams.adiabatic_humidifier": {"gas": "air", "water": "water"}, "streams.condenser_cooler": {"gas": "wet air"},
-    "streams.dehumidifying_coil": {"gas": "wet air"}, "cyclones.gas_cyclone": {"feed": "dusty air"},
-    "fluidization.fluidized_bed": {"feed": "dusty air"}, "drying.spray_dryer": {"feed": "slurry", "gas": "air"},
-    "drying.freeze_dryer": {"feed": "slurry"}, "drying.drum_dryer": {"feed": "slurry"},
-}  # fmt: skip
+    "streams.mixer": {"one": "slurry", "two": "dusty air"},
+    "streams.humid_mixer": {"one": "wet air", "two": "air"},
+    "streams.adiabatic_humidifier": {"gas": "air", "water": "water"},
+    "streams.condenser_cooler": {"gas": "wet air"},
+    "streams.dehumidifying_coil": {"gas": "wet air"},
+    "cyclones.gas_cyclone": {"feed": "dusty air"},
+    "fluidization.fluidized_bed": {"feed": "dusty air"},
+    "drying.spray_dryer": {"feed": "slurry", "gas": "air"},
+    "drying.freeze_dryer": {"feed": "slurry"},
+    "drying.drum_dryer": {"feed": "slurry"},
+}
 
 
 def inlets(key: str, unit: Unit) -> dict[str, Stream]:
@@ -168,11 +316,17 @@ def through(unit: Unit, given: dict[str, Stream]) -> Any:
 
     def totals(streams: dict[str, Stream]) -> tuple[Any, ...]:
         # quartz neither dissolves nor crystallizes: each class of porosity keeps what it has
-        return (sum(s.components for s in streams.values()), sum(s.enthalpy_flow for s in streams.values()),
-                sum(jnp.sum(s.solid[1], axis=0) for s in streams.values()), sum(jnp.abs(s.enthalpy_flow) for s in streams.values()))  # fmt: skip
+        return (
+            sum(s.components for s in streams.values()),
+            sum(s.enthalpy_flow for s in streams.values()),
+            sum(jnp.sum(s.solid[1], axis=0) for s in streams.values()),
+            sum(jnp.abs(s.enthalpy_flow) for s in streams.values()),
+        )
 
     powers = sum((getattr(out, name) for name in unit.power_names()), jnp.zeros(()))
-    lowest = jnp.stack([jnp.min(jnp.concatenate([jnp.ravel(s.solid), s.liquid, s.gas])) for s in made.values()])
+    lowest = jnp.stack(
+        [jnp.min(jnp.concatenate([jnp.ravel(s.solid), s.liquid, s.gas])) for s in made.values()]
+    )
     return totals(given), totals(made), powers, lowest
 
 

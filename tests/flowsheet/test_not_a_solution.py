@@ -1,4 +1,6 @@
-"""What is not a solution is not a result: every way in which a line can be wrong ends in one sentence that names unit and cause."""
+"""What is not a solution is not a result: every way in which a line can be wrong ends in one sentence that
+names unit and cause.
+"""
 
 from __future__ import annotations
 
@@ -57,9 +59,19 @@ class Unsettled(Mixer):
 
 def loop(middle) -> Line:
     """The recycle of the other tests, with one unit between the mixer and the splitter."""
-    units = {"mix": Mixer(), "middle": middle, "split": Splitter(side_fraction=0.7), "cool": Heater(temperature=300.0)}
-    links = {"feed": ("", "mix.fresh"), "mixed": ("mix", "middle.feed"), "hot": ("middle", "split"), "back_hot": ("split.side", "cool"),
-             "back": ("cool", "mix.back")}  # fmt: skip
+    units = {
+        "mix": Mixer(),
+        "middle": middle,
+        "split": Splitter(side_fraction=0.7),
+        "cool": Heater(temperature=300.0),
+    }
+    links = {
+        "feed": ("", "mix.fresh"),
+        "mixed": ("mix", "middle.feed"),
+        "hot": ("middle", "split"),
+        "back_hot": ("split.side", "cool"),
+        "back": ("cool", "mix.back"),
+    }
     return Line("loop", Flowsheet(units, {"feed": FEED}, links))
 
 
@@ -71,12 +83,15 @@ def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
     return caught.value
 
 
-@pytest.mark.parametrize(("unit", "words"), [
-    (Leak(), "'middle' does not conserve water"),
-    (Warmer(), "energy balance of unit 'middle'"),
-    (Nowhere(), "from unit 'middle' has no temperature"),
-    (Unsettled(), "Unit 'middle' has no solution"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("unit", "words"),
+    [
+        (Leak(), "'middle' does not conserve water"),
+        (Warmer(), "energy balance of unit 'middle'"),
+        (Nowhere(), "from unit 'middle' has no temperature"),
+        (Unsettled(), "Unit 'middle' has no solution"),
+    ],
+)
 def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:
     problem = refusal(loop(unit))
     assert words in problem.message
@@ -95,12 +110,19 @@ class Thirsty(Mixer):
 def test_a_loop_starts_though_a_unit_waits_for_what_comes_round() -> None:
     """The torn stream is empty at first: the unit behind it gave no number, and none came round for ever."""
     units = {"dryer": Thirsty(), "split": Splitter(side_fraction=0.5), "mix": Mixer()}
-    links = {"cake": ("", "dryer.cake"), "air": ("", "mix.fresh"), "hot": ("mix", "dryer.gas"), "exhaust": ("dryer", "split"),
-             "back": ("split.side", "mix.back")}  # fmt: skip
+    links = {
+        "cake": ("", "dryer.cake"),
+        "air": ("", "mix.fresh"),
+        "hot": ("mix", "dryer.gas"),
+        "exhaust": ("dryer", "split"),
+        "back": ("split.side", "mix.back"),
+    }
     line = Line("waiting", Flowsheet(units, {"cake": FEED, "air": FEED}, links))
     assert [block.tears for block in line.sheet.blocks if block.tears] == [("hot",)]
     run = line.solve()
-    assert float(run.streams["exhaust"].mass_flow) == pytest.approx(4.0, rel=1e-10)  # two enter, half of it goes round
+    assert float(run.streams["exhaust"].mass_flow) == pytest.approx(
+        4.0, rel=1e-10
+    )  # two enter, half of it goes round
 
 
 def test_a_loop_that_nothing_starts_names_the_unit_that_waits() -> None:
@@ -131,7 +153,13 @@ model = "{model}"
 
 
 def air(tmp_path: Path, **words: str) -> Line:
-    given = {"liquids": '["water"]', "gases": '["dry air", "water"]', "unit": "mix", "humidity": "95 %", "model": "streams.mixer"} | words
+    given = {
+        "liquids": '["water"]',
+        "gases": '["dry air", "water"]',
+        "unit": "mix",
+        "humidity": "95 %",
+        "model": "streams.mixer",
+    } | words
     text = AIR.format(**given)
     path = tmp_path / "line.toml"
     path.write_text(text)
@@ -139,7 +167,9 @@ def air(tmp_path: Path, **words: str) -> Line:
 
 
 def test_fog_is_no_gas(tmp_path: Path) -> None:
-    """Two airs near saturation lie on a chord above the saturation curve: a dry mixing point must say so, the humid one makes drops."""
+    """Two airs near saturation lie on a chord above the saturation curve: a dry mixing point must say so, the
+    humid one makes drops.
+    """
     problem = refusal(air(tmp_path))
     assert "mix" in problem.message
     assert "humid_mixer" in problem.message
@@ -148,7 +178,9 @@ def test_fog_is_no_gas(tmp_path: Path) -> None:
 
 
 def test_relative_humidity_of_a_feed_is_that_of_its_own_vapor(tmp_path: Path) -> None:
-    """Ethanol at 40 °C: 134.1 mmHg by Antoine (8.11220, 1592.864, 226.184); half of it in nitrogen, by moles, whatever the order."""
+    """Ethanol at 40 °C: 134.1 mmHg by Antoine (8.11220, 1592.864, 226.184); half of it in nitrogen, by moles,
+    whatever the order.
+    """
     p = 10 ** (8.11220 - 1592.864 / (226.184 + 40.0)) / 760.0
     expected = 0.5 * p / (1 - 0.5 * p) * 46.069 / 28.013
     for gases in ('["nitrogen", "ethanol"]', '["ethanol", "nitrogen"]'):
@@ -181,13 +213,24 @@ model = "drying.{model}"
 CONVECTIVE = 'temperature_inlet = "120 degC"\nmoisture_outlet = "1 %"'
 
 
-@pytest.mark.parametrize(("liquids", "gases", "gas"), [
-    ('["water"]', '["water", "dry air"]', '{ "dry air" = 0.99, water = 0.01 }'),
-    ('["water"]', '["dry air", "nitrogen", "water"]', '{ "dry air" = 0.5, nitrogen = 0.49, water = 0.01 }'),
-    ('["ethanol"]', '["nitrogen", "ethanol"]', '{ nitrogen = 1.0 }'),
-])  # fmt: skip
 @pytest.mark.parametrize(
-    ("model", "more"), [("convective_dryer", CONVECTIVE), ("well_mixed_dryer", 'residence_time = "10 min"\ngas_velocity = "1 m/s"')]
+    ("liquids", "gases", "gas"),
+    [
+        ('["water"]', '["water", "dry air"]', '{ "dry air" = 0.99, water = 0.01 }'),
+        (
+            '["water"]',
+            '["dry air", "nitrogen", "water"]',
+            '{ "dry air" = 0.5, nitrogen = 0.49, water = 0.01 }',
+        ),
+        ('["ethanol"]', '["nitrogen", "ethanol"]', "{ nitrogen = 1.0 }"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("model", "more"),
+    [
+        ("convective_dryer", CONVECTIVE),
+        ("well_mixed_dryer", 'residence_time = "10 min"\ngas_velocity = "1 m/s"'),
+    ],
 )
 def test_a_dryer_knows_its_vapor_wherever_it_stands(tmp_path, liquids, gases, gas, model, more) -> None:
     path = tmp_path / "dryer.toml"
@@ -195,9 +238,15 @@ def test_a_dryer_knows_its_vapor_wherever_it_stands(tmp_path, liquids, gases, ga
     run = gr.read(path).solve()
     assert run.audit["mass_closure"] < 1e-9
     assert run.audit["energy_closure"] < 1e-9
-    humidity = run.figure("dryer.humidity_ratio_outlet" if model == "convective_dryer" else "dryer.humidity_ratio")
-    vapor = run.figure("dryer.evaporation_rate") + (0.0 if "nitrogen = 1.0" in gas else 0.01 * 1000.0 / 3600.0)
-    assert humidity == pytest.approx(vapor / (1000.0 / 3600.0 * (1.0 if "nitrogen = 1.0" in gas else 0.99)), rel=1e-9)
+    humidity = run.figure(
+        "dryer.humidity_ratio_outlet" if model == "convective_dryer" else "dryer.humidity_ratio"
+    )
+    vapor = run.figure("dryer.evaporation_rate") + (
+        0.0 if "nitrogen = 1.0" in gas else 0.01 * 1000.0 / 3600.0
+    )
+    assert humidity == pytest.approx(
+        vapor / (1000.0 / 3600.0 * (1.0 if "nitrogen = 1.0" in gas else 0.99)), rel=1e-9
+    )
 
 
 def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:

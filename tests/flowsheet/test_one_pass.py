@@ -35,10 +35,14 @@ def test_run_note_study_and_course_tell_the_same_flags(line) -> None:
     """Saxena and Vogel's law stands on coarse dolomite: the sand of this bed lies outside, whoever asks."""
     run = line.solve()
     steady = told(run.flags)
-    assert ("extrapolated", "fluidization.minimum_fluidization_velocity_saxena_vogel", "reynolds") in steady or any(
-        flag == "extrapolated" and "saxena_vogel" in card for flag, card, _name in steady
+    assert (
+        "extrapolated",
+        "fluidization.minimum_fluidization_velocity_saxena_vogel",
+        "reynolds",
+    ) in steady or any(flag == "extrapolated" and "saxena_vogel" in card for flag, card, _name in steady)
+    assert (
+        told(row for _steps, made in run._written.values() for row in flags.describe(made.records)) == steady
     )
-    assert told(row for _steps, made in run._written.values() for row in flags.describe(made.records)) == steady
     course = march(line.sheet, np.linspace(0.0, 2.0, 3))
     assert told(course.flags) == steady
     assert all(row["count"] == 3 for row in course.flags if row["flag"] == "extrapolated")
@@ -49,8 +53,12 @@ def test_run_note_study_and_course_tell_the_same_flags(line) -> None:
 def test_note_and_run_have_the_same_checks_and_figures(line) -> None:
     run = line.solve()
     report, (_steps, made) = run.units["bed"], run._written["bed"]
-    assert [(c.name, c.low, c.high, c.source) for c in report.checks] == [(c.name, c.low, c.high, c.source) for c in made.checks]
-    assert [float(c.value) for c in report.checks] == pytest.approx([float(c.value) for c in made.checks], rel=1e-12)
+    assert [(c.name, c.low, c.high, c.source) for c in report.checks] == [
+        (c.name, c.low, c.high, c.source) for c in made.checks
+    ]
+    assert [float(c.value) for c in report.checks] == pytest.approx(
+        [float(c.value) for c in made.checks], rel=1e-12
+    )
     assert list(map(float, report.values)) == pytest.approx(list(map(float, made.figures)), rel=1e-12)
 
 
@@ -62,7 +70,9 @@ def test_limits_are_known_before_anything_is_calculated() -> None:
 
 
 def test_a_sheet_built_in_python_is_solved_audited_and_reported(line, tmp_path) -> None:
-    run = Flowsheet(line.sheet.units, line.sheet.feeds, {k.name: (k.origin, k.target) for k in line.sheet.links}).solve(title="By hand")
+    run = Flowsheet(
+        line.sheet.units, line.sheet.feeds, {k.name: (k.origin, k.target) for k in line.sheet.links}
+    ).solve(title="By hand")
     assert run.figure("bed.pressure_drop") == pytest.approx(line.solve().figure("bed.pressure_drop"))
     run.report(tmp_path / "by_hand.html")
     assert "By hand" in (tmp_path / "by_hand.html").read_text(encoding="utf-8")

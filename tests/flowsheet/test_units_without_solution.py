@@ -1,4 +1,6 @@
-"""A unit that cannot do what it is asked says so in its own words: no stream of it carries a number that is none."""
+"""A unit that cannot do what it is asked says so in its own words: no stream of it carries a number that is
+none.
+"""
 
 from __future__ import annotations
 
@@ -69,32 +71,45 @@ liquid_flow = "1 g/s"
 LOST = 'heat_loss = "1 GW"\n'
 CONVECTIVE = 'model = "drying.convective_dryer"\ntemperature_inlet = "120 degC"\n' + LOST
 CASES = {
-    "convective": (WET + CONVECTIVE + 'moisture_outlet = "1 %"' + AIR.format(temperature="20 degC"), "No temperature of the exhaust"),
+    "convective": (
+        WET + CONVECTIVE + 'moisture_outlet = "1 %"' + AIR.format(temperature="20 degC"),
+        "No temperature of the exhaust",
+    ),
     "convective, humid": (
-        WET + CONVECTIVE + 'relative_humidity_outlet = "60 %"' + AIR.format(temperature="20 degC"), "No temperature of the exhaust"
+        WET + CONVECTIVE + 'relative_humidity_outlet = "60 %"' + AIR.format(temperature="20 degC"),
+        "No temperature of the exhaust",
     ),
     "well mixed": (
-        WET + 'model = "drying.well_mixed_dryer"\nresidence_time = "10 min"\ngas_velocity = "1 m/s"\n' + LOST + AIR.format(temperature="120 degC"),
+        WET
+        + 'model = "drying.well_mixed_dryer"\nresidence_time = "10 min"\ngas_velocity = "1 m/s"\n'
+        + LOST
+        + AIR.format(temperature="120 degC"),
         "No temperature of the bed",
     ),
     "closed": (
         WET + 'model = "drying.closed_dryer"\ntemperature_inlet = "60 degC"\nmoisture_outlet = "1 %"\n'
-        'drying_circuit = { law = "circuit_heat_pump", relative_humidity_outlet = "5 %", coil_temperature = "50 degC" }\n',  # a coil too warm
+        # a coil too warm
+        'drying_circuit = { law = "circuit_heat_pump", relative_humidity_outlet = "5 %", coil_temperature = "50 degC" }\n',  # noqa: E501
         "No temperature of the outlet air",
     ),
     "tray": (
-        WET + 'model = "drying.tray_dryer"\ntemperature_inlet = "-100 degC"\ngas_velocity = "2 m/s"\ndry_mass_per_area = "20 kg/m^2"\n'
-        'moisture_outlet = "1 %"\ncritical_moisture = "5 %"\n' + AIR.format(temperature="-10 degC"), "No temperature of the wet surface"
+        WET
+        + 'model = "drying.tray_dryer"\ntemperature_inlet = "-100 degC"\ngas_velocity = "2 m/s"\ndry_mass_per_area = "20 kg/m^2"\n'  # noqa: E501
+        'moisture_outlet = "1 %"\ncritical_moisture = "5 %"\n' + AIR.format(temperature="-10 degC"),
+        "No temperature of the wet surface",
     ),
     "coil": (
-        GAS.format(temperature="20 degC") + '[units.unit]\nmodel = "streams.dehumidifying_coil"\ncoil_temperature = "-100 degC"\n'
-        "coil_bypass_fraction = 0.0\n", "No temperature was found at which gas and liquid"
+        GAS.format(temperature="20 degC")
+        + '[units.unit]\nmodel = "streams.dehumidifying_coil"\ncoil_temperature = "-100 degC"\n'
+        "coil_bypass_fraction = 0.0\n",
+        "No temperature was found at which gas and liquid",
     ),
     "humidifier": (
-        GAS.format(temperature="-80 degC") + SPRAY + '[units.unit]\nmodel = "streams.adiabatic_humidifier"\n', "No temperature was found at which gas and liquid"
+        GAS.format(temperature="-80 degC") + SPRAY + '[units.unit]\nmodel = "streams.adiabatic_humidifier"\n',
+        "No temperature was found at which gas and liquid",
     ),
     "humid mixer": (MIXER, "No temperature was found at which gas and liquid"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -124,20 +139,30 @@ class Cooler(Mixer):
 def test_a_stream_whose_heat_no_temperature_carries() -> None:
     water = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
     feed = empty(Mixture((), (water,), (), (1e-6, 1e-3)), 330.0).replace(liquid=jnp.array([1.0]))
-    told = refused({"first": Cooler(), "then": Heater(temperature=300.0)}, feed, {"feed": ("", "first.feed"), "cold": ("first", "then")})
+    told = refused(
+        {"first": Cooler(), "then": Heater(temperature=300.0)},
+        feed,
+        {"feed": ("", "first.feed"), "cold": ("first", "then")},
+    )
     assert "Stream 'cold' from unit 'first' has no temperature at which it carries the heat" in told
 
 
 def test_an_agglomerator_whose_sizes_do_not_settle(monkeypatch: pytest.MonkeyPatch) -> None:
     """Stopped after two of the passes that a strong kernel needs."""
     monkeypatch.setattr(
-        agglomerator, "settle", lambda step, start, tolerance, max_steps: settle(step, start, tolerance=tolerance, max_steps=2)
+        agglomerator,
+        "settle",
+        lambda step, start, tolerance, max_steps: settle(step, start, tolerance=tolerance, max_steps=2),
     )
     sand = Species("sand", (("sand", 1.0),), (2000.0,), (800.0,), 0.0, 0.06)
-    feed = empty(Mixture((sand,), (), (), (1e-4, 2e-4, 4e-4, 8e-4)), 300.0).replace(solid=jnp.array([[0.01, 0.0, 0.0]]))
+    feed = empty(Mixture((sand,), (), (), (1e-4, 2e-4, 4e-4, 8e-4)), 300.0).replace(
+        solid=jnp.array([[0.01, 0.0, 0.0]])
+    )
     kernel = {"law": "constant_kernel", "agglomeration_coefficient": 2e-13}
     bed = registry.find("streams.agglomerator")(agglomeration_kernel=kernel, holdup_mass=20.0, volume=0.5)
-    assert "The steady sizes in the agglomerator were not found" in refused({"bed": bed}, feed, {"feed": ("", "bed")})
+    assert "The steady sizes in the agglomerator were not found" in refused(
+        {"bed": bed}, feed, {"feed": ("", "bed")}
+    )
 
 
 SALINE = """
@@ -155,25 +180,35 @@ liquid = { water = 0.8, paracetamol = 0.2 }
 solubility = { law = "library_solubility", solute = "paracetamol" }
 growth = { law = "power_law_growth", growth_coefficient = "1e-6 m/s", growth_order = 1.0 }
 nucleation = { law = "secondary_nucleation", nucleation_coefficient = "1e7 1/(m^3*s)", nucleation_order = 1.5 }
-"""
+"""  # noqa: E501
 VESSELS = {
     "continuous": 'model = "crystallization.msmpr"\ntemperature = "{temperature}"\nvolume = "2 m^3"\n',
-    "batch": 'model = "crystallization.batch_crystallizer"\nduration = "1 hour"\nseed_mass_per_solvent = 0.01\n'
-    'temperature_program = {{ law = "power_cooling", temperature_start = "{temperature}", temperature_end = "15 degC", duration = "1 hour" }}\n',
-    "vacuum": 'model = "crystallization.vacuum_crystallizer"\ntemperature = "{temperature}"\nvolume = "2 m^3"\n',
+    "batch": 'model = "crystallization.batch_crystallizer"\nduration = "1 hour"\nseed_mass_per_solvent = 0.01\n'  # noqa: E501
+    'temperature_program = {{ law = "power_cooling", temperature_start = "{temperature}", temperature_end = "15 degC", duration = "1 hour" }}\n',  # noqa: E501
+    "vacuum": 'model = "crystallization.vacuum_crystallizer"\ntemperature = "{temperature}"\nvolume = "2 m^3"\n',  # noqa: E501
 }
 
 
 def vessel(path: Path, kind: str, temperature: str, classes: int = 13) -> Line:
-    path.write_text('title = "crystals"\n' + SALINE.replace("13", str(classes)) + VESSELS[kind].format(temperature=temperature))
+    path.write_text(
+        'title = "crystals"\n'
+        + SALINE.replace("13", str(classes))
+        + VESSELS[kind].format(temperature=temperature)
+    )
     return gr.read(path)
 
 
-def test_a_crystallizer_whose_supersaturation_is_not_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_crystallizer_whose_supersaturation_is_not_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     found = msmpr.steady_msmpr
-    monkeypatch.setattr(msmpr, "steady_msmpr", lambda *given: found(*given)._replace(converged=jnp.asarray(False)))
+    monkeypatch.setattr(
+        msmpr, "steady_msmpr", lambda *given: found(*given)._replace(converged=jnp.asarray(False))
+    )
     with pytest.raises(ConvergenceError) as caught:
-        vessel(tmp_path / "line.toml", "continuous", "20 degC", 11).solve()  # compiled for itself, being patched
+        vessel(
+            tmp_path / "line.toml", "continuous", "20 degC", 11
+        ).solve()  # compiled for itself, being patched
     assert "Unit 'vessel' has no solution: No supersaturation was found" in caught.value.message
     assert caught.value.exit_code == 3
 
@@ -187,9 +222,14 @@ def test_a_crystallizer_that_would_have_to_take_vapor_in(tmp_path: Path) -> None
 def test_a_crystallizer_beyond_the_data_of_its_solubility_says_so(tmp_path: Path, kind: str) -> None:
     """The data of paracetamol in water end at 30 °C."""
     line = vessel(tmp_path / "line.toml", kind, "60 degC")
-    told = [row for row in line.solve().flags if row["flag"] == "extrapolated" and "paracetamol" in row["card"]]
+    told = [
+        row for row in line.solve().flags if row["flag"] == "extrapolated" and "paracetamol" in row["card"]
+    ]
     assert [row["worst"] for row in told] == [pytest.approx(333.15)]
-    inside = {"continuous": {"vessel.temperature": 293.15}, "batch": {"vessel.temperature_program.temperature_start": 303.15}}[kind]
+    inside = {
+        "continuous": {"vessel.temperature": 293.15},
+        "batch": {"vessel.temperature_program.temperature_start": 303.15},
+    }[kind]
     assert not [row for row in line.with_values(**inside).solve().flags if "paracetamol" in row["card"]]
 
 
@@ -204,4 +244,6 @@ def test_a_screen_finer_than_its_capacity_law() -> None:
     sand = Species("sand", (("sand", 1.0),), (2000.0,), (800.0,), 0.0, 0.06)
     feed = empty(Mixture((sand,), (), (), (1e-4, 2e-4, 4e-4, 8e-4)), 300.0).replace(solid=jnp.ones((1, 3)))
     screen = registry.find("comminution.vibrating_screen")(aperture=3e-4, screen_area=2.0)
-    assert "Karra's capacity falls to zero there" in refused({"screen": screen}, feed, {"feed": ("", "screen")})
+    assert "Karra's capacity falls to zero there" in refused(
+        {"screen": screen}, feed, {"feed": ("", "screen")}
+    )

@@ -22,7 +22,9 @@ MIXTURE = Mixture(
 
 
 def test_balance_and_entrainment() -> None:
-    feed = empty(MIXTURE).replace(solid=jnp.full((1, 10), 0.05), gas=jnp.array([1.2]), pressure=jnp.asarray(1.1e5))
+    feed = empty(MIXTURE).replace(
+        solid=jnp.full((1, 10), 0.05), gas=jnp.array([1.2]), pressure=jnp.asarray(1.1e5)
+    )
     bed = FluidizedBed(area=1.5, mass=800.0)
     out = eqx.filter_jit(bed)(feed)
     assert float(closure([feed], list(out)).mass) < 1e-12
@@ -33,7 +35,9 @@ def test_balance_and_entrainment() -> None:
     assert share[-1] == 0.0
     # what is entrained of a class is K* A times its fraction in the bed, which is that of the product
     fraction = np.asarray(out.product.solid / jnp.sum(out.product.solid))[0]
-    np.testing.assert_allclose(np.asarray(out.gas.solid)[0], np.asarray(bed.rates(feed, bed.inside(feed)))[0] * fraction, rtol=1e-6)
+    np.testing.assert_allclose(
+        np.asarray(out.gas.solid)[0], np.asarray(bed.rates(feed, bed.inside(feed)))[0] * fraction, rtol=1e-6
+    )
     figures = bed.operate(feed=feed).figures
     assert all(np.isfinite(float(x)) for x in figures)
     assert figures.minimum_fluidization_velocity < figures.superficial_velocity
@@ -43,7 +47,9 @@ def test_balance_and_entrainment() -> None:
 
 
 def test_sizing() -> None:
-    bed = FluidizedBed.size(gas_volume_flow=1.0, superficial_velocity=0.5, residence_time=600.0, solid_mass_flow=0.5)
+    bed = FluidizedBed.size(
+        gas_volume_flow=1.0, superficial_velocity=0.5, residence_time=600.0, solid_mass_flow=0.5
+    )
     assert (bed.area, bed.mass) == (2.0, 300.0)
 
 

@@ -25,7 +25,10 @@ def made(noise=0.0, up=False):
 def test_recovers_velocity_and_void_fraction() -> None:
     U, dp = made(noise=25.0)
     found = PressureCurve(U, dp, **BED, mass=0.3 * 0.57 * 2500 * 0.01, area=0.01).fit()
-    velocity, void = found["minimum_fluidization_velocity"].interval_95, found["bed_void_fraction"].interval_95
+    velocity, void = (
+        found["minimum_fluidization_velocity"].interval_95,
+        found["bed_void_fraction"].interval_95,
+    )
     assert velocity[0] < 0.04 < velocity[1]
     assert velocity[1] - velocity[0] < 0.004
     assert void[0] < 0.43 < void[1]
@@ -54,7 +57,9 @@ def test_hysteresis_and_charts() -> None:
     assert np.all(found.pressure_drop_rising >= found.pressure_drop_falling - 1e-9)
     assert found.pressure_drop_rising.max() > 1.05 * found.plateau_pressure_drop
     assert found.pressure_drop_falling[-1] == pytest.approx(found.plateau_pressure_drop)
-    at = np.interp(found.minimum_fluidization_velocity, found.superficial_velocity, found.pressure_drop_falling)
+    at = np.interp(
+        found.minimum_fluidization_velocity, found.superficial_velocity, found.pressure_drop_falling
+    )
     assert at == pytest.approx(found.plateau_pressure_drop, rel=1e-2)
     assert len(curve.pressure_velocity_chart(0.5, 2e-4, 2600.0, 1.2, 1.8e-5).data) == 4
     assert len(curve.geldart_chart(2e-4, 2600.0).data) == 4

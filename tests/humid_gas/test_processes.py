@@ -8,7 +8,11 @@ import pytest
 from granum.core.errors import InputError
 from granum.humid_gas.charts import mollier_chart, psychrometric_chart
 from granum.humid_gas.formulas import processes as p
-from granum.humid_gas.formulas.properties import enthalpy_linear, humidity_ratio_saturated, wet_bulb_temperature
+from granum.humid_gas.formulas.properties import (
+    enthalpy_linear,
+    humidity_ratio_saturated,
+    wet_bulb_temperature,
+)
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.solvents import AirToluene, GasAndVapor, NitrogenEthanol
 from granum.materials import gas_vapor
@@ -37,14 +41,19 @@ def test_closure() -> None:
     assert cold.humidity_ratio == pytest.approx(humidity_ratio_saturated(10 + C), rel=1e-9)
     # adiabatic drying follows a line of constant wet bulb; isenthalpic drying is the slope zero
     out = p.adiabatic_drying(80 + C, 0.01, 0.02)
-    assert wet_bulb_temperature(out.temperature, 0.02) == pytest.approx(wet_bulb_temperature(80 + C, 0.01), rel=1e-9)
-    assert p.real_drying(80 + C, 0.01, 0.02).enthalpy == pytest.approx(state(temperature=80 + C, humidity_ratio=0.01).enthalpy)
+    assert wet_bulb_temperature(out.temperature, 0.02) == pytest.approx(
+        wet_bulb_temperature(80 + C, 0.01), rel=1e-9
+    )
+    assert p.real_drying(80 + C, 0.01, 0.02).enthalpy == pytest.approx(
+        state(temperature=80 + C, humidity_ratio=0.01).enthalpy
+    )
     loop = p.recirculation(0.01, 0.01, 0.8, 5.0)
     assert loop.dry_gas_flow_fresh * (loop.humidity_ratio_outlet - 0.01) == pytest.approx(5.0 * 0.01)
 
 
 def test_combustion_of_methane() -> None:
-    # adiabatic flame of methane with 3 times the air: 3·17.2 = 51.6 kg air, 2.25 kg water; (50 MJ + sensible)/mean heat capacity by hand ≈ 860 °C
+    # adiabatic flame of methane with 3 times the air: 3·17.2 = 51.6 kg air, 2.25 kg water; (50 MJ +
+    # sensible)/mean heat capacity by hand ≈ 860 °C
     gas = p.combustion_gas(0.7487, 0.2513, 50.0e6, 3.0, 25 + C, 0.0)
     assert gas.air_per_fuel == pytest.approx(51.7, rel=0.01)
     assert gas.humidity_ratio == pytest.approx(2.246 / (51.7 + 1 - 2.246), rel=0.01)
@@ -53,7 +62,9 @@ def test_combustion_of_methane() -> None:
 
 def test_hand_form_of_the_notes() -> None:
     # D I.2.6: h = 1.01 θ + w (2494 + 1.92 θ)
-    assert enthalpy_linear(56.5 + C, 0.04, 1010.0, 1920.0, 2494e3) == pytest.approx(1e3 * (1.01 * 56.5 + 0.04 * (2494 + 1.92 * 56.5)))
+    assert enthalpy_linear(56.5 + C, 0.04, 1010.0, 1920.0, 2494e3) == pytest.approx(
+        1e3 * (1.01 * 56.5 + 0.04 * (2494 + 1.92 * 56.5))
+    )
 
 
 def test_solvents_have_two_wet_temperatures() -> None:
@@ -65,7 +76,9 @@ def test_solvents_have_two_wet_temperatures() -> None:
         assert gas.dew_point_temperature < gas.adiabatic_saturation_temperature
         assert 0 < y < 1
     # ethanol boils at 78.3 °C: its saturated gas is nearly pure vapor just below
-    assert state(temperature=78.2 + C, relative_humidity=1.0, pair=NitrogenEthanol()).vapor_mole_fraction > 0.98
+    assert (
+        state(temperature=78.2 + C, relative_humidity=1.0, pair=NitrogenEthanol()).vapor_mole_fraction > 0.98
+    )
     water = state(temperature=60 + C, relative_humidity=0.1, pair=GasAndVapor(gas="dry air", vapor="water"))
     assert water.adiabatic_saturation_temperature == pytest.approx(
         state(temperature=60 + C, relative_humidity=0.1).adiabatic_saturation_temperature, abs=0.05
@@ -81,7 +94,9 @@ def test_charts() -> None:
         assert any(t.type == "table" for t in drawing.data)
         hover = next(t for t in drawing.data if t.customdata is not None)
         assert np.isfinite(np.asarray(hover.customdata)).all()
-        marks = next(t for t in drawing.data if t.mode == "markers+text")  # every state lies inside the window
+        marks = next(
+            t for t in drawing.data if t.mode == "markers+text"
+        )  # every state lies inside the window
         for values, axis in ((marks.x, drawing.layout.xaxis), (marks.y, drawing.layout.yaxis)):
             assert axis.range[0] < min(values)
             assert max(values) < axis.range[1]
@@ -90,12 +105,22 @@ def test_charts() -> None:
 
 
 def test_lewis_factors_rest_on_diffusivities_and_psychrometers() -> None:
-    # measured in air, m² Pa/s (Welty, Wicks and Wilson, in Benitez, table A.1); Fuller's estimate is good for 5 to 10 %
-    measured = {"toluene": (298, 0.855), "ethanol": (298, 1.337), "methanol": (298, 1.641), "benzene": (298, 0.974),
-                "ethyl acetate": (273, 0.718), "water": (298, 2.634)}  # fmt: skip
+    # measured in air, m² Pa/s (Welty, Wicks and Wilson, in Benitez, table A.1); Fuller's estimate is good for
+    # 5 to 10 %
+    measured = {
+        "toluene": (298, 0.855),
+        "ethanol": (298, 1.337),
+        "methanol": (298, 1.641),
+        "benzene": (298, 0.974),
+        "ethyl acetate": (273, 0.718),
+        "water": (298, 2.634),
+    }
     for vapor, (T, product) in measured.items():
-        assert float(gas_vapor(vapor, "dry air").diffusivity(T, 1e5)) * 1e5 == pytest.approx(product, rel=0.08), vapor
-    # ratio of the coefficients over the heat capacity of the gas: toluene in air 1223 Sc^0.567 J/(kg K) with Sc 2.0 (Treybal, illustration
+        assert float(gas_vapor(vapor, "dry air").diffusivity(T, 1e5)) * 1e5 == pytest.approx(
+            product, rel=0.08
+        ), vapor
+    # ratio of the coefficients over the heat capacity of the gas: toluene in air 1223 Sc^0.567 J/(kg K) with
+    # Sc 2.0 (Treybal, illustration
     # 7.10), 1.73 (Benitez, 8.6); water in air 0.95 kJ/(kg K) (Treybal, 7.9)
     assert AirToluene().lewis_factor() == pytest.approx(1223 * 2.0**0.567 / 1005, rel=0.03)
     assert AirToluene().lewis_factor() == pytest.approx(1.73, rel=0.03)

@@ -1,4 +1,6 @@
-"""Real moist air against CoolProp 8.0.0 (HAPropsSI, the reference implementation of RP-1485) and ASHRAE's printed saturation table."""
+"""Real moist air against CoolProp 8.0.0 (HAPropsSI, the reference implementation of RP-1485) and ASHRAE's
+printed saturation table.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +14,10 @@ from granum.humid_gas.real_air import AIR_WATER_REAL as REAL
 # HAPropsSI('W' / 'H' / 'V', 'T', t + 273.15, 'P', P, 'R', 1): pressure, °C, kg/kg, J/kg, from CoolProp 8.0.0
 SATURATED = np.array([
     (1e4, -60, 6.73083e-05, -59782.3), (1e4, 20, 0.190206, 502980.0), (101325.0, -60, 6.68449e-06, -60325.2),
-    (101325.0, -20, 0.000637284, -18541.7), (101325.0, 1, 0.00407633, 11203.7), (101325.0, 20, 0.0147605, 57559.2),
-    (101325.0, 50, 0.0868629, 275353.0), (101325.0, 90, 1.42024, 3.86763e6), (1e6, -20, 6.71498e-05, -22787.3),
-    (1e6, 50, 0.00799306, 69252.2), (1e6, 150, 0.596704, 1.78724e6), (5e6, 20, 0.000339596, 9979.3), (5e6, 200, 0.328145, 1.10781e6),
-    (1e7, -20, 1.0398e-05, -48538.0), (1e7, 90, 0.00538723, 92501.8), (1e7, 250, 0.558811, 1.78352e6), (1e7, 300, 5.59881, 1.53319e7),
+    (101325.0, -20, 0.000637284, -18541.7), (101325.0, 1, 0.00407633, 11203.7), (101325.0, 20, 0.0147605, 57559.2),  # noqa: E501
+    (101325.0, 50, 0.0868629, 275353.0), (101325.0, 90, 1.42024, 3.86763e6), (1e6, -20, 6.71498e-05, -22787.3),  # noqa: E501
+    (1e6, 50, 0.00799306, 69252.2), (1e6, 150, 0.596704, 1.78724e6), (5e6, 20, 0.000339596, 9979.3), (5e6, 200, 0.328145, 1.10781e6),  # noqa: E501
+    (1e7, -20, 1.0398e-05, -48538.0), (1e7, 90, 0.00538723, 92501.8), (1e7, 250, 0.558811, 1.78352e6), (1e7, 300, 5.59881, 1.53319e7),  # noqa: E501
 ])  # fmt: skip
 
 
@@ -28,7 +30,8 @@ def test_saturated_air_against_reference_program() -> None:
 
 
 def test_printed_ashrae_table() -> None:
-    # ASHRAE Handbook Fundamentals, moist air at 101.325 kPa, saturated: 20 °C has W 0.014761, v 0.8498, h 57.555
+    # ASHRAE Handbook Fundamentals, moist air at 101.325 kPa, saturated: 20 °C has W 0.014761, v 0.8498, h
+    # 57.555
     air = state(temperature=293.15, relative_humidity=1.0, pair=REAL)
     assert air.humidity_ratio == pytest.approx(0.014761, rel=1e-4)
     assert air.specific_volume == pytest.approx(0.8498, rel=1e-4)

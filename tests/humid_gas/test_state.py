@@ -9,7 +9,12 @@ import pytest
 
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.flags import EXTRAPOLATED
-from granum.humid_gas.formulas.properties import enthalpy, humidity_ratio_saturated, pressure_at_altitude, wet_bulb_temperature
+from granum.humid_gas.formulas.properties import (
+    enthalpy,
+    humidity_ratio_saturated,
+    pressure_at_altitude,
+    wet_bulb_temperature,
+)
 from granum.humid_gas.formulas.state import state
 from granum.humid_gas.pairs import AIR_WATER
 
@@ -36,19 +41,36 @@ def test_readings_of_the_notes() -> None:
 
 
 def test_saturation_against_ashrae_table() -> None:
-    # ASHRAE Handbook Fundamentals, thermodynamic properties of moist air at 101.325 kPa (real gas, hence 0.5 %)
+    # ASHRAE Handbook Fundamentals, thermodynamic properties of moist air at 101.325 kPa (real gas, hence
+    # 0.5 %)
     t = np.array([-60.0, -40.0, -20.0, 0.0, 10.0, 20.0, 30.0, 50.0, 80.0, 90.0])
-    printed = np.array([0.0000067, 0.0000793, 0.0006373, 0.0037895, 0.0076606, 0.014758, 0.027329, 0.086858, 0.55295, 1.42031])
+    printed = np.array(
+        [
+            0.0000067,
+            0.0000793,
+            0.0006373,
+            0.0037895,
+            0.0076606,
+            0.014758,
+            0.027329,
+            0.086858,
+            0.55295,
+            1.42031,
+        ]
+    )
     np.testing.assert_allclose(humidity_ratio_saturated(temperature=t + C), printed, rtol=0.016)
     np.testing.assert_allclose(humidity_ratio_saturated(temperature=t[3:8] + C), printed[3:8], rtol=0.0062)
 
 
 def test_enthalpy_of_dry_air_at_one_atmosphere() -> None:
-    # ASHRAE's own equation 30, h = 1.006 t for dry air, and the real gas of RP-1485, which gives 1.0061 kJ/(kg K) at 20 °C
+    # ASHRAE's own equation 30, h = 1.006 t for dry air, and the real gas of RP-1485, which gives
+    # 1.0061 kJ/(kg K) at 20 °C
     t = np.array([-20.0, 10.0, 20.0, 30.0, 50.0])
     air = enthalpy(temperature=t + C, humidity_ratio=0.0)
     np.testing.assert_allclose(air, 1006.0 * t, atol=35.0)
-    np.testing.assert_allclose(air, enthalpy(temperature=t + C, humidity_ratio=0.0, pair="air_water_real"), atol=5.0)
+    np.testing.assert_allclose(
+        air, enthalpy(temperature=t + C, humidity_ratio=0.0, pair="air_water_real"), atol=5.0
+    )
     assert state(temperature="20 degC", humidity_ratio=0.0).humid_heat == pytest.approx(1006.1, abs=0.1)
 
 
@@ -58,11 +80,14 @@ def test_ideal_air_under_pressure_says_so() -> None:
         assert bool(found.flags & EXTRAPOLATED) is told, pressure
     assert found.notices[0]["message"].endswith("give the pair air_water_real, which is the real mixture.")
     assert "pressure = 30 bar" in found.notices[0]["message"]
-    assert not enthalpy.evaluate(temperature="50 degC", humidity_ratio=0.001, pressure="30 bar", pair="air_water_real").flags
+    assert not enthalpy.evaluate(
+        temperature="50 degC", humidity_ratio=0.001, pressure="30 bar", pair="air_water_real"
+    ).flags
 
 
 def test_percentage_humidity_humid_heat_and_saturation_pressure() -> None:
-    # By hand at 30 °C and 1 atm: p_s = 4.2470 kPa (steam tables), w_s = 0.62194·4.2470/(101.325 − 4.2470) = 0.027209
+    # By hand at 30 °C and 1 atm: p_s = 4.2470 kPa (steam tables), w_s = 0.62194·4.2470/(101.325 − 4.2470) =
+    # 0.027209
     air = state(temperature="30 degC", humidity_ratio=0.0136)
     assert air.saturation_pressure == pytest.approx(4247.0, rel=1e-4)
     assert air.percentage_humidity == pytest.approx(0.0136 / 0.027209, rel=2e-4)
@@ -92,7 +117,8 @@ def test_order_of_temperatures_and_hot_moist_gas() -> None:
     full = FULL
     assert np.all(full["dew_point_temperature"] <= full["wet_bulb_temperature"] + 1e-6)
     assert np.all(full["wet_bulb_temperature"] <= full["temperature"] + 1e-6)
-    # psychrolib issues 31 and 96: at 150 °C and w = 1 the wet bulb must lie below boiling. Energy by hand with steam-table values
+    # psychrolib issues 31 and 96: at 150 °C and w = 1 the wet bulb must lie below boiling. Energy by hand
+    # with steam-table values
     # (h_g 2656.5, h_l 367.4 kJ/kg at 87.7 °C; air 1.01 kJ/(kg K)) closes within 1 %.
     Ts = wet_bulb_temperature(temperature=150 + C, humidity_ratio=1.0)
     assert 86 + C < Ts < 89 + C
@@ -118,7 +144,8 @@ def test_fog() -> None:
 
 
 def test_impossible_states_name_the_limits() -> None:
-    # limits from steam tables: 2.339 kPa at 20 °C; dry air, cp 1.006, and saturated air, 47.8 kJ/kg, of a wet bulb of 17 °C
+    # limits from steam tables: 2.339 kPa at 20 °C; dry air, cp 1.006, and saturated air, 47.8 kJ/kg, of a wet
+    # bulb of 17 °C
     for given, limits in (
         ({"temperature": "20 degC", "vapor_pressure": "3 kPa"}, "0 … 2.339 kPa"),
         ({"wet_bulb_temperature": "17 degC", "enthalpy": "80 kJ/kg"}, "46.95 … 47.82 kJ/kg"),
@@ -136,9 +163,14 @@ def test_impossible_states_name_the_limits() -> None:
 
 @pytest.mark.parametrize(
     "given",
-    [{}, {"temperature": 300.0}, {"temperature": 300.0, "humidity_ratio": 0.01, "enthalpy": 5e4},
-     {"humidity_ratio": 0.01, "vapor_pressure": 900.0}, {"wet_bulb_temperature": 290.0, "adiabatic_saturation_temperature": 290.0}],
-)  # fmt: skip
+    [
+        {},
+        {"temperature": 300.0},
+        {"temperature": 300.0, "humidity_ratio": 0.01, "enthalpy": 5e4},
+        {"humidity_ratio": 0.01, "vapor_pressure": 900.0},
+        {"wet_bulb_temperature": 290.0, "adiabatic_saturation_temperature": 290.0},
+    ],
+)
 def test_wrong_count_of_inputs(given: dict) -> None:
     with pytest.raises(InputError) as found:
         state(**given)
@@ -150,7 +182,9 @@ def test_gradients_are_finite_everywhere() -> None:
     T = jnp.repeat(jnp.array([250.0, 273.15, 273.16, 300.0, 373.124, 420.0]), 4)
     ys = jnp.minimum(AIR_WATER.saturated_fraction(T, 101325.0, T < 273.16), 0.9)
     w = AIR_WATER.humidity_ratio(ys) * jnp.tile(jnp.array([0.0, 0.5, 1.0, 1.5]), 6)
-    total = jax.grad(lambda x: sum(jnp.sum(v) for v in state(temperature=x[0], humidity_ratio=x[1], pressure=x[2])))
+    total = jax.grad(
+        lambda x: sum(jnp.sum(v) for v in state(temperature=x[0], humidity_ratio=x[1], pressure=x[2]))
+    )
     slopes = jax.jit(jax.vmap(total))(jnp.stack([T, w, jnp.full_like(T, 101325.0)], axis=1))
     assert jnp.all(jnp.isfinite(slopes))
 

@@ -1,4 +1,6 @@
-"""Tests of the library begin with what is shipped: materials that another test read from a file are out of sight."""
+"""Tests of the library begin with what is shipped: materials that another test read from a file are out of
+sight.
+"""
 
 import pytest
 

@@ -15,13 +15,24 @@ from granum.core import flags
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.sources import bibliography, keys_of
 
-ROWS = list(csv.DictReader((Path(__file__).parent / "solvents_haynes2014.csv").read_text(encoding="utf-8").splitlines()))
+ROWS = list(
+    csv.DictReader(
+        (Path(__file__).parent / "solvents_haynes2014.csv").read_text(encoding="utf-8").splitlines()
+    )
+)
 # relative tolerances, set to the spread seen between the two handbooks; a few pairs differ by more
 TOLERANCE = {"density": 0.006, "viscosity": 0.035, "heat": 0.025, "surface": 0.02, "conductivity": 0.025}
-LOOSER = {("acetonitrile", "viscosity"): 0.08, ("acetonitrile", "conductivity"): 0.09, ("acetonitrile", "surface"): 0.08,
-          ("acetic acid", "viscosity"): 0.06, ("ethylene glycol", "viscosity"): 0.05, ("ethylene glycol", "heat"): 0.06}  # fmt: skip
+LOOSER = {
+    ("acetonitrile", "viscosity"): 0.08,
+    ("acetonitrile", "conductivity"): 0.09,
+    ("acetonitrile", "surface"): 0.08,
+    ("acetic acid", "viscosity"): 0.06,
+    ("ethylene glycol", "viscosity"): 0.05,
+    ("ethylene glycol", "heat"): 0.06,
+}
 
-# Perry's law for dimethylformamide, the only one at hand, boils one kelvin early; for tetrahydrofuran the handbook prints a round 65
+# Perry's law for dimethylformamide, the only one at hand, boils one kelvin early; for tetrahydrofuran the
+# handbook prints a round 65
 BOILING = {"N,N-dimethylformamide": 1.3, "tetrahydrofuran": 1.0}
 
 
@@ -45,13 +56,19 @@ def test_liquid_against_haynes(row: dict[str, str]) -> None:
             sort = column.split("_")[0]
             tolerance = LOOSER.get((row["fluid"], sort), TOLERANCE[sort])
             assert value() == pytest.approx(float(row[column]), rel=tolerance), column
-    assert boiling - 273.15 == pytest.approx(float(row["boiling_point [degC]"]), abs=BOILING.get(row["fluid"], 0.35))
+    assert boiling - 273.15 == pytest.approx(
+        float(row["boiling_point [degC]"]), abs=BOILING.get(row["fluid"], 0.35)
+    )
 
 
 def test_vapor_pressures_away_from_boiling() -> None:
-    """Ambrose and Sprake (1970) as in the NIST WebBook, log10(p/bar) = A − B/(T + C); McGarry's Wagner equations (1983) at 25 and 50 °C."""
+    """Ambrose and Sprake (1970) as in the NIST WebBook, log10(p/bar) = A − B/(T + C); McGarry's Wagner
+    equations (1983) at 25 and 50 °C.
+    """
     T = np.array([330.0, 345.0, 362.0])
-    np.testing.assert_allclose(m.fluid("2-propanol").vapor_pressure(T), 1e5 * 10 ** (4.861 - 1357.427 / (T - 75.814)), rtol=3e-3)
+    np.testing.assert_allclose(
+        m.fluid("2-propanol").vapor_pressure(T), 1e5 * 10 ** (4.861 - 1357.427 / (T - 75.814)), rtol=3e-3
+    )
     wagner = {
         "2-propanol": (-8.16927, -0.0943213, -8.1004, 7.85, 508.3, 4.74244e6),
         "methyl ethyl ketone": (-7.71476, 1.71061, -3.6877, -0.751692, 536.78, 4.22177e6),
@@ -65,7 +82,13 @@ def test_vapor_pressures_away_from_boiling() -> None:
 
 def test_vapor_properties_against_printed_values() -> None:
     """Poling appendix C: cp of the ideal gas at 298.15 K; Incropera table A.4: steam at 380 K."""
-    for name, printed in {"ethanol": 65.2, "acetone": 74.5, "methanol": 44.0, "toluene": 104.0, "acetonitrile": 52.3}.items():
+    for name, printed in {
+        "ethanol": 65.2,
+        "acetone": 74.5,
+        "methanol": 44.0,
+        "toluene": 104.0,
+        "acetonitrile": 52.3,
+    }.items():
         f = m.fluid(name)
         assert f.vapor_heat_capacity(298.15) * f.molar_mass == pytest.approx(printed, rel=0.02), name
     steam = m.fluid("water")
@@ -78,7 +101,9 @@ def test_enthalpies_join_at_the_heat_of_vaporization() -> None:
         f = m.fluid(name)
         T = float(f.boiling_temperature())
         step = float(f.vapor_enthalpy(T) - f.liquid_enthalpy(T))
-        assert step == pytest.approx(f.heat_of_vaporization(T), rel=0.035), name  # ideal-gas path against the measured step
+        assert step == pytest.approx(f.heat_of_vaporization(T), rel=0.035), (
+            name
+        )  # ideal-gas path against the measured step
         assert float(f.liquid_enthalpy(273.15)) == 0.0
         slope = float(jax.grad(f.liquid_enthalpy)(310.0))
         assert slope == pytest.approx(f.liquid_heat_capacity(310.0), rel=1e-6)

@@ -1,4 +1,6 @@
-"""Materials that a case names in its own files are its own: other cases, and the same case read again, are not touched by them."""
+"""Materials that a case names in its own files are its own: other cases, and the same case read again, are
+not touched by them.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,9 @@ def case(folder: Path, own: dict[str, float]) -> Path:
 def judged(line: granum.Line, own: dict[str, float]) -> None:
     """Volume and viscosity of what leaves, by hand."""
     product = line.solve().streams["mixer.product"]
-    assert float(product.slurry_volume_flow) == pytest.approx(2.0 / own["solid"] + 3.0 / own["liquid"], rel=1e-12)
+    assert float(product.slurry_volume_flow) == pytest.approx(
+        2.0 / own["solid"] + 3.0 / own["liquid"], rel=1e-12
+    )
     assert float(product.liquid_viscosity) == pytest.approx(own["viscosity"], rel=1e-12)
 
 

@@ -11,13 +11,43 @@ from granum.core.errors import InputError
 from granum.core.sources import bibliography, keys_of
 from granum.materials.correlation import Correlation
 
-# J/(kg K) near 25 °C from other tables than the library's: JANAF (quartz, corundum, hematite, magnetite, periclase, halite …)
-HEAT_CAPACITY = {"quartz": 742, "calcite": 819, "alumina": 775, "hematite": 651, "magnetite": 650, "rutile": 690, "magnesia": 922,
-                 "lime": 764, "barite": 437, "pyrite": 519, "galena": 207, "sphalerite": 473, "sodium chloride": 858,
-                 "potassium chloride": 688, "silicon carbide": 670, "starch": 1550, "sucrose": 1244, "copper sulfate pentahydrate": 1126}  # fmt: skip
-DENSITY = {"potassium nitrate": 2109, "sodium chloride": 2165, "potassium chloride": 1984, "copper sulfate pentahydrate": 2286,
-           "potassium sulfate": 2660, "sodium sulfate": 2680, "sodium sulfate decahydrate": 1464, "magnesium sulfate heptahydrate": 1680,
-           "potassium alum": 1757, "sucrose": 1588, "ammonium sulfate": 1769, "borax": 1730, "sodium nitrate": 2260}  # fmt: skip
+# J/(kg K) near 25 °C from other tables than the library's: JANAF (quartz, corundum, hematite, magnetite,
+# periclase, halite …)
+HEAT_CAPACITY = {
+    "quartz": 742,
+    "calcite": 819,
+    "alumina": 775,
+    "hematite": 651,
+    "magnetite": 650,
+    "rutile": 690,
+    "magnesia": 922,
+    "lime": 764,
+    "barite": 437,
+    "pyrite": 519,
+    "galena": 207,
+    "sphalerite": 473,
+    "sodium chloride": 858,
+    "potassium chloride": 688,
+    "silicon carbide": 670,
+    "starch": 1550,
+    "sucrose": 1244,
+    "copper sulfate pentahydrate": 1126,
+}
+DENSITY = {
+    "potassium nitrate": 2109,
+    "sodium chloride": 2165,
+    "potassium chloride": 1984,
+    "copper sulfate pentahydrate": 2286,
+    "potassium sulfate": 2660,
+    "sodium sulfate": 2680,
+    "sodium sulfate decahydrate": 1464,
+    "magnesium sulfate heptahydrate": 1680,
+    "potassium alum": 1757,
+    "sucrose": 1588,
+    "ammonium sulfate": 1769,
+    "borax": 1730,
+    "sodium nitrate": 2260,
+}
 
 
 @pytest.mark.parametrize("name", HEAT_CAPACITY)
@@ -65,7 +95,7 @@ form = "vant_hoff"
 coefficients = [2.0, -1000.0]
 range = [273.15, 353.15]
 source = "own data"
-"""
+"""  # noqa: E501
 
 
 def test_own_materials_from_a_file(tmp_path: Path) -> None:
@@ -91,7 +121,13 @@ def test_own_materials_from_a_file(tmp_path: Path) -> None:
         ("[solid.a]\ndensity = { value = 2.0 }", "source"),
         ("[solid.a]\ndensty = { value = 2.0, source = 'x' }", "densty"),
         ("[fluid.a]\nmolar_mass = -1", "molar_mass"),
-        ("[solid.a]\ndensity = { form = 'polynomal', coefficients = [1], range = [200, 300], source = 'x' }", "polynomial"),
+        (
+            (
+                "[solid.a]\ndensity = { form = 'polynomal', coefficients = [1], range = [200, 300], "
+                "source = 'x' }"
+            ),
+            "polynomial",
+        ),
         ("[solid.a]\ndensity = { form = 'polynomial', range = [200, 300], source = 'x' }", "coefficients"),
         ("[solid.a]\ndensity = { form = 'polynomial', coefficients = [1], source = 'x' }", "range"),
         ("[solid.a\n", "TOML"),

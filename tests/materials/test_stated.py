@@ -16,7 +16,9 @@ GRAIN = {"particle_diameter": "85 um", "particle_density": 2630.0}
 
 
 def test_water_gives_its_density_and_viscosity():
-    """At 20 °C 998.2 kg/m³ and 1.0016 mPa s (IAPWS tables); the note says where they come from, and the velocity is that of these numbers."""
+    """At 20 °C 998.2 kg/m³ and 1.0016 mPa s (IAPWS tables); the note says where they come from, and the
+    velocity is that of these numbers.
+    """
     result = gr.particles.terminal_velocity.evaluate(**GRAIN, fluid="water at 20 °C")
     assert result.inputs["fluid_density"] == pytest.approx(998.2, abs=0.1)
     assert result.inputs["dynamic_viscosity"] == pytest.approx(1.0016e-3, rel=2e-3)
@@ -62,7 +64,9 @@ def test_a_card_without_a_fluid_refuses_one():
 def test_on_the_command_line():
     words = ["particle_diameter=85um", "particle_density=2630", "fluid=water at 20 degC"]
     done = subprocess.run(
-        [sys.executable, "-m", "granum", "calc", "particles.terminal_velocity", *words, "--json"], capture_output=True, text=True
+        [sys.executable, "-m", "granum", "calc", "particles.terminal_velocity", *words, "--json"],
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["inputs"]["fluid_density"]["from"].startswith("water at 20")
@@ -83,7 +87,9 @@ def test_a_lab_test_takes_a_fluid_and_says_so():
 
 def test_a_study_of_a_card_takes_a_fluid():
     words = {"particle_density": "2630", "fluid": "water at 20 degC"}
-    (study,) = studies_of_text(study_text("particles.terminal_velocity", {**words, "particle_diameter": "50..200um"}, steps=2)).values()
+    (study,) = studies_of_text(
+        study_text("particles.terminal_velocity", {**words, "particle_diameter": "50..200um"}, steps=2)
+    ).values()
     outcome = study.run()
     whole = gr.particles.terminal_velocity("50 um", 2630.0, fluid="water at 20 °C")
     assert float(outcome.column("terminal_velocity")[0]) == pytest.approx(float(whole), rel=1e-12)

@@ -9,12 +9,16 @@ import pytest
 from granum import materials as m
 
 
-@pytest.mark.parametrize(("temperature", "megapascal"), [(300, 0.353658941e-2), (500, 0.263889776e1), (600, 0.123443146e2)])
+@pytest.mark.parametrize(
+    ("temperature", "megapascal"), [(300, 0.353658941e-2), (500, 0.263889776e1), (600, 0.123443146e2)]
+)
 def test_saturation_pressure_table_35(temperature: float, megapascal: float) -> None:
     assert m.water_vapor_pressure(temperature) / 1e6 == pytest.approx(megapascal, rel=2e-9)
 
 
-@pytest.mark.parametrize(("megapascal", "temperature"), [(0.1, 0.372755919e3), (1, 0.453035632e3), (10, 0.584149488e3)])
+@pytest.mark.parametrize(
+    ("megapascal", "temperature"), [(0.1, 0.372755919e3), (1, 0.453035632e3), (10, 0.584149488e3)]
+)
 def test_saturation_temperature_table_36(megapascal: float, temperature: float) -> None:
     assert m.water_boiling_temperature(megapascal * 1e6) == pytest.approx(temperature, rel=2e-9)
 
@@ -57,18 +61,24 @@ def test_viscosity_release_table_4() -> None:
 def test_conductivity_release_table_4() -> None:
     T = np.array([298.15, 298.15, 298.15, 873.15])
     printed = [18.4341883, 607.712868, 799.038144, 79.1034659]
-    np.testing.assert_allclose(m.thermal_conductivity_iapws(T, np.array([0.0, 998.0, 1200.0, 0.0])) * 1e3, printed, rtol=1e-8)
+    np.testing.assert_allclose(
+        m.thermal_conductivity_iapws(T, np.array([0.0, 998.0, 1200.0, 0.0])) * 1e3, printed, rtol=1e-8
+    )
 
 
 def test_surface_tension_release_table_1() -> None:
     celsius = np.array([0.01, 20.0, 25.0, 100.0, 200.0])
-    np.testing.assert_allclose(m.water_surface_tension(celsius + 273.15) * 1e3, [75.65, 72.74, 71.97, 58.91, 37.67], atol=0.006)
+    np.testing.assert_allclose(
+        m.water_surface_tension(celsius + 273.15) * 1e3, [75.65, 72.74, 71.97, 58.91, 37.67], atol=0.006
+    )
 
 
 def test_ice_release_check_values() -> None:
     assert m.ice_vapor_pressure(230.0) == pytest.approx(8.94735, rel=1e-6)
     assert m.ice_melting_pressure(260.0) / 1e6 == pytest.approx(138.268, rel=1e-5)
-    assert m.ice_vapor_pressure(273.16) == pytest.approx(m.water_vapor_pressure(273.16), rel=1e-4)  # meet at the triple point
+    assert m.ice_vapor_pressure(273.16) == pytest.approx(
+        m.water_vapor_pressure(273.16), rel=1e-4
+    )  # meet at the triple point
 
 
 def test_liquid_against_printed_tables() -> None:
@@ -76,10 +86,16 @@ def test_liquid_against_printed_tables() -> None:
     celsius = np.array([20.0, 50.0, 80.0])
     np.testing.assert_allclose(m.water_density(celsius + 273.15), [998.21, 988.04, 971.80], rtol=3e-5)
     np.testing.assert_allclose(m.water_viscosity(celsius + 273.15) * 1e3, [1.0016, 0.5465, 0.3540], rtol=1e-3)
-    assert m.water_conductivity(298.15) == pytest.approx(0.6065, rel=1e-4)  # Ramires 1995, standard reference value
+    assert m.water_conductivity(298.15) == pytest.approx(
+        0.6065, rel=1e-4
+    )  # Ramires 1995, standard reference value
     full = m.thermal_conductivity_iapws(celsius + 273.15, m.water_density(celsius + 273.15))
-    np.testing.assert_allclose(m.water_conductivity(celsius + 273.15), full, rtol=6e-3)  # two releases; the second lacks the enhancement
-    np.testing.assert_allclose(m.water_heat_of_vaporization(np.array([273.16, 373.15])) / 1e3, [2500.9, 2256.4], rtol=1e-4)
+    np.testing.assert_allclose(
+        m.water_conductivity(celsius + 273.15), full, rtol=6e-3
+    )  # two releases; the second lacks the enhancement
+    np.testing.assert_allclose(
+        m.water_heat_of_vaporization(np.array([273.16, 373.15])) / 1e3, [2500.9, 2256.4], rtol=1e-4
+    )
 
 
 def test_saturation_curve_rises_and_inverts() -> None:
@@ -87,7 +103,9 @@ def test_saturation_curve_rises_and_inverts() -> None:
     np.testing.assert_allclose(m.water_boiling_temperature(m.water_vapor_pressure(T)), T, rtol=1e-6)
     slope = jax.vmap(jax.grad(lambda t: m.water_vapor_pressure(t)))(T)
     assert np.all(np.asarray(slope) > 0)
-    volume_change = 1 / m.steam_density(T, m.water_vapor_pressure(T)) - 1 / m.water_density(T, m.water_vapor_pressure(T))
+    volume_change = 1 / m.steam_density(T, m.water_vapor_pressure(T)) - 1 / m.water_density(
+        T, m.water_vapor_pressure(T)
+    )
     clapeyron = m.water_heat_of_vaporization(T) / (T * volume_change)
     low = T < 500  # the three fits agree to 0.3 % with Clapeyron's equation away from the critical point
     np.testing.assert_allclose(np.asarray(slope)[low], np.asarray(clapeyron)[low], rtol=3e-3)

@@ -1,4 +1,6 @@
-"""Chains of cells: where neither Newton's method nor the plain path in time arrives, the path examined step by step does."""
+"""Chains of cells: where neither Newton's method nor the plain path in time arrives, the path examined step
+by step does.
+"""
 
 import jax
 import jax.numpy as jnp
@@ -10,7 +12,9 @@ MOST = Cells(jnp.array([0.11, 0.4]), jnp.inf)
 
 
 def drops(fast: float, hot: float, steep: float, cooling: float, load: float):
-    """Drops that follow their gas fast: water and warmth of the drops, vapor and warmth of the gas, a pressure that rises steeply with warmth."""
+    """Drops that follow their gas fast: water and warmth of the drops, vapor and warmth of the gas, a
+    pressure that rises steeply with warmth.
+    """
 
     def rates(u: Cells) -> Rates:
         water, warmth = u.lanes[..., 0], u.lanes[..., 1]
@@ -18,7 +22,11 @@ def drops(fast: float, hot: float, steep: float, cooling: float, load: float):
         rate = fast * (jnp.exp(steep * (warmth - 0.5)) - vapor) * jnp.clip(water / 0.3, 0.0, 1.0)
         heat = fast * (gas - warmth)
         lanes = jnp.stack([0.5 - water - rate, 0.3 - warmth + heat - cooling * rate], axis=-1)
-        return Rates(lanes, load * jnp.stack([rate, -heat], axis=-1), jnp.concatenate([0.1 - vapor, hot - gas], axis=-1))
+        return Rates(
+            lanes,
+            load * jnp.stack([rate, -heat], axis=-1),
+            jnp.concatenate([0.1 - vapor, hot - gas], axis=-1),
+        )
 
     return rates
 
@@ -27,7 +35,14 @@ def test_the_examined_path_arrives_where_lanes_bend_within_a_step() -> None:
     @jax.jit
     def solve(given):
         start = Cells(jnp.array([[[0.5, 0.3]]]), jnp.stack([jnp.asarray(0.1), given[1]])[None])
-        found = solve_chain(drops(*given), start, Cells(1.0, 1e-3), first_step=0.1, largest_change=MOST, max_steps=chains.LEASH)
+        found = solve_chain(
+            drops(*given),
+            start,
+            Cells(1.0, 1e-3),
+            first_step=0.1,
+            largest_change=MOST,
+            max_steps=chains.LEASH,
+        )
         left = drops(*given)(found.state)
         return found, left.lanes, left.shared + jnp.sum(left.parts, axis=1)
 

@@ -50,13 +50,22 @@ def test_order_in_time() -> None:
     assert np.log2(error(20) / error(40)) == pytest.approx(3.0, abs=0.2)
 
 
-@pytest.mark.parametrize(("limiter", "order"), [(van_leer, 1.8), (koren, 2.0), (minmod, 1.5), (first_order, 0.8)])
+@pytest.mark.parametrize(
+    ("limiter", "order"), [(van_leer, 1.8), (koren, 2.0), (minmod, 1.5), (first_order, 0.8)]
+)
 def test_order_in_space_of_a_smooth_wave(limiter, order: float) -> None:
     def error(cells: int) -> float:
         edges = uniform_edges(0.0, 1.0, cells)
         steps = steps_for(1.0, edges, 1.0)
         moved = advance(
-            sine_means(edges), edges, Upwind(1.0), steps=steps, dt=1.0 / steps, lower=Periodic(), upper=Periodic(), limiter=limiter
+            sine_means(edges),
+            edges,
+            Upwind(1.0),
+            steps=steps,
+            dt=1.0 / steps,
+            lower=Periodic(),
+            upper=Periodic(),
+            limiter=limiter,
         ).state
         return float(jnp.mean(abs(moved - sine_means(edges))))
 
@@ -112,7 +121,9 @@ def test_suspension_settles_as_kynch_says() -> None:
     turning = stationary_points(flux, 0.0, 1.0)
     np.testing.assert_allclose(turning[0], 1.0 / 3.0, rtol=1e-9)
     start = jnp.full(400, 0.1)
-    end = advance(start, edges, Godunov(flux, tuple(turning)), steps=steps, dt=time / steps, lower=Wall(), upper=Wall()).state
+    end = advance(
+        start, edges, Godunov(flux, tuple(turning)), steps=steps, dt=time / steps, lower=Wall(), upper=Wall()
+    ).state
     assert float(jnp.sum(end)) == pytest.approx(40.0, abs=1e-11)
     np.testing.assert_allclose(end[200:350], 0.1, atol=1e-6)
     clear = float(jnp.sum(end[:200] < 0.05)) / 400
@@ -130,7 +141,9 @@ def test_suspension_settles_as_kynch_says() -> None:
     velocity=st.floats(-2.0, 2.0),
     ratio=st.floats(1.0, 1e4),
 )
-def test_mass_is_kept_and_nothing_turns_negative(limiter, values: list[float], velocity: float, ratio: float) -> None:
+def test_mass_is_kept_and_nothing_turns_negative(
+    limiter, values: list[float], velocity: float, ratio: float
+) -> None:
     edges = geometric_edges(1.0, 1.0 + ratio, 12)
     time = 0.45 * 20 * float(jnp.min(jnp.diff(edges))) / 2.0
     start = jnp.array(values)
@@ -145,7 +158,9 @@ def test_mass_is_kept_and_nothing_turns_negative(limiter, values: list[float], v
 
 def _both(limiter):
     def run(start, edges, velocity, dt):
-        closed = advance(start, edges, Upwind(velocity), steps=20, dt=dt, lower=Wall(), upper=Wall(), limiter=limiter)
+        closed = advance(
+            start, edges, Upwind(velocity), steps=20, dt=dt, lower=Wall(), upper=Wall(), limiter=limiter
+        )
         through = advance(start, edges, Upwind(velocity), steps=20, dt=dt, limiter=limiter)
         return closed.state, through.state
 
@@ -157,7 +172,15 @@ closed_and_open = {limiter: _both(limiter) for limiter in LIMITERS}
 
 def test_what_enters_stays() -> None:
     edges = uniform_edges(0.0, 2.0, 50)
-    run = advance(jnp.zeros(50), edges, Upwind(1.0), steps=100, dt=0.01, lower=FixedFlux(lambda t: 2.0 * t), upper=Wall())
+    run = advance(
+        jnp.zeros(50),
+        edges,
+        Upwind(1.0),
+        steps=100,
+        dt=0.01,
+        lower=FixedFlux(lambda t: 2.0 * t),
+        upper=Wall(),
+    )
     assert float(jnp.sum(run.state) * 0.04) == pytest.approx(1.0, rel=1e-13)
 
 
@@ -165,14 +188,24 @@ def test_inflow_reaches_every_cell() -> None:
     edges = uniform_edges(0.0, 1.0, 40)
     run = advance(jnp.zeros(40), edges, Upwind(1.0), steps=400, dt=0.01, lower=Inflow(3.0))
     np.testing.assert_allclose(run.state, 3.0, rtol=1e-10)
-    falling = advance(jnp.zeros(40), edges, Upwind(lambda t: -1.0), steps=400, dt=0.01, upper=Inflow(lambda t: 3.0))
+    falling = advance(
+        jnp.zeros(40), edges, Upwind(lambda t: -1.0), steps=400, dt=0.01, upper=Inflow(lambda t: 3.0)
+    )
     np.testing.assert_allclose(falling.state, 3.0, rtol=1e-10)
 
 
 def test_source_and_transport_balance() -> None:
     # du/dx = -k u at steady state.
     edges = uniform_edges(0.0, 1.0, 100)
-    run = advance(jnp.ones(100), edges, Upwind(1.0), steps=800, dt=0.004, lower=Inflow(1.0), source=lambda u, x, t: -2.0 * u)
+    run = advance(
+        jnp.ones(100),
+        edges,
+        Upwind(1.0),
+        steps=800,
+        dt=0.004,
+        lower=Inflow(1.0),
+        source=lambda u, x, t: -2.0 * u,
+    )
     assert float(jnp.mean(abs(run.state - np.exp(-2.0 * centers(edges))))) < 2e-4
 
 
@@ -207,7 +240,9 @@ def test_derivatives_and_batches() -> None:
     np.testing.assert_allclose(jax.grad(mean_place)(0.9), 0.4, rtol=2e-3)
     np.testing.assert_allclose(jax.jacfwd(mean_place)(0.9), 0.4, rtol=2e-3)
     velocities = jnp.array([0.2, 0.9])
-    np.testing.assert_allclose(jax.vmap(mean_place)(velocities), [mean_place(v) for v in velocities], rtol=1e-13)
+    np.testing.assert_allclose(
+        jax.vmap(mean_place)(velocities), [mean_place(v) for v in velocities], rtol=1e-13
+    )
 
 
 def test_number_of_steps() -> None:

@@ -23,7 +23,10 @@ def test_linear_recycle_with_mixed_sizes(method) -> None:
     matrix = jnp.array([[0.5, 0.3], [0.2, 0.6]])
 
     def loop(state, feed):
-        return {"mass": matrix @ state["mass"] + feed, "heat": 0.9 * state["heat"] + 30.0 + 1e3 * jnp.sum(state["mass"])}
+        return {
+            "mass": matrix @ state["mass"] + feed,
+            "heat": 0.9 * state["heat"] + 30.0 + 1e3 * jnp.sum(state["mass"]),
+        }
 
     feed = jnp.array([1e-3, 2e-3])
     solution = fixed_point(loop, {"mass": jnp.zeros(2), "heat": 290.0}, feed, method=method)
@@ -74,7 +77,11 @@ def test_many_unknowns_go_by_krylov() -> None:
         return fixed_point(loop, jnp.zeros(n), a, method=Newton())
 
     def everything(a):
-        return solve(a), jax.jvp(lambda a: solve(a).state, (a,), (1.0,))[1], jax.grad(lambda a: solve(a).state.sum())(a)
+        return (
+            solve(a),
+            jax.jvp(lambda a: solve(a).state, (a,), (1.0,))[1],
+            jax.grad(lambda a: solve(a).state.sum())(a),
+        )
 
     solution, forward, reverse = jax.jit(everything)(1.0)
     assert solution.converged
@@ -85,7 +92,11 @@ def test_many_unknowns_go_by_krylov() -> None:
 
 
 @pytest.mark.parametrize("method", [Anderson(), Newton()])
-@pytest.mark.parametrize("loop", [lambda x, _: x + 1.0, lambda x, _: jnp.nan * x, lambda x, _: x**2 + 1.0], ids=["drift", "nan", "none"])
+@pytest.mark.parametrize(
+    "loop",
+    [lambda x, _: x + 1.0, lambda x, _: jnp.nan * x, lambda x, _: x**2 + 1.0],
+    ids=["drift", "nan", "none"],
+)
 def test_no_fixed_point_is_never_reported_as_one(loop, method) -> None:
     solution = fixed_point(loop, 0.5, method=method, max_steps=60)
     assert not solution.converged
@@ -109,7 +120,9 @@ def test_anderson_recovers_from_bad_steps(loop, start: float, answer: float) -> 
 
 
 def test_running_out_of_steps_keeps_the_last_iterate() -> None:
-    solution = fixed_point(lambda x, _: 0.99 * x + 1.0, jnp.zeros(3), method=Anderson(damping=0.1), max_steps=1)
+    solution = fixed_point(
+        lambda x, _: 0.99 * x + 1.0, jnp.zeros(3), method=Anderson(damping=0.1), max_steps=1
+    )
     assert not solution.converged
     assert int(solution.steps) == 1
     np.testing.assert_allclose(solution.state, 0.0)
@@ -135,7 +148,9 @@ def test_system_from_a_poor_start() -> None:
 
 def test_system_derivatives() -> None:
     def solve(p):
-        return solve_system(lambda x, p: jnp.array([x[0] * x[1] - p[0], x[0] - p[1] * x[1]]), jnp.array([1.0, 1.0]), p).state
+        return solve_system(
+            lambda x, p: jnp.array([x[0] * x[1] - p[0], x[0] - p[1] * x[1]]), jnp.array([1.0, 1.0]), p
+        ).state
 
     p = jnp.array([6.0, 1.5])
     x = jnp.sqrt(p[0] * p[1])

@@ -46,9 +46,13 @@ def test_running_out_of_steps_is_told() -> None:
 
 
 def test_a_newton_step_that_rounds_to_nothing_ends_the_search() -> None:
-    """Newton's method may land on the root to the last digit from any start; then its next step says nothing of the other side."""
+    """Newton's method may land on the root to the last digit from any start; then its next step says nothing
+    of the other side.
+    """
     starts = np.random.default_rng(5).uniform(1.0, 1000.0, 400)
-    alone = jax.jit(lambda start: find_root(lambda x: x - 20.0 * jnp.log(x) - 3.0, 21.0, 1000.0, start=start).steps)
+    alone = jax.jit(
+        lambda start: find_root(lambda x: x - 20.0 * jnp.log(x) - 3.0, 21.0, 1000.0, start=start).steps
+    )
     assert max(int(alone(start)) for start in starts) < 20
 
 
@@ -98,7 +102,8 @@ def test_a_small_newton_step_is_no_proof() -> None:
 
 
 solve_nasty = {
-    name: jax.jit(lambda sign, at, lower, upper, f=f: find_root(lambda x: sign * f(x - at), lower, upper)) for name, f in NASTY.items()
+    name: jax.jit(lambda sign, at, lower, upper, f=f: find_root(lambda x: sign * f(x - at), lower, upper))
+    for name, f in NASTY.items()
 }
 
 

@@ -34,7 +34,9 @@ def test_limits_at_zero() -> None:
     np.testing.assert_array_equal(safe_power(0.0, jnp.array([0.5, 0.0, -1.0])), [0.0, 1.0, jnp.inf])
     np.testing.assert_array_equal(safe_divide(jnp.array([1.0, 0.0]), 0.0, jnp.inf), [jnp.inf, jnp.inf])
     np.testing.assert_array_equal(safe_log(0.0), -jnp.inf)
-    np.testing.assert_array_equal(safe_where(jnp.array([True, False]), jnp.arccos, jnp.array([1.0, 3.0]), 0.0, 5.0), [0.0, 5.0])
+    np.testing.assert_array_equal(
+        safe_where(jnp.array([True, False]), jnp.arccos, jnp.array([1.0, 3.0]), 0.0, 5.0), [0.0, 5.0]
+    )
 
 
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e3))

@@ -63,7 +63,9 @@ def test_moments_of_an_exponential_density() -> None:
     found = moments(jnp.stack([densities, 2.0 * densities]), edges, jnp.array([0.0, 1.0, 2.0, 3.0]))
     np.testing.assert_allclose(found[0], [1.0, 1.0, 2.0, 6.0], rtol=2e-5)
     np.testing.assert_allclose(found[1], 2.0 * found[0], rtol=1e-14)
-    np.testing.assert_allclose(moments(jnp.array([1.0]), jnp.array([1.0, 4.0]), jnp.array([-0.5])), [[2.0]][0])
+    np.testing.assert_allclose(
+        moments(jnp.array([1.0]), jnp.array([1.0, 4.0]), jnp.array([-0.5])), [[2.0]][0]
+    )
 
 
 def test_linear_table() -> None:
@@ -101,7 +103,9 @@ def test_steffen_slopes_of_his_rule() -> None:
 
 
 # Subnormal steps are left out: compiled code rounds them to zero.
-STEPS = st.lists(st.tuples(st.floats(1e-3, 10.0), st.floats(0.0, 10.0, allow_subnormal=False)), min_size=3, max_size=8)
+STEPS = st.lists(
+    st.tuples(st.floats(1e-3, 10.0), st.floats(0.0, 10.0, allow_subnormal=False)), min_size=3, max_size=8
+)
 
 
 @pytest.mark.parametrize("slopes", SLOPES)
@@ -141,5 +145,6 @@ def test_cubic_continues_straight_outside() -> None:
     np.testing.assert_allclose(value, [0.0 - curve.slopes[0], 4.0 + curve.slopes[-1]])
     assert not inside.any()
     np.testing.assert_allclose(
-        jax.vmap(jax.grad(lambda x: curve(x)[0]))(jnp.array([-1.0, 0.5, 3.0])), curve.derivative(jnp.array([-1.0, 0.5, 3.0]))
+        jax.vmap(jax.grad(lambda x: curve(x)[0]))(jnp.array([-1.0, 0.5, 3.0])),
+        curve.derivative(jnp.array([-1.0, 0.5, 3.0])),
     )

@@ -13,7 +13,8 @@ def family(name):
 
 
 def test_khan_richardson_wall_by_hand():
-    # Re = 50: C_D 1.55 by Clift, Grace and Weber, so Ar = 0.75 · 1.55 · 2500 = 2906; d/D = 0.05: 1 − 1.24 · 0.05^0.27 = 0.4478
+    # Re = 50: C_D 1.55 by Clift, Grace and Weber, so Ar = 0.75 · 1.55 · 2500 = 2906; d/D = 0.05: 1 − 1.24 ·
+    # 0.05^0.27 = 0.4478
     alone, walled = 0.043 * 2906**0.57, 0.043 * 2906**0.57 * 0.4478
     n = hindered.settling_exponent_khan_richardson
     assert n(50.0) == pytest.approx((4.8 + 2.4 * alone) / (1 + alone), abs=0.02)
@@ -34,8 +35,12 @@ def test_richardson_zaki_exponents_as_printed():
     assert n(50.0) == pytest.approx(4.45 * 50**-0.1)
     assert n(50.0, 0.05) == pytest.approx((4.45 + 0.9) * 50**-0.1)
     assert n(1000.0) == 2.39
-    for other in (hindered.settling_exponent_garside_al_dibouni, hindered.settling_exponent_rowe,
-                  hindered.settling_exponent_khan_richardson, hindered.settling_exponent_maude_whitmore):  # fmt: skip
+    for other in (
+        hindered.settling_exponent_garside_al_dibouni,
+        hindered.settling_exponent_rowe,
+        hindered.settling_exponent_khan_richardson,
+        hindered.settling_exponent_maude_whitmore,
+    ):
         low, high = float(other(1e-4)), float(other(3e5))
         assert 4.5 < low < 5.15
         assert 2.3 < high < 2.75
@@ -59,7 +64,9 @@ def test_limits_and_worked_values():
     phi = 0.2
     creeping = (1 - phi) / ((1 + phi ** (1 / 3)) * np.exp(5 * phi / (3 * (1 - phi))))
     assert hindered.hindrance_barnea_mizrahi(phi, 1e-10) == pytest.approx(creeping, rel=1e-4)
-    assert hindered.hindrance_barnea_mizrahi(phi, 1e12) == pytest.approx(np.sqrt((1 - phi) / (1 + phi ** (1 / 3))), rel=1e-4)
+    assert hindered.hindrance_barnea_mizrahi(phi, 1e12) == pytest.approx(
+        np.sqrt((1 - phi) / (1 + phi ** (1 / 3))), rel=1e-4
+    )
     # Happel's cell for φ = 0.125 (γ = 0.5) by hand: (3 − 2.25 + 0.140625 − 0.046875)/3.0625
     assert hindered.hindrance_happel(0.125, 0.01) == pytest.approx(0.84375 / 3.0625)
     # Batchelor against the slope of dilute limits: Richardson–Zaki 4.65, below 6.55
@@ -67,7 +74,9 @@ def test_limits_and_worked_values():
     # Steinour's factor at ε = 0.7
     assert hindered.hindrance_steinour(0.3, 0.01) == pytest.approx(0.49 * 10 ** (-0.546))
     assert hindered.RichardsonZaki(exponent=4.65)(0.1, 5.0) == pytest.approx(0.9**4.65)
-    assert hindered.RichardsonZaki()(0.1, 50.0) == pytest.approx(hindered.hindrance_richardson_zaki(0.1, 50.0))
+    assert hindered.RichardsonZaki()(0.1, 50.0) == pytest.approx(
+        hindered.hindrance_richardson_zaki(0.1, 50.0)
+    )
 
 
 def test_apparent_properties_and_the_courses_collective_velocity():
@@ -75,7 +84,9 @@ def test_apparent_properties_and_the_courses_collective_velocity():
     assert suspension.relative_viscosity_einstein(0.02) == pytest.approx(1.05)
     assert suspension.relative_viscosity_vand(0.1, 6.0) == pytest.approx(np.exp(0.6))
     # the course's last form, exp(4.2 β/(1 − β)): k = 4.2 and q → 1
-    assert suspension.relative_viscosity_mooney(0.2, 4.2, 0.999999999) == pytest.approx(np.exp(4.2 * 0.2 / 0.8), rel=1e-6)
+    assert suspension.relative_viscosity_mooney(0.2, 4.2, 0.999999999) == pytest.approx(
+        np.exp(4.2 * 0.2 / 0.8), rel=1e-6
+    )
     for key, f in family("relative_viscosity").items():  # all laws share Einstein's slope
         assert float(jax.grad(lambda p, f=f: f(p))(1e-9)) == pytest.approx(2.5, abs=0.06), key
     # creeping, dilute: U_c/U = (1 − β) exp(−2.5 β/(1 − q β))
@@ -84,9 +95,16 @@ def test_apparent_properties_and_the_courses_collective_velocity():
     assert found == pytest.approx((1 - beta) * np.exp(-2.5 * beta / (1 - beta / 0.74)))
     # Newton: (U_c/U)² = (1 − β)/(ρ_a/ρ_c)
     assert suspension.hindrance_apparent_medium(0.1, 1e4, 0.0, 2.65) == pytest.approx(np.sqrt(0.9 / 1.165))
-    tiny = {"particle_diameter": 5e-6, "particle_density": 2650, "fluid_density": 1000, "dynamic_viscosity": 1e-3}
+    tiny = {
+        "particle_diameter": 5e-6,
+        "particle_density": 2650,
+        "fluid_density": 1000,
+        "dynamic_viscosity": 1e-3,
+    }
     single = 9.80665 * 25e-12 * 1650 / 18e-3
-    assert suspension.terminal_velocity_collective(solids_volume_fraction=beta, **tiny) / single == pytest.approx(found, rel=2e-3)
+    assert suspension.terminal_velocity_collective(
+        solids_volume_fraction=beta, **tiny
+    ) / single == pytest.approx(found, rel=2e-3)
 
 
 def test_dilution_form_is_stokes_in_the_apparent_medium():
@@ -124,28 +142,44 @@ def test_wall_factors_against_exact_theory():
 
 def test_slip_and_brownian_motion_of_hinds_tables():
     # Hinds 1999, table A11, unit density in air at 293 K: Cc, settling velocity and diffusivity
-    table = {1e-7: (2.93, 8.8e-7, 6.94e-10), 1e-6: (1.155, 3.48e-5, 2.74e-11), 1e-5: (1.015, 3.06e-3, 2.41e-12)}
+    table = {
+        1e-7: (2.93, 8.8e-7, 6.94e-10),
+        1e-6: (1.155, 3.48e-5, 2.74e-11),
+        1e-5: (1.015, 3.06e-3, 2.41e-12),
+    }
     for d, (factor, velocity, diffusivity) in table.items():
         knudsen = 2 * 66e-9 / d
-        # Hinds' own fit is 1 + (15.60 + 7.00 exp(−0.059 P d))/(P d), P in kPa and d in µm; Davies' constants are nearest to it
+        # Hinds' own fit is 1 + (15.60 + 7.00 exp(−0.059 P d))/(P d), P in kPa and d in µm; Davies' constants
+        # are nearest to it
         Pd = 101.3 * d * 1e6
         assert factor == pytest.approx(1 + (15.60 + 7.00 * np.exp(-0.059 * Pd)) / Pd, rel=5e-3)
         assert slip.slip_factor_davies(knudsen) == pytest.approx(factor, rel=0.02)
-        for slip_law in (slip.slip_factor_allen_raabe, slip.slip_factor_kim):  # other materials: 2.5 and 3.2 % less at 0.1 µm
+        for slip_law in (
+            slip.slip_factor_allen_raabe,
+            slip.slip_factor_kim,
+        ):  # other materials: 2.5 and 3.2 % less at 0.1 µm
             assert slip_law(knudsen) == pytest.approx(factor, rel=0.035 if d < 5e-7 else 0.015)
         v = slip.terminal_velocity_slip(d, 1000.0, 1.2, 1.81e-5, 66e-9)
         assert v == pytest.approx(velocity, rel=0.03)
-        assert slip.brownian_diffusivity(d, 293.15, 1.81e-5, slip.slip_factor_davies(knudsen)) == pytest.approx(diffusivity, rel=0.03)
+        assert slip.brownian_diffusivity(
+            d, 293.15, 1.81e-5, slip.slip_factor_davies(knudsen)
+        ) == pytest.approx(diffusivity, rel=0.03)
     assert slip.mean_free_path(293.15, 101325.0, 1.81e-5, 0.02896) == pytest.approx(66e-9, rel=0.03)
     # at the limit diameter the two displacements are equal by definition
     d = slip.brownian_diameter(293.15, 2650.0, 998.0, 1e-3, 60.0)
     settled = 9.80665 * 1652 * d**2 / 18e-3 * 60.0
-    assert slip.brownian_displacement(slip.brownian_diffusivity(d, 293.15, 1e-3), 60.0) == pytest.approx(settled)
+    assert slip.brownian_displacement(slip.brownian_diffusivity(d, 293.15, 1e-3), 60.0) == pytest.approx(
+        settled
+    )
 
 
 def test_hadamard_factor_of_mist_and_bubbles():
-    assert bubbles.hadamard_factor(dispersed_viscosity=1e-3, dynamic_viscosity=1.8e-5) == pytest.approx(1.0, abs=0.01)
-    assert bubbles.hadamard_factor(dispersed_viscosity=1.8e-5, dynamic_viscosity=1e-3) == pytest.approx(1.5, abs=0.015)
+    assert bubbles.hadamard_factor(dispersed_viscosity=1e-3, dynamic_viscosity=1.8e-5) == pytest.approx(
+        1.0, abs=0.01
+    )
+    assert bubbles.hadamard_factor(dispersed_viscosity=1.8e-5, dynamic_viscosity=1e-3) == pytest.approx(
+        1.5, abs=0.015
+    )
     assert bubbles.hadamard_factor(dispersed_viscosity=1e-3, dynamic_viscosity=1e-3) == pytest.approx(6 / 5)
     v = bubbles.terminal_velocity_hadamard_rybczynski(5e-5, 1.2, 998.0, 1e-3, 1e-12)
     assert v == pytest.approx(-9.80665 * 996.8 * 2.5e-9 / 12e-3)  # g Δρ d²/(12 η) of an inviscid bubble
@@ -155,14 +189,19 @@ def test_bubbles_and_drops():
     air = {"particle_density": 1.2, "fluid_density": 998.0, "surface_tension": 0.0728}
     # tap water: 20 to 25 cm/s between 2 and 8 mm (Clift, Grace and Weber, figure 7.3)
     for d in (3e-3, 5e-3, 8e-3):
-        assert 0.18 < -bubbles.terminal_velocity_grace(d, dynamic_viscosity=1e-3, **air).terminal_velocity < 0.27
+        assert (
+            0.18 < -bubbles.terminal_velocity_grace(d, dynamic_viscosity=1e-3, **air).terminal_velocity < 0.27
+        )
     # Mendelson's minimum lies at d = 2 √(σ/(g ρ)) = 5.45 mm with 0.231 m/s
     at = 2 * np.sqrt(0.0728 / (9.80665 * 998))
-    slope = jax.grad(lambda d: bubbles.terminal_velocity_mendelson(d, **{**air, "particle_density": 1e-9}))(at)
+    slope = jax.grad(lambda d: bubbles.terminal_velocity_mendelson(d, **{**air, "particle_density": 1e-9}))(
+        at
+    )
     assert abs(slope) < 1e-9
     # Davies and Taylor: (2/3)√(g R) of a cap whose volume-equivalent diameter fits; 20 mm rises at 31 cm/s
     assert bubbles.terminal_velocity_davies_taylor(2e-2, 1.2, 998.0) == pytest.approx(-0.315, abs=0.002)
-    # Clift: water drops in air break up near 10 mm; the air–water sphere ends between 1 and 2 mm (course: about 1 mm)
+    # Clift: water drops in air break up near 10 mm; the air–water sphere ends between 1 and 2 mm (course:
+    # about 1 mm)
     assert 0.9e-2 < bubbles.stable_diameter_limit(998.0, 1.2, 0.0728) < 1.2e-2
     limit = bubbles.spherical_diameter_limit(1.2, 998.0, 0.0728)
     assert 1e-3 < limit < 2e-3

@@ -23,21 +23,32 @@ TABLE_NUMBERS = np.array([2.7, 20.3, 50.8, 23.3, 2.7, 0.2]) / 100.0
 
 
 def test_table_of_the_course_notes_worked_to_every_mean_by_hand() -> None:
-    # sums of N X^k with X = 3, 6, 12, 24, 48, 96 um (class middles), worked on paper from the printed percentages
+    # sums of N X^k with X = 3, 6, 12, 24, 48, 96 um (class middles), worked on paper from the printed
+    # percentages
     m1 = 0.081 + 1.218 + 6.096 + 5.592 + 1.296 + 0.192
     m2 = 0.243 + 7.308 + 73.152 + 134.208 + 62.208 + 18.432
     m3 = 0.729 + 43.848 + 877.824 + 3220.992 + 2985.984 + 1769.472
     d = SizeDistribution(TABLE_EDGES, TABLE_NUMBERS, "number", ArithmeticMidpoint())
-    expected = {(1, 0): m1, (2, 0): m2**0.5, (3, 0): m3 ** (1 / 3), (3, 2): m3 / m2, (2, 1): m2 / m1, (3, 1): (m3 / m1) ** 0.5}
+    expected = {
+        (1, 0): m1,
+        (2, 0): m2**0.5,
+        (3, 0): m3 ** (1 / 3),
+        (3, 2): m3 / m2,
+        (2, 1): m2 / m1,
+        (3, 1): (m3 / m1) ** 0.5,
+    }
     for (p, q), value in expected.items():
         assert float(d.mean(p, q)) * 1e6 == pytest.approx(value, rel=1e-12)
     # cumulative numbers: 2.7, 23.0, 73.8 % at 4, 8, 16 um (the print has 2.3 % for the first)
     assert float(d.percentile(0.5)) * 1e6 == pytest.approx(8.0 + 8.0 * (50.0 - 23.0) / 50.8, rel=1e-12)
-    np.testing.assert_allclose(d.density() * 1e-6 * 100, [1.35, 5.08, 6.35, 1.46, 0.08, 0.00], atol=6e-3)  # printed dN/dX
+    np.testing.assert_allclose(
+        d.density() * 1e-6 * 100, [1.35, 5.08, 6.35, 1.46, 0.08, 0.00], atol=6e-3
+    )  # printed dN/dX
 
 
 def test_straight_mass_line_from_1_to_101_micrometers() -> None:
-    # Coulson & Richardson vol. 2, problem 1.1: 0 % by mass at 1 um to 100 % at 101 um in a straight line; surface mean 21.7 um
+    # Coulson & Richardson vol. 2, problem 1.1: 0 % by mass at 1 um to 100 % at 101 um in a straight line;
+    # surface mean 21.7 um
     d = SizeDistribution([1e-6, 101e-6], [1.0], "mass")
     assert float(d.mean(3, 2)) * 1e6 == pytest.approx(100.0 / log(101.0), rel=1e-12)
     assert float(d.mean(3, 2)) * 1e6 == pytest.approx(21.7, abs=0.05)
@@ -46,7 +57,10 @@ def test_straight_mass_line_from_1_to_101_micrometers() -> None:
 def test_same_means_as_a_peer_on_the_spray_of_astm_e799() -> None:
     from fluids.particle_size_distribution import ParticleSizeDistribution
 
-    edges = np.array([240, 360, 450, 562.5, 703, 878, 1097, 1371, 1713, 2141, 2676, 3345, 4181, 5226, 6532]) * 1e-6
+    edges = (
+        np.array([240, 360, 450, 562.5, 703, 878, 1097, 1371, 1713, 2141, 2676, 3345, 4181, 5226, 6532])
+        * 1e-6
+    )
     numbers = np.array([65, 119, 232, 410, 629, 849, 990, 981, 825, 579, 297, 111, 21, 1], dtype=float)
     peer = ParticleSizeDistribution(ds=edges, fractions=numbers.tolist(), order=0)
     ours = SizeDistribution.from_amounts(edges, numbers, "number")
@@ -56,7 +70,10 @@ def test_same_means_as_a_peer_on_the_spray_of_astm_e799() -> None:
 
 @pytest.mark.parametrize("rule", RULES)
 @settings(max_examples=6)
-@given(amounts=st.lists(st.floats(0.0, 1.0), min_size=5, max_size=5).filter(lambda a: sum(a) > 0.1), start=st.sampled_from([0.0, 3.0]))
+@given(
+    amounts=st.lists(st.floats(0.0, 1.0), min_size=5, max_size=5).filter(lambda a: sum(a) > 0.1),
+    start=st.sampled_from([0.0, 3.0]),
+)
 def test_conversion_is_exact_and_order_of_means_holds(rule, amounts, start) -> None:
     edges = np.array([start, 5.0, 11.0, 20.0, 47.0, 90.0]) * 1e-6
     d = SizeDistribution.from_amounts(edges, amounts, "volume", rule)
@@ -83,8 +100,13 @@ def test_percentile_inverts_cumulative_on_every_basis() -> None:
 
 
 def test_number_median_of_sieve_data_lies_inside_the_data() -> None:
-    # a peer puts 44 % of the number below a 75 um class that holds none of it; here nothing lies outside the classes
-    d = SizeDistribution(np.array([0, 75, 150, 300, 600, 1180]) * 1e-6, [0.02, 0.08, 0.3, 0.4, 0.2], in_class=ArithmeticMidpoint())
+    # a peer puts 44 % of the number below a 75 um class that holds none of it; here nothing lies outside the
+    # classes
+    d = SizeDistribution(
+        np.array([0, 75, 150, 300, 600, 1180]) * 1e-6,
+        [0.02, 0.08, 0.3, 0.4, 0.2],
+        in_class=ArithmeticMidpoint(),
+    )
     n = d.to_basis("number")
     assert float(n.cumulative(0.0)) == 0.0
     assert 0.0 < float(n.percentile(0.1)) < 75e-6

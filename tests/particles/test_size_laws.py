@@ -29,7 +29,9 @@ X = np.array([5e-6, 30e-6, 90e-6, 250e-6])
 def test_law_equals_the_known_distribution(law, peer) -> None:
     np.testing.assert_allclose(law(X), peer.cdf(X), rtol=1e-9)
     np.testing.assert_allclose(law.density(X), peer.pdf(X), rtol=1e-9)
-    np.testing.assert_allclose(law.percentile(np.array([0.1, 0.5, 0.9])), peer.ppf([0.1, 0.5, 0.9]), rtol=1e-9)
+    np.testing.assert_allclose(
+        law.percentile(np.array([0.1, 0.5, 0.9])), peer.ppf([0.1, 0.5, 0.9]), rtol=1e-9
+    )
     for k in (1, 2):
         assert float(law.moment(k)) == pytest.approx(peer.moment(k), rel=1e-5)
 
@@ -42,7 +44,9 @@ def test_moment_means_do_not_depend_on_the_basis_a_log_normal_is_written_in() ->
         assert float(by_volume.mean(p, q)) == pytest.approx(float(by_number.mean(p, q)), rel=1e-12)
         card = means.mean_diameter_hatch_choate(1e-4, 2.0, p, q)
         assert float(by_volume.mean(p, q)) == pytest.approx(card, rel=1e-12)
-    assert means.median_diameter_hatch_choate(1e-4, 2.0, "volume", "number") == pytest.approx(1e-4 * np.exp(-3 * s2), rel=1e-12)
+    assert means.median_diameter_hatch_choate(1e-4, 2.0, "volume", "number") == pytest.approx(
+        1e-4 * np.exp(-3 * s2), rel=1e-12
+    )
 
 
 def test_moments_that_do_not_exist_are_infinite_not_numbers() -> None:
@@ -70,7 +74,14 @@ def test_mixture_percentile_and_basis_error() -> None:
 
 def test_sphericities_of_regular_solids_as_tabulated() -> None:
     # Wadell's values as every handbook prints them
-    printed = {"tetrahedron": 0.671, "cube": 0.806, "octahedron": 0.846, "dodecahedron": 0.910, "icosahedron": 0.939, "hemisphere": 0.840}
+    printed = {
+        "tetrahedron": 0.671,
+        "cube": 0.806,
+        "octahedron": 0.846,
+        "dodecahedron": 0.910,
+        "icosahedron": 0.939,
+        "hemisphere": 0.840,
+    }
     for shape, value in printed.items():
         assert shapes.sphericity_regular(shape) == pytest.approx(value, abs=6e-4)
     assert shapes.sphericity_regular("sphere") == pytest.approx(1.0, rel=1e-12)
@@ -84,9 +95,13 @@ def test_sphericities_of_regular_solids_as_tabulated() -> None:
 
 def test_volume_and_surface_give_the_same_sphericity_as_the_two_diameters() -> None:
     v, s = 2.3e-12, 1.4e-7
-    two = shapes.sphericity_diameters(sizes.equivalent_diameter_volume(v), sizes.equivalent_diameter_surface(s))
+    two = shapes.sphericity_diameters(
+        sizes.equivalent_diameter_volume(v), sizes.equivalent_diameter_surface(s)
+    )
     assert shapes.sphericity_volume_surface(v, s) == pytest.approx(two, rel=1e-12)
-    assert sizes.equivalent_diameter_surface_volume(v, s) == pytest.approx(two * sizes.equivalent_diameter_volume(v), rel=1e-12)
+    assert sizes.equivalent_diameter_surface_volume(v, s) == pytest.approx(
+        two * sizes.equivalent_diameter_volume(v), rel=1e-12
+    )
 
 
 def test_stokes_diameter_flags_a_fast_particle_and_takes_a_rising_one() -> None:
@@ -99,14 +114,28 @@ def test_stokes_diameter_flags_a_fast_particle_and_takes_a_rising_one() -> None:
 
 def test_discrete_means_agree_with_the_general_one_on_any_basis() -> None:
     x, n = np.array([3.0, 6.0, 12.0, 24.0]) * 1e-6, np.array([5.0, 3.0, 2.0, 1.0])
-    for name, p, q in (("number_length", 1, 0), ("number_surface", 2, 0), ("number_volume", 3, 0), ("surface_volume", 3, 2),
-                       ("length_surface", 2, 1), ("length_volume", 3, 1)):  # fmt: skip
+    for name, p, q in (
+        ("number_length", 1, 0),
+        ("number_surface", 2, 0),
+        ("number_volume", 3, 0),
+        ("surface_volume", 3, 2),
+        ("length_surface", 2, 1),
+        ("length_volume", 3, 1),
+    ):
         special = getattr(means, f"mean_diameter_{name}")(x, n)
         assert special == pytest.approx(means.mean_diameter_moment_ratio(x, n, p, q), rel=1e-12)
-        assert special == pytest.approx(means.mean_diameter_moment_ratio(x, n * x**3, p, q, "volume"), rel=1e-12)
-    assert means.mean_diameter_harmonic(x, n * x**3) == pytest.approx(means.mean_diameter_surface_volume(x, n), rel=1e-12)
-    assert means.mean_diameter_mass(x, n * x**3) == pytest.approx(means.mean_diameter_moment_ratio(x, n, 4, 3), rel=1e-12)
-    assert means.mean_diameter_moment_ratio(x, n, 0, 0) == pytest.approx(np.exp(np.sum(n * np.log(x)) / n.sum()), rel=1e-12)
+        assert special == pytest.approx(
+            means.mean_diameter_moment_ratio(x, n * x**3, p, q, "volume"), rel=1e-12
+        )
+    assert means.mean_diameter_harmonic(x, n * x**3) == pytest.approx(
+        means.mean_diameter_surface_volume(x, n), rel=1e-12
+    )
+    assert means.mean_diameter_mass(x, n * x**3) == pytest.approx(
+        means.mean_diameter_moment_ratio(x, n, 4, 3), rel=1e-12
+    )
+    assert means.mean_diameter_moment_ratio(x, n, 0, 0) == pytest.approx(
+        np.exp(np.sum(n * np.log(x)) / n.sum()), rel=1e-12
+    )
 
 
 def test_sieves_by_designation_agree_with_a_peer() -> None:
@@ -119,9 +148,13 @@ def test_sieves_by_designation_agree_with_a_peer() -> None:
     for designation, opening in iso.items():
         assert ours[designation] == pytest.approx(opening, rel=1e-9)
     for sieve in peer.ASTM_E11_sieves.values():
-        assert aperture(sieve.old_designation.replace("1.00 in", "1 in")) == pytest.approx(sieve.opening, rel=1e-9)
+        assert aperture(sieve.old_designation.replace("1.00 in", "1 in")) == pytest.approx(
+            sieve.opening, rel=1e-9
+        )
     assert aperture("65 mesh", "tyler") == pytest.approx(208e-6)
-    np.testing.assert_allclose(sieve_series_apertures("iso565_r20_3", 45e-6, 90e-6).aperture, [45e-6, 63e-6, 90e-6])
+    np.testing.assert_allclose(
+        sieve_series_apertures("iso565_r20_3", 45e-6, 90e-6).aperture, [45e-6, 63e-6, 90e-6]
+    )
     with pytest.raises(InputError, match="'201'"):
         aperture("No. 201")
     with pytest.raises(InputError, match="No sieve"):
@@ -129,9 +162,11 @@ def test_sieves_by_designation_agree_with_a_peer() -> None:
 
 
 CURVES = [
-    partition.LogisticPartition(1e-4, 3.0), partition.RosinRammlerPartition(1e-4, 2.0), partition.WhitenPartition(1e-4, 4.0),
+    partition.LogisticPartition(1e-4, 3.0),
+    partition.RosinRammlerPartition(1e-4, 2.0),
+    partition.WhitenPartition(1e-4, 4.0),
     partition.MolerusHoffmannPartition(1e-4, 0.8),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("curve", CURVES)
@@ -148,14 +183,18 @@ def test_partition_curves_rise_from_0_to_1_through_one_half(curve) -> None:
     assert float(bypassed(1e-9)) == pytest.approx(0.25, abs=1e-3)
     assert float(bypassed(1e-4)) == pytest.approx(0.625, abs=1e-9)
     sizes = np.array([2e-5, 1e-4, 3e-4])
-    np.testing.assert_allclose(partition.partition_number_reduced(bypassed(sizes), 0.25), curve(sizes), rtol=1e-9)
+    np.testing.assert_allclose(
+        partition.partition_number_reduced(bypassed(sizes), 0.25), curve(sizes), rtol=1e-9
+    )
 
 
 def test_sharpness_of_the_logistic_curve_is_nine_to_the_minus_one_over_n() -> None:
     curve = partition.LogisticPartition(1e-4, 3.0)
     index = partition.sharpness_index(float(curve.size_at(0.25)), float(curve.size_at(0.75)))
     assert index == pytest.approx(9.0 ** (-1.0 / 3.0), rel=1e-9)
-    assert float(partition.LogisticPartition.from_sharpness_index(1e-4, index).sharpness) == pytest.approx(3.0, rel=1e-9)
+    assert float(partition.LogisticPartition.from_sharpness_index(1e-4, index).sharpness) == pytest.approx(
+        3.0, rel=1e-9
+    )
 
 
 def test_whiten_fish_hook_keeps_the_cut_size_and_dips() -> None:

@@ -23,7 +23,9 @@ SIEVES = np.array([1000, 710, 500, 355, 250, 180, 125, 90, 63]) * 1e-6
 
 def stack(law, mass: float = 0.2, **more) -> SieveAnalysis:
     below = np.asarray(law(SIEVES))
-    return SieveAnalysis(SIEVES, -np.diff(np.concatenate([[1.0], below])) * mass, pan_mass=float(below[-1] * mass), **more)
+    return SieveAnalysis(
+        SIEVES, -np.diff(np.concatenate([[1.0], below])) * mass, pan_mass=float(below[-1] * mass), **more
+    )
 
 
 def test_exact_rosin_rammler_masses_give_back_the_law_in_either_order_of_sieves() -> None:
@@ -33,7 +35,11 @@ def test_exact_rosin_rammler_masses_give_back_the_law_in_either_order_of_sieves(
     assert fit["distribution_exponent"].value == pytest.approx(1.7, rel=1e-9)
     assert not fit.flags
     turned = SieveAnalysis(
-        SIEVES[::-1], np.asarray(test.retained_mass)[::-1], pan_mass=test.pan_mass, largest_size=2e-3, smallest_size=1e-6
+        SIEVES[::-1],
+        np.asarray(test.retained_mass)[::-1],
+        pan_mass=test.pan_mass,
+        largest_size=2e-3,
+        smallest_size=1e-6,
     )
     np.testing.assert_allclose(turned.distribution().fractions, test.distribution().fractions)
 
@@ -47,7 +53,10 @@ def test_intervals_hold_the_truth_under_weighing_noise(law, name) -> None:
     rng = np.random.default_rng(3)
     clean = stack(law)
     noisy = SieveAnalysis(
-        SIEVES, np.asarray(clean.retained_mass) * rng.normal(1.0, 0.02, SIEVES.size), pan_mass=clean.pan_mass, size_law=name
+        SIEVES,
+        np.asarray(clean.retained_mass) * rng.normal(1.0, 0.02, SIEVES.size),
+        pan_mass=clean.pan_mass,
+        size_law=name,
     )
     fit = noisy.fit()
     for parameter, estimate in fit.parameters.items():
@@ -59,7 +68,11 @@ def test_intervals_hold_the_truth_under_weighing_noise(law, name) -> None:
 def test_pan_top_class_and_losses_are_flagged() -> None:
     test = stack(RosinRammler(6e-4, 1.2), sample_mass=0.22)
     words = {(n["flag"], n["name"]) for n in test.fit().flags}
-    assert words == {("extrapolated", "pan_mass"), ("extrapolated", "largest_size"), ("limit active", "sample_mass")}
+    assert words == {
+        ("extrapolated", "pan_mass"),
+        ("extrapolated", "largest_size"),
+        ("limit active", "sample_mass"),
+    }
     assert test.loss_fraction == pytest.approx(1.0 - 0.2 / 0.22, rel=1e-9)
 
 
@@ -90,8 +103,10 @@ def test_wet_sieving_counts_what_was_washed_away_as_fines() -> None:
 
 
 def test_surface_and_number_of_crushed_quartz_as_printed() -> None:
-    # McCabe, Smith and Harriott, screen analysis of crushed quartz: 3.309 mm2/mg for the sieved part, sphericity 0.571, 2650 kg/m3
-    # and 4148 particles in the 0.9925 g of it that a gram holds, of volume 0.8 D³; masses of the classes in grams
+    # McCabe, Smith and Harriott, screen analysis of crushed quartz: 3.309 mm2/mg for the sieved part,
+    # sphericity 0.571, 2650 kg/m3
+    # and 4148 particles in the 0.9925 g of it that a gram holds, of volume 0.8 D³; masses of the classes in
+    # grams
     sizes = "4.013 2.8445 2.0065 1.4095 1.0005 0.711 0.503 0.356 0.2515 0.1775 0.1255 0.089 mm"
     masses = "2.51 12.5 32.07 25.7 15.9 5.38 2.1 1.02 0.77 0.58 0.41 0.31 g"
     number = means.number_per_mass(sizes, masses, particle_density=2650, volume_shape_factor=0.8)
@@ -141,12 +156,19 @@ def test_image_means_cover_the_truth_of_a_log_normal_sample() -> None:
 def test_charts_are_straight_where_they_should_be() -> None:
     sizes = np.geomspace(2e-5, 2e-4, 8)
     law, other = RosinRammler(1e-4, 1.5), LogNormal(1e-4, 1.6)
-    for chart, model in ((charts_sizes.rosin_rammler_chart, law), (charts_sizes.log_probability_chart, other)):
+    for chart, model in (
+        (charts_sizes.rosin_rammler_chart, law),
+        (charts_sizes.log_probability_chart, other),
+    ):
         points = chart(sizes, np.asarray(model(sizes)), model).data[0]
         assert np.ptp(np.diff(np.asarray(points.y)) / np.diff(np.log(np.asarray(points.x)))) < 1e-9
-    figure = charts_sizes.size_distribution_chart("0, 2, 4, 8 um", "10, 40, 50 %", wanted_basis="surface", in_class="midpoint")
+    figure = charts_sizes.size_distribution_chart(
+        "0, 2, 4, 8 um", "10, 40, 50 %", wanted_basis="surface", in_class="midpoint"
+    )
     assert len(figure.data) == 3
-    drawn = charts_sizes.partition_chart(LogisticPartition(1e-4, 3.0), particle_diameter=[5e-5, 2e-4], partition_number=[0.1, 0.9])
+    drawn = charts_sizes.partition_chart(
+        LogisticPartition(1e-4, 3.0), particle_diameter=[5e-5, 2e-4], partition_number=[0.1, 0.9]
+    )
     assert len(drawn.data) == 2
     assert len(stack(law).chart().data) == 4
 

@@ -9,7 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from granum.core.errors import ApplicabilityError, InputError
-from granum.particles.formulas import criteria, drag, drag_modern, drag_nonspherical, forces, terminal_explicit
+from granum.particles.formulas import (
+    criteria,
+    drag,
+    drag_modern,
+    drag_nonspherical,
+    forces,
+    terminal_explicit,
+)
 from granum.particles.formulas.terminal import terminal_diameter, terminal_velocity
 
 WATER = {"fluid_density": 998.0, "dynamic_viscosity": 1.002e-3}
@@ -17,28 +24,42 @@ SAND = {"particle_density": 2650.0, **WATER}
 
 
 def test_command_of_the_issue():
-    v = terminal_velocity(particle_diameter="85um", particle_density="2630kg/m3", fluid_density="1020kg/m3", dynamic_viscosity="1.2cP")
+    v = terminal_velocity(
+        particle_diameter="85um",
+        particle_density="2630kg/m3",
+        fluid_density="1020kg/m3",
+        dynamic_viscosity="1.2cP",
+    )
     # interface.md prints 4.92 mm/s, Re 0.36, X 9.2
     assert v == pytest.approx(4.92e-3, rel=2e-3)
     assert v * 85e-6 * 1020 / 1.2e-3 == pytest.approx(0.36, abs=0.005)
 
 
 def test_water_drops_in_air_as_gunn_and_kinzer_measured():
-    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2: 20 °C, 1013 mbar; drops below 1 mm are nearly rigid spheres. Their smallest
-    # drop (0.1 mm, 0.27 m/s) is left out: 8 % faster than any sphere, against the later measurements of Beard and Pruppacher below.
+    # Gunn and Kinzer, J. Meteorology 6 (1949) 243, table 2: 20 °C, 1013 mbar; drops below 1 mm are nearly
+    # rigid spheres. Their smallest
+    # drop (0.1 mm, 0.27 m/s) is left out: 8 % faster than any sphere, against the later measurements of Beard
+    # and Pruppacher below.
     d = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]) * 1e-3
     measured = np.array([0.72, 1.17, 1.62, 2.06, 2.47, 3.27, 4.03])
-    v = terminal_velocity(particle_diameter=d, particle_density=998.2, fluid_density=1.204, dynamic_viscosity=1.816e-5)
+    v = terminal_velocity(
+        particle_diameter=d, particle_density=998.2, fluid_density=1.204, dynamic_viscosity=1.816e-5
+    )
     np.testing.assert_allclose(v[:-1], measured[:-1], rtol=0.025)  # last digit 1.4 % at 0.2 mm
     np.testing.assert_allclose(v[-1], measured[-1], rtol=0.04)  # flattening begins
 
 
 def test_small_drops_in_air_as_beard_and_pruppacher_measured():
-    # J. Atmospheric Sciences 26 (1969) 1066: drag of water drops at terminal fall in a wind tunnel, three pieces
+    # J. Atmospheric Sciences 26 (1969) 1066: drag of water drops at terminal fall in a wind tunnel, three
+    # pieces
     Re = np.geomspace(0.21, 199.0, 25)
-    pieces = np.where(Re < 2, 1 + 0.102 * Re**0.955, np.where(Re < 21, 1 + 0.115 * Re**0.802, 1 + 0.189 * Re**0.632))
+    pieces = np.where(
+        Re < 2, 1 + 0.102 * Re**0.955, np.where(Re < 21, 1 + 0.115 * Re**0.802, 1 + 0.189 * Re**0.632)
+    )
     found = np.asarray(drag_modern.drag_coefficient_brown_lawler(Re))
-    np.testing.assert_allclose(found, 24 / Re * pieces, rtol=0.055)  # the pieces themselves jump by 2 % where they meet
+    np.testing.assert_allclose(
+        found, 24 / Re * pieces, rtol=0.055
+    )  # the pieces themselves jump by 2 % where they meet
 
 
 def test_coulson_and_richardson_steel_ball_in_oil():
@@ -47,23 +68,41 @@ def test_coulson_and_richardson_steel_ball_in_oil():
     assert terminal_velocity(particle_diameter="0.4 mm", **ball) == pytest.approx(0.051, rel=0.02)
     # example 3.3, elutriation at 5 mm/s in water by Stokes: galena (7500) 37.6 µm, limestone (2700) 73.4 µm
     for density, size in ((7500, 37.6e-6), (2700, 73.4e-6)):
-        found = terminal_diameter(velocity="5 mm/s", particle_density=density, fluid_density=1000, dynamic_viscosity=1e-3,
-                                  gravity=9.81, drag=drag.drag_coefficient_stokes)  # fmt: skip
+        found = terminal_diameter(
+            velocity="5 mm/s",
+            particle_density=density,
+            fluid_density=1000,
+            dynamic_viscosity=1e-3,
+            gravity=9.81,
+            drag=drag.drag_coefficient_stokes,
+        )
         assert found == pytest.approx(size, rel=5e-3)
 
 
 def test_agrees_with_the_peer_library_on_its_own_law():
     for d in (20e-6, 150e-6, 1e-3, 8e-3):
-        peer = fluids.v_terminal(D=d, rhop=2650.0, rho=998.0, mu=1.002e-3, Method="Barati" if d < 9e-3 else None)
-        found = terminal_velocity(particle_diameter=d, drag=drag_modern.drag_coefficient_barati, gravity=fluids.core.g, **SAND)
-        assert found == pytest.approx(peer, rel=1e-8 if d > 1e-4 else 0.02)  # the peer switches to Stokes below Re 0.01
+        peer = fluids.v_terminal(
+            D=d, rhop=2650.0, rho=998.0, mu=1.002e-3, Method="Barati" if d < 9e-3 else None
+        )
+        found = terminal_velocity(
+            particle_diameter=d, drag=drag_modern.drag_coefficient_barati, gravity=fluids.core.g, **SAND
+        )
+        assert found == pytest.approx(
+            peer, rel=1e-8 if d > 1e-4 else 0.02
+        )  # the peer switches to Stokes below Re 0.01
 
 
 def test_rising_sphere_is_negative_and_finite():
-    v = terminal_velocity(particle_diameter=5e-3, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3)
+    v = terminal_velocity(
+        particle_diameter=5e-3, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3
+    )
     assert v == pytest.approx(-0.28, abs=0.01)
-    assert terminal_diameter(velocity=v, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3) == pytest.approx(5e-3)
-    assert terminal_diameter(velocity=-v, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3) == pytest.approx(5e-3)
+    assert terminal_diameter(
+        velocity=v, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3
+    ) == pytest.approx(5e-3)
+    assert terminal_diameter(
+        velocity=-v, particle_density=500, fluid_density=1000, dynamic_viscosity=1e-3
+    ) == pytest.approx(5e-3)
 
 
 def test_equal_densities_are_zero_and_flagged():
@@ -73,7 +112,9 @@ def test_equal_densities_are_zero_and_flagged():
     assert [n["flag"] for n in result.notices] == ["limit active"]
     with pytest.raises(ApplicabilityError, match="same density"):
         terminal_diameter(velocity=0.1, **same)
-    slope = jax.grad(lambda rho: terminal_velocity(particle_diameter=1e-5, **{**same, "particle_density": rho}))(1000.0)
+    slope = jax.grad(
+        lambda rho: terminal_velocity(particle_diameter=1e-5, **{**same, "particle_density": rho})
+    )(1000.0)
     assert slope == pytest.approx(9.80665 * 1e-10 / 18e-3)
 
 
@@ -96,10 +137,17 @@ def test_reynolds_beyond_the_law_is_flagged():
     assert np.isfinite(result.value)
 
 
-@pytest.mark.parametrize("law", [
-    drag_modern.drag_coefficient_brown_lawler, drag_modern.drag_coefficient_clift_grace_weber, drag.drag_coefficient_five_ranges,
-    drag_modern.drag_coefficient_khan_richardson, drag.drag_coefficient_allen, drag.drag_coefficient_newton,
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "law",
+    [
+        drag_modern.drag_coefficient_brown_lawler,
+        drag_modern.drag_coefficient_clift_grace_weber,
+        drag.drag_coefficient_five_ranges,
+        drag_modern.drag_coefficient_khan_richardson,
+        drag.drag_coefficient_allen,
+        drag.drag_coefficient_newton,
+    ],
+)
 def test_force_balance_and_round_trip(law):
     d = np.geomspace(2e-6, 2e-2, 41)
     v = np.asarray(terminal_velocity(particle_diameter=d, drag=law, **SAND))
@@ -114,11 +162,20 @@ def test_force_balance_and_round_trip(law):
 
 
 def test_shape_slows_and_a_sphere_law_is_carried_over():
-    round_, one, angular = (terminal_velocity(particle_diameter=1e-3, sphericity=psi, **SAND) for psi in (None, 1.0, 0.8))
+    round_, one, angular = (
+        terminal_velocity(particle_diameter=1e-3, sphericity=psi, **SAND) for psi in (None, 1.0, 0.8)
+    )
     assert one == pytest.approx(round_, rel=1e-12)
     assert angular < 0.9 * round_
-    own = terminal_velocity(particle_diameter=1e-3, sphericity=0.8, drag=drag_nonspherical.drag_coefficient_haider_levenspiel, **SAND)
-    ganser = terminal_velocity(particle_diameter=1e-3, sphericity=0.8, drag=drag_nonspherical.drag_coefficient_ganser, **SAND)
+    own = terminal_velocity(
+        particle_diameter=1e-3,
+        sphericity=0.8,
+        drag=drag_nonspherical.drag_coefficient_haider_levenspiel,
+        **SAND,
+    )
+    ganser = terminal_velocity(
+        particle_diameter=1e-3, sphericity=0.8, drag=drag_nonspherical.drag_coefficient_ganser, **SAND
+    )
     assert angular == pytest.approx(own, rel=0.04)
     assert angular == pytest.approx(ganser, rel=0.12)
     creeping = [terminal_velocity(particle_diameter=1e-6, sphericity=psi, **SAND) for psi in (1.0, 0.806)]
@@ -129,11 +186,17 @@ def test_shape_slows_and_a_sphere_law_is_carried_over():
 
 
 def test_explicit_formulas_follow_the_curve():
-    for name, low, tolerance in (("khan_richardson", 1.5e-4, 0.12), ("brown_lawler", 1e-5, 0.08), ("turton_clark", 1e-5, 0.09),
-                                 ("zigrang_sylvester", 1e-4, 0.20)):  # fmt: skip
+    for name, low, tolerance in (
+        ("khan_richardson", 1.5e-4, 0.12),
+        ("brown_lawler", 1e-5, 0.08),
+        ("turton_clark", 1e-5, 0.09),
+        ("zigrang_sylvester", 1e-4, 0.20),
+    ):
         d = np.geomspace(low, 1e-2, 25)
         exact = np.asarray(terminal_velocity(particle_diameter=d, **SAND))
-        found = np.asarray(getattr(terminal_explicit, f"terminal_velocity_{name}")(particle_diameter=d, **SAND))
+        found = np.asarray(
+            getattr(terminal_explicit, f"terminal_velocity_{name}")(particle_diameter=d, **SAND)
+        )
         assert np.max(abs(found / exact - 1)) < tolerance, name
     # Ferguson and Church 2004, figure 1: 1 mm natural sand in water at 20 °C settles at 0.12 to 0.13 m/s
     assert 0.115 < terminal_explicit.terminal_velocity_ferguson_church(particle_diameter=1e-3, **SAND) < 0.135
@@ -141,12 +204,19 @@ def test_explicit_formulas_follow_the_curve():
 
 def test_power_laws_reproduce_the_courses_equations():
     quartz = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3, "gravity": 9.81}
-    stokes = terminal_explicit.terminal_velocity_power_law(particle_diameter=1e-5, drag_factor=24.0, drag_exponent=1.0, **quartz)
-    assert stokes == pytest.approx(0.545 * 1650 / 1e-3 * 1e-10, rel=1e-3)  # table III.2, first row: 0.545 Δρ d²/η
+    stokes = terminal_explicit.terminal_velocity_power_law(
+        particle_diameter=1e-5, drag_factor=24.0, drag_exponent=1.0, **quartz
+    )
+    assert stokes == pytest.approx(
+        0.545 * 1650 / 1e-3 * 1e-10, rel=1e-3
+    )  # table III.2, first row: 0.545 Δρ d²/η
     newton = terminal_explicit.terminal_velocity_newton(particle_diameter=1e-2, **quartz)
     assert newton**2 == pytest.approx(4 / (3 * 0.44) * 9.81 * 1.65 * 1e-2, rel=1e-12)
-    # table III.2, third row, with the fluid density the print leaves out: 0.73 Δρ^0.741 η^-0.481 d^1.222 ρ^-0.259
-    third = terminal_explicit.terminal_velocity_power_law(particle_diameter=5e-4, drag_factor=20.0, drag_exponent=0.65, **quartz)
+    # table III.2, third row, with the fluid density the print leaves out: 0.73 Δρ^0.741 η^-0.481 d^1.222
+    # ρ^-0.259
+    third = terminal_explicit.terminal_velocity_power_law(
+        particle_diameter=5e-4, drag_factor=20.0, drag_exponent=0.65, **quartz
+    )
     assert third == pytest.approx(0.73 * 1650**0.741 * 1e-3**-0.481 * 5e-4**1.222 * 1000**-0.259, rel=0.02)
 
 
@@ -154,17 +224,32 @@ def test_criteria_and_their_limits():
     assert pytest.approx((4.8, 110_000.0)) == (criteria.X_STOKES, criteria.X_NEWTON)
     assert pytest.approx(1.66e-3, rel=5e-3) == criteria.Y_STOKES
     assert pytest.approx(1136, rel=1e-3) == criteria.Y_NEWTON
-    for X, law, Re in ((4.8, drag.drag_coefficient_stokes, 0.2), (110_000.0, drag.drag_coefficient_newton, 500.0)):
+    for X, law, Re in (
+        (4.8, drag.drag_coefficient_stokes, 0.2),
+        (110_000.0, drag.drag_coefficient_newton, 500.0),
+    ):
         assert criteria.reynolds_number_from_velocity_criterion(X, law) == pytest.approx(Re)
-    for Y, law, Re in ((0.2**2 / 24, drag.drag_coefficient_stokes, 0.2), (500 / 0.44, drag.drag_coefficient_newton, 500.0)):
+    for Y, law, Re in (
+        (0.2**2 / 24, drag.drag_coefficient_stokes, 0.2),
+        (500 / 0.44, drag.drag_coefficient_newton, 500.0),
+    ):
         assert criteria.reynolds_number_from_diameter_criterion(Y, law) == pytest.approx(Re)
     quartz = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-    for d, exponent in ((2e-5, 2.0), (3e-4, 8 / 7), (2e-2, 0.5)):  # v ~ d², d^(1.6/1.4), √d in the three regimes
-        small, large = (criteria.terminal_velocity_by_regime(particle_diameter=x, **quartz).terminal_velocity for x in (d, 1.01 * d))
+    for d, exponent in (
+        (2e-5, 2.0),
+        (3e-4, 8 / 7),
+        (2e-2, 0.5),
+    ):  # v ~ d², d^(1.6/1.4), √d in the three regimes
+        small, large = (
+            criteria.terminal_velocity_by_regime(particle_diameter=x, **quartz).terminal_velocity
+            for x in (d, 1.01 * d)
+        )
         assert np.log(large / small) / np.log(1.01) == pytest.approx(exponent, abs=1e-6)
     for v in (1e-4, 5e-2, 1.0):
         d = criteria.terminal_diameter_by_regime(velocity=v, **quartz).terminal_diameter
-        assert criteria.terminal_velocity_by_regime(particle_diameter=d, **quartz).terminal_velocity == pytest.approx(v, rel=1e-9)
+        assert criteria.terminal_velocity_by_regime(
+            particle_diameter=d, **quartz
+        ).terminal_velocity == pytest.approx(v, rel=1e-9)
     cork = criteria.terminal_velocity_by_regime(
         particle_diameter=1e-3, particle_density=200.0, fluid_density=1000.0, dynamic_viscosity=1e-3
     )
@@ -174,7 +259,8 @@ def test_criteria_and_their_limits():
 @given(st.floats(1e-6, 1e-2), st.floats(1010.0, 8000.0))
 def test_larger_and_heavier_particles_fall_faster(d, rho):
     one, larger, heavier = (
-        terminal_velocity(particle_diameter=a, particle_density=b, **WATER) for a, b in ((d, rho), (1.05 * d, rho), (d, 1.05 * rho))
+        terminal_velocity(particle_diameter=a, particle_density=b, **WATER)
+        for a, b in ((d, rho), (1.05 * d, rho), (d, 1.05 * rho))
     )
     assert larger > one
     assert heavier > one
@@ -195,7 +281,9 @@ def test_drag_carries_the_weight_at_the_terminal_velocity() -> None:
     weight = np.pi / 6 * d**3 * (2650.0 - 998.0) * 9.81
     assert forces.drag_force(d, v, **WATER) == pytest.approx(weight, rel=1e-9)
     measured = forces.measured_drag_coefficient(d, v, 2650.0, 998.0, gravity=9.81)
-    assert measured == pytest.approx(drag_modern.drag_coefficient_brown_lawler(v * d * 998.0 / 1.002e-3), rel=1e-9)
+    assert measured == pytest.approx(
+        drag_modern.drag_coefficient_brown_lawler(v * d * 998.0 / 1.002e-3), rel=1e-9
+    )
     assert forces.drag_force(d, 0.0, **WATER) == 0.0
 
 

@@ -13,7 +13,13 @@ CONDITIONS = {"length": 0.2, "dynamic_viscosity": 1e-3, "fluid_density": 1000.0}
 def test_exact_data_give_ergun_back():
     U = np.geomspace(1e-4, 0.1, 8)
     drop = 0.2 * np.asarray(packed_beds.pressure_gradient_ergun(U, 1e-3, 0.4, 1000.0, 1e-3))
-    found = Permeametry(superficial_velocity=U, pressure_drop=drop, **CONDITIONS, void_fraction=0.4, kozeny_coefficient=150 / 36).fit()
+    found = Permeametry(
+        superficial_velocity=U,
+        pressure_drop=drop,
+        **CONDITIONS,
+        void_fraction=0.4,
+        kozeny_coefficient=150 / 36,
+    ).fit()
     assert found["permeability"].value == pytest.approx(1e-6 * 0.064 / (150 * 0.36), rel=1e-8)
     assert found["inertial_coefficient"].value == pytest.approx(1.75 * 0.6 / (0.064 * 1e-3), rel=1e-8)
     assert found["particle_diameter"].value == pytest.approx(1e-3, rel=1e-8)
@@ -34,7 +40,9 @@ def test_intervals_cover_the_truth():
 
 def test_creeping_and_bad_data():
     U = np.array([1e-4, 2e-4, 3e-4])
-    found = Permeametry(superficial_velocity=U, pressure_drop=0.2 * 1e-3 / 1e-11 * U, **CONDITIONS, creeping=True).fit()
+    found = Permeametry(
+        superficial_velocity=U, pressure_drop=0.2 * 1e-3 / 1e-11 * U, **CONDITIONS, creeping=True
+    ).fit()
     assert found["permeability"].value == pytest.approx(1e-11)
     surface = kozeny.specific_surface_kozeny_carman(found["permeability"].value, 0.45)
     assert surface == pytest.approx(np.sqrt(0.45**3 / (5 * 1e-11)) / 0.55)

@@ -13,7 +13,9 @@ def test_inputs_that_were_not_given_are_marked(capsys):
     assert rows["pressure"]["default"] is True
     assert "default" not in rows["temperature"]
     assert "default" not in rows["humidity_ratio"]
-    given = gr.humid_gas.enthalpy.evaluate("30 degC", humidity_ratio=0.01, pair="air_water", pressure="1 atm").as_json()["inputs"]
+    given = gr.humid_gas.enthalpy.evaluate(
+        "30 degC", humidity_ratio=0.01, pair="air_water", pressure="1 atm"
+    ).as_json()["inputs"]
     assert "default" not in given["pair"]
     assert "default" not in given["pressure"]
     print_result(found)

@@ -1,4 +1,6 @@
-"""The report of a line: findings first, every figure, each step of the note once, nothing fetched from outside, both languages."""
+"""The report of a line: findings first, every figure, each step of the note once, nothing fetched from
+outside, both languages.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +30,16 @@ def test_a_report_holds_everything_and_opens_anywhere(run: Any) -> None:
     for name in run.streams:
         assert f">{name}<" in page
     steps = [step for name in run.sheet.order for step in note_steps(run.notes[name])]
-    places = [page.index(f"<h2>{head}") for head in ("Findings", "Flow diagram", "Streams", "Calculation note", "Sources")]
+    places = [
+        page.index(f"<h2>{head}")
+        for head in ("Findings", "Flow diagram", "Streams", "Calculation note", "Sources")
+    ]
     assert ("no formula stands by itself" in page) == (not steps)
     assert places == sorted(places)
-    outside = re.findall(r"""(?:src|href)=["'](?!data:|#)([^"']+)""", page.split("<script")[0] + page.rsplit("</script>", 1)[-1])
+    outside = re.findall(
+        r"""(?:src|href)=["'](?!data:|#)([^"']+)""",
+        page.split("<script")[0] + page.rsplit("</script>", 1)[-1],
+    )
     assert not outside
     assert "@page" in page
     assert all(step["source"] for step in steps), [s["key"] for s in steps if not s["source"]]

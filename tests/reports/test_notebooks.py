@@ -35,7 +35,9 @@ def test_a_card_shows_what_show_prints():
 def test_a_fit_is_a_table_of_estimates():
     time = np.array([0.0, 600.0, 1200.0, 1800.0, 2400.0, 3000.0])
     fit = gr.drying.ThinLayerTest(
-        time=time, moisture_ratio=np.exp(-1e-3 * time) * (1 + 1e-3 * np.array([0, 1, -1, 1, -1, 1])), model="lewis"
+        time=time,
+        moisture_ratio=np.exp(-1e-3 * time) * (1 + 1e-3 * np.array([0, 1, -1, 1, -1, 1])),
+        model="lewis",
     ).fit()
     frame = fit.to_pandas()
     row = frame.loc[next(iter(fit.parameters))]
@@ -50,8 +52,12 @@ def test_a_run_is_streams_and_figures_with_units(run):
     flows = [c for c in frame.columns if c.startswith(("solid.", "liquid.", "gas."))]
     for name, stream in run.streams.items():
         assert frame.loc[name, flows].sum() == pytest.approx(float(stream.mass_flow), rel=1e-12)
-        assert float(data.mass_flow.sel(stream=name).sum()) == pytest.approx(float(stream.mass_flow), rel=1e-12)
-        assert float(data.solid_by_size.sel(stream=name).sum()) == pytest.approx(float(stream.solid_flow), rel=1e-12, abs=1e-300)
+        assert float(data.mass_flow.sel(stream=name).sum()) == pytest.approx(
+            float(stream.mass_flow), rel=1e-12
+        )
+        assert float(data.solid_by_size.sel(stream=name).sum()) == pytest.approx(
+            float(stream.solid_flow), rel=1e-12, abs=1e-300
+        )
     unit = next(iter(run.units))
     p, value = next((p, v) for p, v in run.units[unit].figures() if p.kind is not None)
     assert float(data[f"{unit}.{p.name}"]) == pytest.approx(float(value))

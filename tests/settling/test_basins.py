@@ -16,7 +16,8 @@ def test_area_of_davis_example_10_4():
 
 
 def test_scour_velocity_of_metcalf_and_eddy():
-    # Metcalf & Eddy, primary sedimentation example: 100 µm, specific gravity 1.25, k = 0.05, f = 0.025 give 0.063 m/s.
+    # Metcalf & Eddy, primary sedimentation example: 100 µm, specific gravity 1.25, k = 0.05, f = 0.025 give
+    # 0.063 m/s.
     assert basins.scour_velocity_camp("100 um", 1250, 1000, 0.05, 0.025) == pytest.approx(0.063, abs=5e-4)
 
 
@@ -26,7 +27,9 @@ def test_removal_between_one_tank_and_plug_flow():
     many = np.asarray(basins.removal_efficiency_hazen(ratio * 1e-3, 1e-3, 1e7))
     np.testing.assert_allclose(many, 1 - np.exp(-ratio), rtol=1e-6)
     # Hazen's one tank: 1/(1 + v0/v), worked by hand.
-    np.testing.assert_allclose(basins.removal_efficiency_hazen(ratio * 1e-3, 1e-3, 1.0), ratio / (1 + ratio), rtol=1e-12)
+    np.testing.assert_allclose(
+        basins.removal_efficiency_hazen(ratio * 1e-3, 1e-3, 1.0), ratio / (1 + ratio), rtol=1e-12
+    )
     assert np.all(many <= ideal)
 
 
@@ -34,12 +37,16 @@ def test_class_removal_is_the_classical_integral():
     # 1 − x0 + (1/v0) ∫ v dx on a linear velocity distribution from 0 to 2 v0: ½ + ¼.
     edges = np.linspace(0, 2e-3, 4001)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    assert basins.removal_efficiency_classes(middle, np.full(4000, 1 / 4000), 1e-3) == pytest.approx(0.75, rel=1e-6)
+    assert basins.removal_efficiency_classes(middle, np.full(4000, 1 / 4000), 1e-3) == pytest.approx(
+        0.75, rel=1e-6
+    )
 
 
 def test_api_separator_of_a_published_sheet():
-    # Oil–water separator sheet after API 421: 224.79 m³/h, 880/1000 kg/m³, 1 cP. Printed: rise 5.30 m/h, horizontal 54.86 m/h
-    # (3 ft/min, below 15 × 5.30 = 79.46), section 4.10 m², depth 1.13 m, width 3.63 m, ratio 10.36, F 1.53, lengths 17.86 and 18.13 m.
+    # Oil–water separator sheet after API 421: 224.79 m³/h, 880/1000 kg/m³, 1 cP. Printed: rise 5.30 m/h,
+    # horizontal 54.86 m/h
+    # (3 ft/min, below 15 × 5.30 = 79.46), section 4.10 m², depth 1.13 m, width 3.63 m, ratio 10.36, F 1.53,
+    # lengths 17.86 and 18.13 m.
     rise = api.rise_velocity_api(1000.0, 880.0, 1e-3)
     assert rise * 3600 == pytest.approx(5.30, abs=5e-3)
     assert 15 * rise * 3600 == pytest.approx(79.46, abs=0.05)
@@ -59,7 +66,8 @@ def test_turbulence_factor_goes_through_the_points_of_the_figure(ratio, factor):
 
 
 def test_tube_settler_of_aguaclara():
-    # AguaClara textbook: 3 mm/s in 2.54 cm tubes at 60° with a capture velocity of 0.2 mm/s need 72 cm (ideal plates, S = 1).
+    # AguaClara textbook: 3 mm/s in 2.54 cm tubes at 60° with a capture velocity of 0.2 mm/s need 72 cm (ideal
+    # plates, S = 1).
     critical = lamella.critical_velocity_countercurrent("3 mm/s", "72 cm", "2.54 cm", "60 degree")
     assert critical * 1e3 == pytest.approx(0.2, rel=5e-3)
 
@@ -68,11 +76,17 @@ def test_lamella_limits():
     common = ("3 mm/s", "1.2 m", "5 cm")
     up, across, down = (
         f(*common, "60 degree")
-        for f in (lamella.critical_velocity_countercurrent, lamella.critical_velocity_crosscurrent, lamella.critical_velocity_cocurrent)
+        for f in (
+            lamella.critical_velocity_countercurrent,
+            lamella.critical_velocity_crosscurrent,
+            lamella.critical_velocity_cocurrent,
+        )
     )
     assert up < across < down
     # Horizontal plates: overflow rate over the plate length, whatever the direction.
-    assert lamella.critical_velocity_countercurrent(*common, 0.0) == pytest.approx(3e-3 * 0.05 / 1.2, rel=1e-12)
+    assert lamella.critical_velocity_countercurrent(*common, 0.0) == pytest.approx(
+        3e-3 * 0.05 / 1.2, rel=1e-12
+    )
     # Long plates: velocity through the gap over the projected length, the projected-area rule.
     long = lamella.critical_velocity_countercurrent("3 mm/s", 500.0, "5 cm", "60 degree")
     assert long == pytest.approx(3e-3 * 0.05 / (500.0 * 0.5), rel=2e-3)

@@ -13,7 +13,13 @@ from granum.particles.formulas.terminal import terminal_velocity
 from granum.settling import charts
 from granum.settling.equipment.api_separator import ApiSeparator
 from granum.settling.equipment.clarifier_thickener import ClarifierThickener
-from granum.settling.equipment.clarifiers import CircularClarifier, Clarifier, GritChamber, Lamella, RectangularClarifier
+from granum.settling.equipment.clarifiers import (
+    CircularClarifier,
+    Clarifier,
+    GritChamber,
+    Lamella,
+    RectangularClarifier,
+)
 from granum.settling.equipment.thickener import Thickener
 from granum.settling.simulations import batch_simulation, continuous_simulation
 from granum.settling.velocities import Vesilind
@@ -23,7 +29,10 @@ from granum.streams.stream import empty
 
 EDGES = tuple(np.geomspace(2e-6, 5e-4, 13))
 MIXTURE = Mixture(
-    solids=(Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)), Species("oil", (("oil", 1.0),), (880.0,), (2000.0,))),
+    solids=(
+        Species("sand", (("sand", 1.0),), (2650.0,), (800.0,)),
+        Species("oil", (("oil", 1.0),), (880.0,), (2000.0,)),
+    ),
     liquids=(Species("water", (("water", 1.0),), (1000.0,), (4180.0,)),),
     gases=(),
     size_edges=EDGES,
@@ -32,7 +41,9 @@ MIXTURE = Mixture(
 
 
 def feed(water=100.0, sand=0.02, oil=0.001):
-    return empty(MIXTURE).replace(solid=jnp.stack([jnp.full(12, sand), jnp.full(12, oil)]), liquid=jnp.array([water]))
+    return empty(MIXTURE).replace(
+        solid=jnp.stack([jnp.full(12, sand), jnp.full(12, oil)]), liquid=jnp.array([water])
+    )
 
 
 UNITS = [
@@ -96,7 +107,9 @@ def test_api_separator_skims_all_oil_of_the_design_globule():
     mixture = Mixture(MIXTURE.solids[1:], MIXTURE.liquids, (), edges, liquid_viscosity=lambda w, T: 1e-3)
     stream = empty(mixture).replace(solid=jnp.full((1, 1), 1e-4), liquid=jnp.array([59.9]))
     out = unit(stream)
-    assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(1.0, abs=0.1)  # Stokes in the design, full drag here
+    assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(
+        1.0, abs=0.1
+    )  # Stokes in the design, full drag here
     assert all(check.ok for check in unit.operate(feed=stream).checks)
 
 
@@ -124,20 +137,29 @@ def test_charts_draw():
 
 
 def test_clarifier_thickener_agrees_with_flux_theory_and_with_its_own_simulation():
-    """Underflow of all solids at the given flow; overloaded, what the thickening zone passes (Lambert W, by hand in test_thickening)."""
+    """Underflow of all solids at the given flow; overloaded, what the thickening zone passes (Lambert W, by
+    hand in test_thickening).
+    """
     law = Vesilind("5 m/hour", 0.5)
     slurry = empty(MIXTURE).replace(
-        solid=jnp.zeros((2, 12)).at[0].set(2.5 * 800 / 3600 / 12), liquid=jnp.array([(1 - 2.5 / 2650) * 800 / 3.6])
+        solid=jnp.zeros((2, 12)).at[0].set(2.5 * 800 / 3600 / 12),
+        liquid=jnp.array([(1 - 2.5 / 2650) * 800 / 3.6]),
     )
     unit = ClarifierThickener(1000.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
     out, figures, checks, course, _records = unit.operate(feed=slurry)
     assert float(figures.underflow_concentration) == pytest.approx(2.5 * 800 / 300, rel=1e-9)
     assert float(out.underflow.slurry_volume_flow) * 3600 == pytest.approx(300.0, rel=1e-9)
-    assert float(course.underflow_concentration[-1]) == pytest.approx(float(figures.underflow_concentration), rel=1e-3)
-    assert float(figures.retention_time) == pytest.approx(float(figures.solids_held) / float(slurry.solid_flow))
+    assert float(course.underflow_concentration[-1]) == pytest.approx(
+        float(figures.underflow_concentration), rel=1e-3
+    )
+    assert float(figures.retention_time) == pytest.approx(
+        float(figures.solids_held) / float(slurry.solid_flow)
+    )
     assert all(check.ok for check in checks)
     small = ClarifierThickener(300.0, 4.0, "300 m^3/hour", law, settling_time="4 day")
     spilled, figures, checks, *_rest = small.operate(feed=slurry)
     assert float(figures.loading_ratio) > 1.0
-    assert float(spilled.overflow.solid_flow) == pytest.approx(float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9)
+    assert float(spilled.overflow.solid_flow) == pytest.approx(
+        float(slurry.solid_flow) * (1 - 1 / float(figures.loading_ratio)), rel=1e-9
+    )
     assert not all(check.ok for check in checks)

@@ -23,17 +23,22 @@ from granum.settling.velocities import Vesilind
 LAW, START, HEIGHT = Vesilind(5 / 3600, 0.4), 3.0, 0.4
 TIMES = np.linspace(0, 7200, 40)
 EXACT = np.asarray(kynch_height(TIMES, LAW, START, HEIGHT, 5.0, 200.0))
-# Batch test on a limestone slurry, 236 g/L (Foust et al., Principles of Unit Operations): hours, cm; the book's own tangents
+# Batch test on a limestone slurry, 236 g/L (Foust et al., Principles of Unit Operations): hours, cm; the
+# book's own tangents
 # give these pairs of concentration (g/L) and settling velocity (cm/h).
 LIMESTONE_TIME = np.array([0, 0.25, 0.5, 1, 1.75, 3, 4.75, 12, 20]) * 3600
 LIMESTONE_HEIGHT = np.array([36, 32.4, 28.6, 21, 14.7, 12.3, 11.55, 9.8, 8.8]) / 100
-LIMESTONE_TANGENTS = np.array([[236, 15.65], [358, 5.00], [425, 2.78], [525, 1.27], [600, 0.646], [714, 0.158]])
+LIMESTONE_TANGENTS = np.array(
+    [[236, 15.65], [358, 5.00], [425, 2.78], [525, 1.27], [600, 0.646], [714, 0.158]]
+)
 
 
 def noisy(seed: int) -> BatchTest:
     h = EXACT + np.random.default_rng(seed).normal(0, 0.0008, EXACT.size)
     h[0] = HEIGHT
-    return BatchTest(time=TIMES, interface_height=h, initial_concentration=START, underflow_concentration=14.0)
+    return BatchTest(
+        time=TIMES, interface_height=h, initial_concentration=START, underflow_concentration=14.0
+    )
 
 
 def test_tangents_of_an_exact_curve_give_the_function_back():
@@ -51,7 +56,8 @@ def test_fit_of_a_noisy_curve_covers_the_truth():
     v = found.derived["settling_velocity"]
     assert v.interval_95[0] < float(LAW(START)) * 1.005
     assert v.interval_95[1] > float(LAW(START)) * 0.995
-    # Talmage–Fitch: the time of the Kynch tangent of the layer that limits, here by the closed solution itself.
+    # Talmage–Fitch: the time of the Kynch tangent of the layer that limits, here by the closed solution
+    # itself.
     layer = 3.0 * 0.4 / 14.0
     dense = np.linspace(5.2, 13.9, 4000)
     cut = START * HEIGHT / dense
@@ -64,7 +70,9 @@ def test_flux_curve_has_a_band_around_the_function():
     assert np.all(flux.settling_velocity_lower <= flux.settling_velocity)
     assert np.all(flux.settling_velocity_upper >= flux.settling_velocity)
     dense = flux.solids_concentration > 8.0
-    np.testing.assert_allclose(flux.settling_velocity[dense], np.asarray(LAW(flux.solids_concentration[dense])), rtol=0.12)
+    np.testing.assert_allclose(
+        flux.settling_velocity[dense], np.asarray(LAW(flux.solids_concentration[dense])), rtol=0.12
+    )
 
 
 def test_limestone_of_foust():
@@ -77,7 +85,9 @@ def test_limestone_of_foust():
 
 
 def exact_packed_curve() -> tuple[np.ndarray, np.ndarray]:
-    """Kynch's own solution for v = 1 mm/s (1 − C/1000)^4.65 from 300 kg/m³ and 1 m: a straight fall, then the fan, no compression."""
+    """Kynch's own solution for v = 1 mm/s (1 − C/1000)^4.65 from 300 kg/m³ and 1 m: a straight fall, then the
+    fan, no compression.
+    """
     p = np.linspace(0.41, 0.72, 18)
     v, slope = 1e-3 * (1 - p) ** 4.65, -4.65e-3 * (1 - p) ** 3.65
     t = 0.3 / (-(p**2) * slope)
@@ -104,7 +114,9 @@ def test_no_compression_in_an_exact_curve_of_kynch():
 
 def test_two_unit_areas_that_disagree_are_told():
     t, h = exact_packed_curve()
-    found = BatchTest(t, h, 300.0, underflow_concentration=750.0).fit()  # no exponential law follows this curve
+    found = BatchTest(
+        t, h, 300.0, underflow_concentration=750.0
+    ).fit()  # no exponential law follows this curve
     words = {flag["flag"] for flag in found.flags}
     assert {"law misses the curve", "unit areas disagree"} <= words
 
@@ -116,11 +128,15 @@ def test_compression_that_is_there_stays():
     h = np.asarray(course.interface_height(1.5))[1:]
     zones = BatchTest(t, h, START, initial_height=0.5).zones()
     assert zones.compression is not None
-    assert START * 0.5 / zones.compression.height > 7.5  # mean concentration under the interface there; the bed starts to carry at 8
+    assert (
+        START * 0.5 / zones.compression.height > 7.5
+    )  # mean concentration under the interface there; the bed starts to carry at 8
 
 
 def test_reads_a_file_and_says_what_it_did():
-    text = "time [min],interface_height [mm]\n" + "\n".join(f"{t / 60:.4f},{h * 1000:.3f}" for t, h in zip(TIMES, EXACT, strict=True))
+    text = "time [min],interface_height [mm]\n" + "\n".join(
+        f"{t / 60:.4f},{h * 1000:.3f}" for t, h in zip(TIMES, EXACT, strict=True)
+    )
     lines = text.splitlines()
     lines[3], lines[4] = lines[4], lines[3]  # out of order
     lines.append("130,60")  # the interface rises again
@@ -169,9 +185,16 @@ def test_shape_constraints():
 
 def test_hindrance_and_compression_from_one_curve():
     t = np.concatenate([np.linspace(60, 1800, 12), np.linspace(2400, 6 * 3600, 10)])
-    truth = {"vesilind_velocity": 1.4e-3, "vesilind_coefficient": 0.4, "critical_concentration": 8.0, "stress_scale": 0.5}
+    truth = {
+        "vesilind_velocity": 1.4e-3,
+        "vesilind_coefficient": 0.4,
+        "critical_concentration": 8.0,
+        "stress_scale": 0.5,
+    }
     suspension = Suspension(Vesilind(1.4e-3, 0.4), LogarithmicStress(8.0, 0.5, 4.0), 1050.0, 998.0)
-    course = settle(suspension, 0.5, START, jnp.concatenate([jnp.zeros(1), t]), cells=200)  # another grid than the fit's
+    course = settle(
+        suspension, 0.5, START, jnp.concatenate([jnp.zeros(1), t]), cells=200
+    )  # another grid than the fit's
     h = np.asarray(course.interface_height(1.5))[1:] + np.random.default_rng(0).normal(0, 5e-4, t.size)
     found = CompressionTest(t, h, START, 1050.0, initial_height=0.5).fit()
     for name, value in truth.items():
@@ -180,7 +203,10 @@ def test_hindrance_and_compression_from_one_curve():
 
 def test_flocculent_column_of_davis_example_10_3():
     # Davis (2010), example 10-3: at 35 min and 2 m the drawn lines give 59.5 %; 65 % is read at 54 min.
-    removed = np.array([[41, 50, 60, 67, 72, 73, 76], [19, 33, 45, 58, 62, 70, 74], [15, 31, 38, 54, 59, 63, 71]]) / 100
+    removed = (
+        np.array([[41, 50, 60, 67, 72, 73, 76], [19, 33, 45, 58, 62, 70, 74], [15, 31, 38, 54, 59, 63, 71]])
+        / 100
+    )
     time, depth = np.meshgrid(np.array([5, 10, 20, 40, 60, 90, 120]) * 60.0, [0.5, 1.0, 2.0])
     test = FlocculentColumn(time.ravel(), depth.ravel(), removed.ravel())
     assert float(test.removal(35 * 60.0, 2.0)) == pytest.approx(0.595, abs=0.02)
@@ -189,7 +215,12 @@ def test_flocculent_column_of_davis_example_10_3():
     assert float(test.duration(0.65, 2.0)) == pytest.approx(54 * 60.0, rel=0.08)
     assert float(test.removal(test.duration(0.65, 2.0), 2.0)) == pytest.approx(0.65, abs=1e-9)
     basin = FlocculentColumn(
-        time.ravel(), depth.ravel(), removed.ravel(), basin_depth="2 m", residence_time="35 min", removal_efficiency_wanted="65 %"
+        time.ravel(),
+        depth.ravel(),
+        removed.ravel(),
+        basin_depth="2 m",
+        residence_time="35 min",
+        removal_efficiency_wanted="65 %",
     )
     found = basin.fit()
     assert found["removal_efficiency_basin"].value == pytest.approx(0.595, abs=0.02)

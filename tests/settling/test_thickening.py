@@ -14,13 +14,17 @@ SLUDGE = Vesilind(5 / 3600, 0.5)
 
 
 def test_coulson_richardson_problem_5_1():
-    # 1.33 kg/s of solids, 5 kg water/kg to 1.5; the smooth curve through the five tests peaks at 23 450 s/m: 31.2 m².
-    area = thickening.thickener_area_liquid_ratio(1.33, [5, 4.2, 3.7, 3.1, 2.5], [2e-4, 1.2e-4, 9.4e-5, 7e-5, 5e-5], 1.5, 1000)
+    # 1.33 kg/s of solids, 5 kg water/kg to 1.5; the smooth curve through the five tests peaks at 23 450 s/m:
+    # 31.2 m².
+    area = thickening.thickener_area_liquid_ratio(
+        1.33, [5, 4.2, 3.7, 3.1, 2.5], [2e-4, 1.2e-4, 9.4e-5, 7e-5, 5e-5], 1.5, 1000
+    )
     assert area == pytest.approx(31.2, rel=3e-3)
 
 
 def test_interfaces_of_rhodes_exercise_3_1():
-    # Rhodes, exercise 3.1: suspension of 0.2 over sediment of 0.5: clear interface falls at 0.39, sediment rises at 0.26 mm/s.
+    # Rhodes, exercise 3.1: suspension of 0.2 over sediment of 0.5: clear interface falls at 0.39, sediment
+    # rises at 0.26 mm/s.
     v = float(HinderedParticles(1.1e-3, 1200.0, reynolds=0.11)(0.2 * 1200.0))
     assert v * 1e3 == pytest.approx(0.39, abs=2e-3)
     assert thickening.shock_velocity_kynch(240.0, v, 600.0, 0.0) * 1e3 == pytest.approx(-0.26, abs=1e-3)
@@ -85,14 +89,20 @@ def test_takacs_of_the_benchmark_and_its_shape():
 
 def test_laws_fall_with_concentration_and_stay_positive():
     C = np.linspace(1.5, 60.0, 200)
-    for law in (SLUDGE, Cole(2e-3, 1.8), RichardsonZakiConcentration(1e-3, 4.65, 80.0), HinderedParticles(1e-3, 80.0)):
+    for law in (
+        SLUDGE,
+        Cole(2e-3, 1.8),
+        RichardsonZakiConcentration(1e-3, 4.65, 80.0),
+        HinderedParticles(1e-3, 80.0),
+    ):
         v = np.asarray(law(C))
         assert np.all(np.diff(v) < 0), type(law).__name__
         assert np.all(v > 0), type(law).__name__
 
 
 def test_sludge_indices():
-    # 250 mL settled from a litre at 2.5 g/L: 100 mL/g (definition). Diluted by half, 200 mL at 4 g/L before dilution: 100 mL/g.
+    # 250 mL settled from a litre at 2.5 g/L: 100 mL/g (definition). Diluted by half, 200 mL at 4 g/L before
+    # dilution: 100 mL/g.
     assert sludge_index.sludge_volume_index("250 mL", "1 L", "2500 mg/L") == pytest.approx(0.1)
     assert sludge_index.sludge_volume_index_diluted("200 mL", "1 L", "4 g/L", 0.5) == pytest.approx(0.1)
     poor, good = (sludge_index.vesilind_velocity_hartel_popel(x) for x in (0.25, 0.08))

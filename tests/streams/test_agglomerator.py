@@ -1,4 +1,6 @@
-"""The agglomerator against closed forms for the number of particles; axes gathered into parts give the same answer."""
+"""The agglomerator against closed forms for the number of particles; axes gathered into parts give the same
+answer.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ def feed_on(edges: np.ndarray) -> tuple[Stream, np.ndarray]:
 
 @pytest.mark.parametrize("grid", GRIDS)
 def test_number_of_a_constant_kernel(grid: str) -> None:
-    """dN/dt = N_in - N/τ - β N²/(2V), whatever the sizes (Smoluchowski 1917): its steady state, and its start from the feed."""
+    """dN/dt = N_in - N/τ - β N²/(2V), whatever the sizes (Smoluchowski 1917): its steady state, and its start
+    from the feed.
+    """
     feed, middle = feed_on(GRIDS[grid])
     unit, time = bed(), HELD / FLOW
     entering = float(jnp.sum(feed.solid[0] / middle)) / 2000.0
@@ -60,12 +64,17 @@ def test_number_of_a_constant_kernel(grid: str) -> None:
 
 
 def test_a_kernel_that_is_no_sum_of_products() -> None:
-    """Pairs one by one and by Fourier transform give the same: a kernel with a corner against one close to constant."""
+    """Pairs one by one and by Fourier transform give the same: a kernel with a corner against one close to
+    constant.
+    """
     from granum.streams.equipment.agglomerator import _joined_evenly, meetings_of
 
     n = 40
     i = jnp.arange(n) + 0.5
-    smooth, corner = (i[:, None] + i[None, :]) ** 2 / (i[:, None] * i[None, :]), jnp.abs(i[:, None] - i[None, :]) ** 0.5
+    smooth, corner = (
+        (i[:, None] + i[None, :]) ** 2 / (i[:, None] * i[None, :]),
+        jnp.abs(i[:, None] - i[None, :]) ** 0.5,
+    )
     numbers, solid = jnp.exp(-i / 5.0), jnp.stack([i * jnp.exp(-i / 6.0), i], axis=1)
     for kernel, exact in ((smooth, True), (corner, False)):
         meetings = meetings_of(kernel)
@@ -78,7 +87,9 @@ def test_a_kernel_that_is_no_sum_of_products() -> None:
 
 
 def test_axes_gathered() -> None:
-    """Three distributions over ten classes, two of them fed, one at the start-up: the same streams come back."""
+    """Three distributions over ten classes, two of them fed, one at the start-up: the same streams come
+    back.
+    """
     axis = tuple(np.linspace(0.0, 1.0, 11))
     mixture = Mixture((SAND,), (), (), (1e-5, 1e-4, 1e-3), (("porosity", axis),))
     narrow, wide = np.exp(-((np.arange(10) - 4.0) ** 2)), np.ones(10)

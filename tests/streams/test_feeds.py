@@ -1,4 +1,6 @@
-"""A feed in Python is the feed of a case file: the same words, quantities and refusals, and one humidity for any pair."""
+"""A feed in Python is the feed of a case file: the same words, quantities and refusals, and one humidity for
+any pair.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ EVEN = {"fractions": [0.5, 0.5]}
 
 def test_flows_and_shares_by_hand() -> None:
     shares = {"quartz": 0.8, "calcite": "20 %"}
-    made = feed(WET, mass_flow="3.6 t/h", solids_mass_fraction="25 %", solid=shares, sizes=EVEN, temperature="50 degC")
+    made = feed(
+        WET, mass_flow="3.6 t/h", solids_mass_fraction="25 %", solid=shares, sizes=EVEN, temperature="50 degC"
+    )
     np.testing.assert_allclose(made.solid, [[0.1, 0.1], [0.025, 0.025]], rtol=1e-14)
     np.testing.assert_allclose(made.liquid, [0.75], rtol=1e-14)
     assert float(made.temperature) == pytest.approx(323.15, rel=1e-14)
@@ -33,8 +37,15 @@ def test_flows_and_shares_by_hand() -> None:
 
 @pytest.mark.parametrize("gases", [("nitrogen", "ethanol"), ("ethanol", "nitrogen")])
 def test_relative_humidity_is_that_of_the_pair(gases: tuple[str, str]) -> None:
-    """Half the vapor pressure of ethanol at 20 °C: some 0.05 kg per kg of nitrogen, not the 0.007 of water in air."""
-    made = feed(mixture_of(["ethanol"], [], gases, EDGES), gas_flow=2.0, relative_humidity="50 %", temperature="20 degC")
+    """Half the vapor pressure of ethanol at 20 °C: some 0.05 kg per kg of nitrogen, not the 0.007 of water in
+    air.
+    """
+    made = feed(
+        mixture_of(["ethanol"], [], gases, EDGES),
+        gas_flow=2.0,
+        relative_humidity="50 %",
+        temperature="20 degC",
+    )
     vapor, dry = (float(made.gas[gases.index(name)]) for name in ("ethanol", "nitrogen"))
     share = 0.5 * float(fluid("ethanol").vapor_pressure(293.15)) / 101325.0
     ratio = float(fluid("ethanol").molar_mass / fluid("nitrogen").molar_mass)

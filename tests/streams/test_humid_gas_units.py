@@ -1,4 +1,6 @@
-"""Humid gas in a line against the course notes, steam tables and the psychrometric formulas, which share no enthalpy polynomial with streams."""
+"""Humid gas in a line against the course notes, steam tables and the psychrometric formulas, which share no
+enthalpy polynomial with streams.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,12 @@ from granum.core.errors import ApplicabilityError
 from granum.humid_gas.formulas import processes
 from granum.humid_gas.formulas.state import state
 from granum.streams.audit import closure
-from granum.streams.equipment.humid_gas import AdiabaticHumidifier, CondenserCooler, DehumidifyingCoil, HumidMixer
+from granum.streams.equipment.humid_gas import (
+    AdiabaticHumidifier,
+    CondenserCooler,
+    DehumidifyingCoil,
+    HumidMixer,
+)
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 
@@ -37,14 +44,19 @@ def closes(inlets: list[Stream], outlets: list[Stream], duty: float = 0.0) -> No
 
 
 def test_mixing_of_the_course_notes() -> None:
-    # D I.3.2: 1.5 kg at 100 kJ/kg, w 0.027 with 2.5 kg at 160 kJ/kg, w 0.04 give 137.5 kJ/kg and 0.035; the notes read 46.5 °C
-    first, second = (float(state(enthalpy=h, humidity_ratio=w).temperature) for h, w in ((100e3, 0.027), (160e3, 0.04)))
+    # D I.3.2: 1.5 kg at 100 kJ/kg, w 0.027 with 2.5 kg at 160 kJ/kg, w 0.04 give 137.5 kJ/kg and 0.035; the
+    # notes read 46.5 °C
+    first, second = (
+        float(state(enthalpy=h, humidity_ratio=w).temperature) for h, w in ((100e3, 0.027), (160e3, 0.04))
+    )
     inlets = {"first": air(first, 0.027, 1.5), "second": air(second, 0.04, 2.5)}
     out = HumidMixer()(**inlets)
     figures = HumidMixer().operate(**inlets).figures
     assert float(figures.humidity_ratio) == pytest.approx(0.035, rel=5e-3)
     assert float(figures.temperature) == pytest.approx(46.5 + C, abs=0.6)
-    assert float(state(temperature=figures.temperature, humidity_ratio=figures.humidity_ratio).enthalpy) == pytest.approx(137.5e3, rel=2e-3)
+    assert float(
+        state(temperature=figures.temperature, humidity_ratio=figures.humidity_ratio).enthalpy
+    ) == pytest.approx(137.5e3, rel=2e-3)
     closes(list(inlets.values()), [out.product])
 
 
@@ -71,7 +83,9 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     out = CondenserCooler(10 + C)(gas)
     expected = processes.cooling(30 + C, 0.02, 10 + C, 2.0)
     figures = CondenserCooler(10 + C).operate(gas=gas).figures
-    assert float(figures.humidity_ratio) == pytest.approx(0.00766, rel=5e-3)  # ASHRAE table, saturated at 10 °C
+    assert float(figures.humidity_ratio) == pytest.approx(
+        0.00766, rel=5e-3
+    )  # ASHRAE table, saturated at 10 °C
     assert float(out.heat_duty) == pytest.approx(expected.heat_duty, rel=1e-3)
     assert float(figures.condensate_flow) == pytest.approx(expected.condensate_flow, rel=1e-3)
     closes([gas], [out.product, out.condensate], float(out.heat_duty))
@@ -84,7 +98,9 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     out = coil(gas)
     expected = processes.dehumidifying(30 + C, 0.016, 8 + C, 0.1)
     assert float(out.product.temperature) == pytest.approx(expected.temperature, abs=0.02)
-    assert float(coil.operate(gas=gas).figures.humidity_ratio) == pytest.approx(expected.humidity_ratio, rel=1e-3)
+    assert float(coil.operate(gas=gas).figures.humidity_ratio) == pytest.approx(
+        expected.humidity_ratio, rel=1e-3
+    )
     closes([gas], [out.product, out.condensate], float(out.heat_duty))
     assert not CondenserCooler(-5 + C).operate(gas=gas).checks[0].ok
 
@@ -132,4 +148,6 @@ def test_the_example_line() -> None:
     run = read(Path(__file__).parents[2] / "examples" / "humid-air" / "line.toml").solve()
     assert run.audit["mass_closure"] < 1e-9
     # ASHRAE table, saturated at 8 °C: 6.68 g/kg; a tenth of the mixed 27.2 g/kg passes the coil
-    assert float(run.figure("heater.humidity_ratio")) == pytest.approx(0.9 * 6.68e-3 + 0.1 * 27.2e-3, rel=0.01)
+    assert float(run.figure("heater.humidity_ratio")) == pytest.approx(
+        0.9 * 6.68e-3 + 0.1 * 27.2e-3, rel=0.01
+    )

@@ -21,20 +21,28 @@ AIR = Species("air", (("air", 1.0),), (), (1000.0,), 0.0, 0.029)
 SALT = Species("salt", (("salt", 1.0),), (2000.0,), (800.0,), -1e5, 0.1)
 HYDRATE = Species("hydrate", (("salt", 0.6), ("water", 0.4)), (1800.0,), (1200.0,), -2e5, 0.15)
 BRINE = Species("salt", (("salt", 1.0),), (2500.0,), (1000.0,), 0.0, 0.1)
-MIXTURE = Mixture((SALT, HYDRATE), (WATER, BRINE), (AIR, VAPOR), (0.0, 1e-4, 2e-4, 4e-4), (("porosity", (0.0, 0.5, 1.0)),))
+MIXTURE = Mixture(
+    (SALT, HYDRATE), (WATER, BRINE), (AIR, VAPOR), (0.0, 1e-4, 2e-4, 4e-4), (("porosity", (0.0, 0.5, 1.0)),)
+)
 
 
 def stream(temperature: float = 300.0, water: float = 1.0, salt: float = 0.5, solid: float = 0.1) -> Stream:
-    return empty(MIXTURE, temperature).replace(liquid=jnp.array([water, salt]), solid=jnp.full(MIXTURE.solid_shape, solid))
+    return empty(MIXTURE, temperature).replace(
+        liquid=jnp.array([water, salt]), solid=jnp.full(MIXTURE.solid_shape, solid)
+    )
 
 
 def test_hydrate_counts_as_its_components() -> None:
     s = empty(MIXTURE).replace(solid=jnp.zeros(MIXTURE.solid_shape).at[1, 0, 0].set(10.0))
-    assert dict(zip(MIXTURE.components, np.asarray(s.components), strict=True)) == pytest.approx({"water": 4.0, "salt": 6.0, "air": 0.0})
+    assert dict(zip(MIXTURE.components, np.asarray(s.components), strict=True)) == pytest.approx(
+        {"water": 4.0, "salt": 6.0, "air": 0.0}
+    )
 
 
 def test_mixing_two_liquids_weighs_their_heats() -> None:
-    hot, cold = (empty(MIXTURE, T).replace(liquid=jnp.array([m, 0.0])) for T, m in ((350.0, 1.0), (290.0, 2.0)))
+    hot, cold = (
+        empty(MIXTURE, T).replace(liquid=jnp.array([m, 0.0])) for T, m in ((350.0, 1.0), (290.0, 2.0))
+    )
     assert float((hot + cold).temperature) == pytest.approx((350.0 + 2 * 290.0) / 3, abs=1e-9)
 
 
@@ -44,7 +52,9 @@ def test_vapor_into_air_brings_its_heat_of_vaporization() -> None:
 
 
 def test_volumes_and_fractions() -> None:
-    s = empty(MIXTURE).replace(liquid=jnp.array([3.0, 0.0]), solid=jnp.zeros(MIXTURE.solid_shape).at[0, 1, 0].set(2.0))
+    s = empty(MIXTURE).replace(
+        liquid=jnp.array([3.0, 0.0]), solid=jnp.zeros(MIXTURE.solid_shape).at[0, 1, 0].set(2.0)
+    )
     assert float(s.slurry_volume_flow) == pytest.approx(2 / 2000 + 3 / 1000)
     assert float(s.solids_volume_fraction) == pytest.approx(0.25)
     assert float(s.solids_mass_fraction) == pytest.approx(0.4)
@@ -61,7 +71,9 @@ def test_regrading_moves_sizes_and_leaves_other_axes() -> None:
 
 
 @given(st.floats(250.0, 500.0), st.floats(250.0, 500.0), st.floats(1e-6, 1e3), st.floats(1e-6, 1e3))
-def test_mixing_conserves_components_and_energy(first: float, second: float, water: float, solid: float) -> None:
+def test_mixing_conserves_components_and_energy(
+    first: float, second: float, water: float, solid: float
+) -> None:
     a, b = stream(first, water=water), stream(second, solid=solid)
     found = closure([a, b], [a + b])
     assert float(found.mass) < 1e-14

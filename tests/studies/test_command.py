@@ -29,7 +29,9 @@ def granum(*words: str) -> tuple[int, str, str]:
 
 
 def test_settling_example() -> None:
-    """The spread of a lognormal diameter in Stokes' range: P90/P10 of the speed is close to 1.2**(2·2·1.2816) = 2.55, less inertia."""
+    """The spread of a lognormal diameter in Stokes' range: P90/P10 of the speed is close to 1.2**(2·2·1.2816)
+    = 2.55, less inertia.
+    """
     code, out, _err = granum(str(SETTLING), "--json", "--samples", "1000")
     data = json.loads(out)["studies"]
     assert code == 0
@@ -37,12 +39,28 @@ def test_settling_example() -> None:
     speed = data["spread"]["findings"]["statistics"]["terminal_velocity"]
     assert 2.3 < speed["p90"] / speed["p10"] < 2.55
     assert data["influence"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"]["total"] > 0.9
-    assert data["spread"]["counts"] == {"cases": 1000, "run": 1000, "failed": 0, "extrapolated": 0, "patient": 0, "reasons": {}}
+    assert data["spread"]["counts"] == {
+        "cases": 1000,
+        "run": 1000,
+        "failed": 0,
+        "extrapolated": 0,
+        "patient": 0,
+        "reasons": {},
+    }
 
 
 def test_tables_and_report(tmp_path) -> None:
     report = tmp_path / "r.html"
-    code, out, _err = granum(str(SETTLING), "spread", "--samples", "200", "--report", str(report), "--out", str(tmp_path / "cases.csv"))
+    code, out, _err = granum(
+        str(SETTLING),
+        "spread",
+        "--samples",
+        "200",
+        "--report",
+        str(report),
+        "--out",
+        str(tmp_path / "cases.csv"),
+    )
     assert code == 0
     for words in ("P10", "P90", "settling_time ≤ 10 min", "saved to"):
         assert words in out
@@ -74,14 +92,39 @@ BELT = [
 
 
 def test_a_card_without_a_file() -> None:
-    """Stokes' speed goes with the square of the size; a belt needs the less area the more suction it has, which is the bound of the optimum."""
-    code, out, _err = granum(*FALL, "particle_diameter=2..4um", "dynamic_viscosity=1cP", "--steps", "2", "--json")
+    """Stokes' speed goes with the square of the size; a belt needs the less area the more suction it has,
+    which is the bound of the optimum.
+    """
+    code, out, _err = granum(
+        *FALL, "particle_diameter=2..4um", "dynamic_viscosity=1cP", "--steps", "2", "--json"
+    )
     speed = json.loads(out)["studies"]["sweep"]["findings"]["table"]["terminal_velocity"]
     assert code == 0
     assert speed[1] / speed[0] == pytest.approx(4.0, rel=1e-3)
-    code, out, _err = granum(*FALL, "particle_diameter=85um+-10%", "dynamic_viscosity=1.2..1.4cP", "--sobol", "--samples", "32", "--json")
-    assert json.loads(out)["studies"]["sobol"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"]["total"] > 0.7
-    wanted = ["area=0.5..3m2", "pressure_drop=0.3..0.7bar", "--minimize", "area", "--limit", "capacity_use<=0.9", "--json"]
+    code, out, _err = granum(
+        *FALL,
+        "particle_diameter=85um+-10%",
+        "dynamic_viscosity=1.2..1.4cP",
+        "--sobol",
+        "--samples",
+        "32",
+        "--json",
+    )
+    assert (
+        json.loads(out)["studies"]["sobol"]["findings"]["indices"]["terminal_velocity"]["particle_diameter"][
+            "total"
+        ]
+        > 0.7
+    )
+    wanted = [
+        "area=0.5..3m2",
+        "pressure_drop=0.3..0.7bar",
+        "--minimize",
+        "area",
+        "--limit",
+        "capacity_use<=0.9",
+        "--json",
+    ]
     code, out, err = granum(*BELT, *wanted)
     assert code == 0, err
     best = json.loads(out)["studies"]["optimize"]["findings"]["inputs"]
@@ -96,8 +139,14 @@ def test_a_card_without_a_file() -> None:
         ([*FALL, "particle_diameter=20..85um"], "needs 'dynamic_viscosity'"),
         ([*FALL, "particle_diameter=85.. um"], "write a range as 0.3..0.8bar"),
         ([*FALL, "particle_diameter=20..85um", "--limit", "speed"], "is not a limit"),
-        ([*FALL[:1], "particle_density=2..3", "fluid_density=1..2", "particle_diameter=1..2um"], "More than two ranges"),
-        ([*FALL, "dynamic_viscosity=1cP+-5%", "particle_diameter=1um", "--minimize", "terminal_velocity"], "nothing to vary"),
+        (
+            [*FALL[:1], "particle_density=2..3", "fluid_density=1..2", "particle_diameter=1..2um"],
+            "More than two ranges",
+        ),
+        (
+            [*FALL, "dynamic_viscosity=1cP+-5%", "particle_diameter=1um", "--minimize", "terminal_velocity"],
+            "nothing to vary",
+        ),
         (["filtration.horizontal_belt_filter", "area=1..2m2"], "needs a stream at its inlet 'feed'"),
         ([*BELT, "aera=1..2m2"], "Did you mean 'area'"),
         ([*BELT, "area=1..2m2"], "needs 'pressure_drop'"),
@@ -130,7 +179,10 @@ def test_bad_input_gets_one_message_and_status_two(words: list[str], message: st
         (('card = "particles.terminal_velocity"', 'case = "nothing.toml"'), "belong to a card"),
         (('terminal_velocity", kind', 'terminal_velocitty", kind'), "Did you mean 'terminal_velocity'?"),
         (("[uncertain]", "[uncertan]"), "Did you mean 'uncertain'?"),
-        (('distribution = "lognormal", median', 'distribution = "lognormal", meidan'), "Did you mean 'median'?"),
+        (
+            ('distribution = "lognormal", median', 'distribution = "lognormal", meidan'),
+            "Did you mean 'median'?",
+        ),
         (("title =", "title = ="), "not valid TOML"),
     ],
 )
@@ -146,7 +198,19 @@ def test_faults_in_the_file_are_named(tmp_path, change: tuple[str, str], message
 
 def test_continues_after_a_kill(tmp_path) -> None:
     out, parts = tmp_path / "x.nc", tmp_path / "x.nc.parts"
-    words = [sys.executable, "-m", "granum.cli", "study", str(SETTLING), "spread", "--samples", "1000000", "--out", str(out), "--json"]
+    words = [
+        sys.executable,
+        "-m",
+        "granum.cli",
+        "study",
+        str(SETTLING),
+        "spread",
+        "--samples",
+        "1000000",
+        "--out",
+        str(out),
+        "--json",
+    ]
     running = subprocess.Popen(words, stdout=subprocess.DEVNULL, cwd=ROOT)
     deadline = time.monotonic() + 120
     while len(list(parts.glob("cases-*.npz"))) < 2 and running.poll() is None and time.monotonic() < deadline:
@@ -166,7 +230,9 @@ def test_continues_after_a_kill(tmp_path) -> None:
 
 
 def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
-    """The same cases on two local Dask workers, one of them killed while it works, equal those computed here."""
+    """The same cases on two local Dask workers, one of them killed while it works, equal those computed
+    here.
+    """
     distributed = pytest.importorskip("distributed")
     import granum.studies.engine as engine
 
@@ -174,7 +240,9 @@ def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
     study = read_studies(SETTLING)["spread"].with_options(samples=6400)
     here = study.run()
     killed: list[int] = []
-    local = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50)
+    local = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    )
     with local as cluster, distributed.Client(cluster) as client:
         pids = client.run(os.getpid)
 
@@ -192,7 +260,9 @@ def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
 
 
 def test_netcdf_of_the_command(tmp_path) -> None:
-    code, _out, _err = granum(str(SETTLING), "spread", "--samples", "100", "--out", str(tmp_path / "x.nc"), "--seed", "3")
+    code, _out, _err = granum(
+        str(SETTLING), "spread", "--samples", "100", "--out", str(tmp_path / "x.nc"), "--seed", "3"
+    )
     assert code == 0
     with xr.open_dataset(tmp_path / "x.nc", engine="h5netcdf") as data:
         assert data.sizes["case"] == 100

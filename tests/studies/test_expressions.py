@@ -26,7 +26,20 @@ def test_values(text: str, value: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "a +", "__import__('os')", "a.b()", "[1]", "a if a else a", "lambda: 1", "a == 1", "f'{a}'", "x" * 3000, "exec(a)"]
+    "text",
+    [
+        "",
+        "a +",
+        "__import__('os')",
+        "a.b()",
+        "[1]",
+        "a if a else a",
+        "lambda: 1",
+        "a == 1",
+        "f'{a}'",
+        "x" * 3000,
+        "exec(a)",
+    ],
 )
 def test_nothing_but_arithmetic(text: str) -> None:
     with pytest.raises(GranumError):
@@ -35,7 +48,9 @@ def test_nothing_but_arithmetic(text: str) -> None:
 
 def test_a_formula_as_a_quantity() -> None:
     """100 m² of floating-head exchanger, printed as 25 000 USD, at twice the index."""
-    cost = quantity("cost", {"card": "costs.purchased_cost_exchanger", "inputs": {"area": "10 * a", "cost_index": 794.0}})
+    cost = quantity(
+        "cost", {"card": "costs.purchased_cost_exchanger", "inputs": {"area": "10 * a", "cost_index": 794.0}}
+    )
     assert float(cost.value({"a": 10.0}.__getitem__)) == pytest.approx(50000.0, rel=0.02)
     assert cost.names() == ("a",)
     assert cost.parameter.kind is not None

@@ -1,4 +1,6 @@
-"""A loop that the quick solver does not settle is solved in a study as it is alone: by the next solver of the ladder."""
+"""A loop that the quick solver does not settle is solved in a study as it is alone: by the next solver of the
+ladder.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,12 @@ from granum.studies.lines import LineSubject
 from granum.studies.study import Study
 
 FORMS, MIXED = 6, 5  # the quick solver settles some settings of this line and not others
-WATER = Mixture((), tuple(Species(f"form {i}", (("water", 1.0),), (1000.0,), (4000.0,)) for i in range(FORMS)), (), (1e-6, 1e-3))
+WATER = Mixture(
+    (),
+    tuple(Species(f"form {i}", (("water", 1.0),), (1000.0,), (4000.0,)) for i in range(FORMS)),
+    (),
+    (1e-6, 1e-3),
+)
 COUPLING = np.random.default_rng(1).normal(size=(60, FORMS, FORMS)) * 1.5
 SHIFT = np.random.default_rng(2).normal(size=(60, FORMS))
 
@@ -31,7 +38,9 @@ class Figures(NamedTuple):
 
 
 class Scrambler(Unit):
-    """Turns forms of water into one another by a map that leads far from where it settles; mass and energy stay what they are."""
+    """Turns forms of water into one another by a map that leads far from where it settles; mass and energy
+    stay what they are.
+    """
 
     coupling: Any
     shift: Any
@@ -50,14 +59,22 @@ class Scrambler(Unit):
 
 def line(i: int) -> Flowsheet:
     feed = empty(WATER, 300.0).replace(liquid=jnp.ones(FORMS) / FORMS * 3.0)
-    links = {"fresh": ("", "tank.feed"), "back": ("tank.recycle", "tank.recycle"), "out": ("tank.product", "")}
-    return Flowsheet({"tank": Scrambler(jnp.asarray(COUPLING[i]), jnp.asarray(SHIFT[i]))}, {"fresh": feed}, links)
+    links = {
+        "fresh": ("", "tank.feed"),
+        "back": ("tank.recycle", "tank.recycle"),
+        "out": ("tank.product", ""),
+    }
+    return Flowsheet(
+        {"tank": Scrambler(jnp.asarray(COUPLING[i]), jnp.asarray(SHIFT[i]))}, {"fresh": feed}, links
+    )
 
 
 def settled(i: int, temperatures: np.ndarray, y: np.ndarray) -> np.ndarray:
     """By how much each recycle found is not what the map gives back for it."""
     flows = y[:, :1] * y[:, 1:]
-    new = np.tanh(2.0 * (2.0 * FORMS * flows - 1.0) @ COUPLING[i].T + SHIFT[i] + 0.02 * (temperatures - 300.0))
+    new = np.tanh(
+        2.0 * (2.0 * FORMS * flows - 1.0) @ COUPLING[i].T + SHIFT[i] + 0.02 * (temperatures - 300.0)
+    )
     return np.abs(flows - (1.0 + 0.9 * new) / (2.0 * FORMS)).max(axis=1)
 
 

@@ -25,9 +25,11 @@ def test_the_line_takes_what_the_test_gives() -> None:
 
 
 def test_sizes_follow_from_the_spread_by_hand(found) -> None:
-    """Cakes of fixed thickness: the cycles needed go with the solids, the time of a cycle not, so the area goes with the solids.
+    """Cakes of fixed thickness: the cycles needed go with the solids, the time of a cycle not, so the area
+    goes with the solids.
 
-    The spread of the solids alone, 5 %, gives P90/P10 = 1 + 2·1.2816·0.05 = 1.13; the void fraction does not halve it.
+    The spread of the solids alone, 5 %, gives P90/P10 = 1 + 2·1.2816·0.05 = 1.13; the void fraction does not
+    halve it.
     """
     assert found.counts()["failed"] == 0
     row = found.findings()["statistics"]["press.area"]
@@ -39,7 +41,9 @@ def test_sizes_follow_from_the_spread_by_hand(found) -> None:
 
 
 def test_cost_is_that_of_the_table(found) -> None:
-    """Purchased 10**(4.2756 + 0.3520 log A + 0.0714 log² A) at index 397, installed 1.8 times as much, carried to 797.9."""
+    """Purchased 10**(4.2756 + 0.3520 log A + 0.0714 log² A) at index 397, installed 1.8 times as much,
+    carried to 797.9.
+    """
     logs = np.log10(found.column("press.area"))
     by_hand = 10 ** (4.2756 + 0.3520 * logs + 0.0714 * logs**2) * 1.8 * 797.9 / 397.0
     assert found.column("press_cost") == pytest.approx(by_hand, rel=1e-9)
@@ -58,5 +62,7 @@ def test_price_of_room_is_what_more_room_saves() -> None:
     assert tight.feasible
     assert tight.figures["press.area"] == pytest.approx(12.0, rel=1e-6)
     slope = (wide.figures["yearly_cost"] - tight.figures["yearly_cost"]) / 0.2
-    assert (tight.prices["press.area upper"] + wide.prices["press.area upper"]) / 2 == pytest.approx(slope, rel=1e-3)
+    assert (tight.prices["press.area upper"] + wide.prices["press.area upper"]) / 2 == pytest.approx(
+        slope, rel=1e-3
+    )
     assert tight.figures["yearly_cost"] < tight.base["yearly_cost"]

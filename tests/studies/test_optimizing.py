@@ -16,7 +16,16 @@ from granum.studies.engine import Progress
 
 def own_formula(function) -> Formula:
     """A formula for these tests only, out of the registry again."""
-    made = Formula(function, source="", equation="", fitted={}, typical={}, title=function.__name__, output="ratio", family="")
+    made = Formula(
+        function,
+        source="",
+        equation="",
+        fitted={},
+        typical={},
+        title=function.__name__,
+        output="ratio",
+        family="",
+    )
     _declared.pop(made.key)
     _families.pop("ratio", None)
     return made
@@ -43,8 +52,14 @@ HS71, HIMMELBLAU, BROKEN = own_formula(hs71), own_formula(himmelblau), own_formu
 @pytest.mark.parametrize("method", ["slsqp", "trust_constr"])
 def test_problem_71_of_hock_and_schittkowski(method: str) -> None:
     """Printed: f = 17.0140173 at (1, 4.743, 3.8211, 1.3794)."""
-    over = {name: {"lower": 1.0, "upper": 5.0, "start": s} for name, s in zip(("x1", "x2", "x3", "x4"), (1.0, 5.0, 5.0, 1.0), strict=True)}
-    limits = {"x1 * x2 * x3 * x4": {"lower": 25.0}, "x1**2 + x2**2 + x3**2 + x4**2": {"lower": 40.0, "upper": 40.0}}
+    over = {
+        name: {"lower": 1.0, "upper": 5.0, "start": s}
+        for name, s in zip(("x1", "x2", "x3", "x4"), (1.0, 5.0, 5.0, 1.0), strict=True)
+    }
+    limits = {
+        "x1 * x2 * x3 * x4": {"lower": 25.0},
+        "x1**2 + x2**2 + x3**2 + x4**2": {"lower": 40.0, "upper": 40.0},
+    }
     found = studies.optimize(HS71, over, minimize="ratio", limits=limits, starts=1, method=method)
     assert found.feasible
     assert found.figures["ratio"] == pytest.approx(17.0140173, rel=1e-5)
@@ -57,9 +72,15 @@ def test_problem_71_of_hock_and_schittkowski(method: str) -> None:
 
 
 def test_several_starts_find_the_minima_of_himmelblau() -> None:
-    found = studies.optimize(HIMMELBLAU, {"x1": (-6.0, 6.0), "x2": (-6.0, 6.0)}, minimize="ratio", starts=12, seed=2)
+    found = studies.optimize(
+        HIMMELBLAU, {"x1": (-6.0, 6.0), "x2": (-6.0, 6.0)}, minimize="ratio", starts=12, seed=2
+    )
     assert found.figures["ratio"] == pytest.approx(0.0, abs=1e-6)
-    ends = {(round(e["inputs"]["x1"], 2), round(e["inputs"]["x2"], 2)) for e in found.ends if e["objective"] < 1e-5}
+    ends = {
+        (round(e["inputs"]["x1"], 2), round(e["inputs"]["x2"], 2))
+        for e in found.ends
+        if e["objective"] < 1e-5
+    }
     assert len(ends) >= 3
     assert ends <= {(3.0, 2.0), (-2.81, 3.13), (-3.78, -3.28), (3.58, -1.85)}
 
@@ -67,16 +88,26 @@ def test_several_starts_find_the_minima_of_himmelblau() -> None:
 def test_maximum_of_a_real_formula_by_hand() -> None:
     """Twice the diameter settles four times as fast: the upper limit of the speed gives the diameter."""
     slurry = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-    found = studies.optimize("particles.terminal_velocity_stokes", {"particle_diameter": ("1 um", "200 um")}, maximize="particle_diameter",
-                             limits={"terminal_velocity": {"upper": "1 mm/s"}}, fixed=slurry, starts=2)  # fmt: skip
+    found = studies.optimize(
+        "particles.terminal_velocity_stokes",
+        {"particle_diameter": ("1 um", "200 um")},
+        maximize="particle_diameter",
+        limits={"terminal_velocity": {"upper": "1 mm/s"}},
+        fixed=slurry,
+        starts=2,
+    )
     by_hand = np.sqrt(18 * 1e-3 * 1e-3 / (9.80665 * 1650.0))
     assert found.values["particle_diameter"] == pytest.approx(by_hand, rel=1e-6)
-    assert found.prices["terminal_velocity upper"] == pytest.approx(by_hand / 2e-3, rel=1e-4)  # d is the root of the speed
+    assert found.prices["terminal_velocity upper"] == pytest.approx(
+        by_hand / 2e-3, rel=1e-4
+    )  # d is the root of the speed
     assert found.base["terminal_velocity"] != found.figures["terminal_velocity"]
 
 
 def test_places_without_a_value_do_not_stop_the_search() -> None:
-    found = studies.optimize(BROKEN, {"x1": {"lower": 0.0, "upper": 10.0, "start": 9.0}}, minimize="ratio", starts=1)
+    found = studies.optimize(
+        BROKEN, {"x1": {"lower": 0.0, "upper": 10.0, "start": 9.0}}, minimize="ratio", starts=1
+    )
     assert found.values["x1"] == pytest.approx(1.0, abs=1e-4)
     with pytest.raises(GranumError, match="No start gave a result"):
         studies.optimize(BROKEN, {"x1": {"lower": 0.0, "upper": 0.4}}, minimize="ratio", starts=2)
@@ -84,7 +115,11 @@ def test_places_without_a_value_do_not_stop_the_search() -> None:
 
 def test_infeasible_is_said() -> None:
     found = studies.optimize(
-        HIMMELBLAU, {"x1": (0.0, 1.0), "x2": (0.0, 1.0)}, minimize="ratio", limits={"x1 + x2": {"lower": 3.0}}, starts=2
+        HIMMELBLAU,
+        {"x1": (0.0, 1.0), "x2": (0.0, 1.0)},
+        minimize="ratio",
+        limits={"x1 + x2": {"lower": 3.0}},
+        starts=2,
     )
     assert not found.feasible
     assert found.ends[0]["violation"] > 0.1
@@ -95,8 +130,15 @@ def test_infeasible_is_said() -> None:
 
 def test_robust_design_keeps_the_probability() -> None:
     """The largest x with P(x + N(0, 1) ≤ 5) ≥ 95 % is 5 − 1.6449; checked on fresh samples."""
-    found = studies.optimize(HIMMELBLAU, {"x1": (0.0, 6.0)}, maximize="x1", limits={"x1 + x2": {"upper": 5.0}}, starts=1,
-                             uncertain={"x2": {"distribution": "normal", "mean": 0.0, "standard_deviation": 1.0}}, samples=1000)  # fmt: skip
+    found = studies.optimize(
+        HIMMELBLAU,
+        {"x1": (0.0, 6.0)},
+        maximize="x1",
+        limits={"x1 + x2": {"upper": 5.0}},
+        starts=1,
+        uncertain={"x2": {"distribution": "normal", "mean": 0.0, "standard_deviation": 1.0}},
+        samples=1000,
+    )
     assert found.values["x1"] == pytest.approx(5.0 - 1.6449, abs=0.02)
     assert found.chance is not None
     assert found.chance["limits"]["x1 + x2"]["probability"] == pytest.approx(0.95, abs=0.01)
@@ -106,7 +148,11 @@ def test_robust_design_keeps_the_probability() -> None:
 def test_front_of_schaffer() -> None:
     """x² and (x − 2)²: the front is f2 = (√f1 − 2)², x from 0 to 2."""
     found = studies.pareto(
-        HIMMELBLAU, {"x1": (-5.0, 5.0)}, [{"minimize": "x1**2"}, {"minimize": "(x1 - 2)**2"}], points=7, fixed={"x2": 0.0}
+        HIMMELBLAU,
+        {"x1": (-5.0, 5.0)},
+        [{"minimize": "x1**2"}, {"minimize": "(x1 - 2)**2"}],
+        points=7,
+        fixed={"x2": 0.0},
     )
     one, two = found.column("x1**2"), found.column("(x1 - 2)**2")
     assert len(one) == 7
@@ -118,8 +164,14 @@ def test_front_of_schaffer() -> None:
 
 def test_cancel_returns_the_best_so_far() -> None:
     seen: list[Progress] = []
-    found = studies.optimize(HIMMELBLAU, {"x1": (-6.0, 6.0), "x2": (-6.0, 6.0)}, minimize="ratio", starts=50, progress=seen.append,
-                             cancel=lambda: seen[-1].done >= 2)  # fmt: skip
+    found = studies.optimize(
+        HIMMELBLAU,
+        {"x1": (-6.0, 6.0), "x2": (-6.0, 6.0)},
+        minimize="ratio",
+        starts=50,
+        progress=seen.append,
+        cancel=lambda: seen[-1].done >= 2,
+    )
     assert not found.complete
     assert len(found.ends) == 2
 
@@ -128,19 +180,37 @@ def test_cancel_returns_the_best_so_far() -> None:
     ("run", "message"),
     [
         (lambda: studies.optimize(HIMMELBLAU, {}, minimize="ratio"), "nothing to vary"),
-        (lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0), "x2": (0.0, 1.0)}), "either 'minimize' or 'maximize'"),
+        (
+            lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0), "x2": (0.0, 1.0)}),
+            "either 'minimize' or 'maximize'",
+        ),
         (lambda: studies.optimize(HIMMELBLAU, {"x1": (1.0, 0.0)}, minimize="ratio"), "'lower' must be below"),
         (lambda: studies.optimize(HIMMELBLAU, {"x1": {"lower": 0.0}}, minimize="ratio"), "give its limits"),
         (lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0)}, minimize="ratio"), "needs 'x2'"),
-        (lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0), "x2": (0.0, 1.0)}, minimize="ration"), "Did you mean 'ratio'"),
-        (lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0)}, minimize="ratio", method="newton"), "Method 'newton'"),
         (
-            lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0)}, minimize="ratio", fixed={"x2": 0.0}, samples=100),
+            lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0), "x2": (0.0, 1.0)}, minimize="ration"),
+            "Did you mean 'ratio'",
+        ),
+        (
+            lambda: studies.optimize(HIMMELBLAU, {"x1": (0.0, 1.0)}, minimize="ratio", method="newton"),
+            "Method 'newton'",
+        ),
+        (
+            lambda: studies.optimize(
+                HIMMELBLAU, {"x1": (0.0, 1.0)}, minimize="ratio", fixed={"x2": 0.0}, samples=100
+            ),
             "No input is uncertain",
         ),
-        (lambda: studies.pareto(HIMMELBLAU, {"x1": (0.0, 1.0)}, [{"minimize": "ratio"}], fixed={"x2": 0.0}), "two objectives"),
         (
-            lambda: studies.pareto(HIMMELBLAU, {"x1": (0.0, 1.0)}, [{"minimize": "x1"}, {"maximize": "x1"}], fixed={"x2": 0.0}),
+            lambda: studies.pareto(
+                HIMMELBLAU, {"x1": (0.0, 1.0)}, [{"minimize": "ratio"}], fixed={"x2": 0.0}
+            ),
+            "two objectives",
+        ),
+        (
+            lambda: studies.pareto(
+                HIMMELBLAU, {"x1": (0.0, 1.0)}, [{"minimize": "x1"}, {"maximize": "x1"}], fixed={"x2": 0.0}
+            ),
             "different figures",
         ),
     ],

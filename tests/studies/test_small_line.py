@@ -1,4 +1,6 @@
-"""Studies of a small line with a recycle whose balance is known: fresh feed F, share s leaves, so F/s goes round."""
+"""Studies of a small line with a recycle whose balance is known: fresh feed F, share s leaves, so F/s goes
+round.
+"""
 
 from __future__ import annotations
 
@@ -31,32 +33,44 @@ def line():
 def test_recycle_by_hand_and_a_case_without_solution(line) -> None:
     """With s = 0 nothing leaves: that case fails, says why and is kept."""
     found = studies.sweep(
-        line, {"divide.side_fraction": [0.2, 0.5, 1.0, 0.0]}, outputs=["hot.mass_flow", "warm.heat_duty", "out.liquid.water"]
+        line,
+        {"divide.side_fraction": [0.2, 0.5, 1.0, 0.0]},
+        outputs=["hot.mass_flow", "warm.heat_duty", "out.liquid.water"],
     )
     assert found.column("hot.mass_flow")[:3] == pytest.approx([5.0, 2.0, 1.0], rel=1e-9)
-    assert found.column("warm.heat_duty")[:3] == pytest.approx([found.column("warm.heat_duty")[0]] * 3, rel=1e-9)  # the loop keeps its heat
+    assert found.column("warm.heat_duty")[:3] == pytest.approx(
+        [found.column("warm.heat_duty")[0]] * 3, rel=1e-9
+    )  # the loop keeps its heat
     assert found.column("out.liquid.water")[:3] == pytest.approx([0.9] * 3)
     assert found.counts()["reasons"] == {"a loop did not converge": 1}
     assert np.isnan(found.column("hot.mass_flow")[3])
 
 
 def test_slow_lines_are_looked_after_often(line, monkeypatch) -> None:
-    """When one case takes longer than a slice, progress is told case by case; the figures are those of large chunks."""
+    """When one case takes longer than a slice, progress is told case by case; the figures are those of large
+    chunks.
+    """
     shares = np.linspace(0.2, 1.0, 9)
     seen: list[int] = []
     monkeypatch.setattr(engine, "SLICE", 0.0)
     how = {"outputs": ["hot.mass_flow", "warm.heat_duty", "out.liquid.water"]}
-    found = studies.sweep(line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done))
+    found = studies.sweep(
+        line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done)
+    )
     assert seen == list(range(10))
     assert found.column("hot.mass_flow") == pytest.approx(1 / shares, rel=1e-9)
     monkeypatch.setattr(engine, "SLICE", 1e9)
-    at_once = studies.sweep(line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done))
+    at_once = studies.sweep(
+        line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done)
+    )
     assert seen[10:] == [0, 9]
     assert np.array_equal(at_once.cases.y, found.cases.y)
 
 
 def test_only_a_solution_counts(line) -> None:
-    """A line that lost mass, has a negative flow or did not come to rest is none, whatever its figures say."""
+    """A line that lost mass, has a negative flow or did not come to rest is none, whatever its figures
+    say.
+    """
     found = jax.jit(lambda sheet: design(sheet, line.targets))(line.sheet)
     judge = jax.jit(verdict)
     streams = found.solution.streams
@@ -81,16 +95,25 @@ def test_feeds_as_inputs(line) -> None:
         "salty": {"fresh.liquid.sodium chloride": "20 %", "fresh.mass_flow": "3 kg/s"},
         "cool": {"warm.temperature": "40 degC"},
     }
-    rows = studies.scenarios(line, cases, outputs=["out.liquid.water", "out.mass_flow", "warm.heat_duty"]).findings()["scenarios"]
+    rows = studies.scenarios(
+        line, cases, outputs=["out.liquid.water", "out.mass_flow", "warm.heat_duty"]
+    ).findings()["scenarios"]
     assert rows["salty"]["outputs"]["out.liquid.water"] == pytest.approx(0.8)
     assert rows["salty"]["outputs"]["out.mass_flow"] == pytest.approx(3.0)
-    assert rows["cool"]["outputs"]["warm.heat_duty"] == pytest.approx(rows["base"]["outputs"]["warm.heat_duty"] / 2, rel=0.01)
+    assert rows["cool"]["outputs"]["warm.heat_duty"] == pytest.approx(
+        rows["base"]["outputs"]["warm.heat_duty"] / 2, rel=0.01
+    )
 
 
 def test_optimum_through_the_recycle(line) -> None:
     """The smallest share that keeps the loop below 8 kg/s is 1/8; its price is d(s)/d(limit) = −1/64."""
-    found = studies.optimize(line, {"divide.side_fraction": (0.05, 0.9)}, minimize="divide.side_fraction", limits={"hot.mass_flow": {"upper": 8.0}},
-                             starts=1)  # fmt: skip
+    found = studies.optimize(
+        line,
+        {"divide.side_fraction": (0.05, 0.9)},
+        minimize="divide.side_fraction",
+        limits={"hot.mass_flow": {"upper": 8.0}},
+        starts=1,
+    )
     assert found.values["divide.side_fraction"] == pytest.approx(0.125, rel=1e-6)
     assert found.prices["hot.mass_flow upper"] == pytest.approx(-1 / 64, rel=1e-3)
 
@@ -99,20 +122,28 @@ def test_studies_declared_for_a_line(line) -> None:
     table = {"spread": {"kind": "monte_carlo", "samples": 50, "outputs": ["hot.mass_flow"]}}
     doubt = {"divide.side_fraction": {"distribution": "uniform", "lower": 0.2, "upper": 0.3}}
     found = studies_of_line(line, table, doubt)["spread"].run()
-    assert found.findings()["statistics"]["hot.mass_flow"]["mean"] == pytest.approx(np.log(1.5) / 0.1, rel=1e-3)  # mean of 1/s
+    assert found.findings()["statistics"]["hot.mass_flow"]["mean"] == pytest.approx(
+        np.log(1.5) / 0.1, rel=1e-3
+    )  # mean of 1/s
     assert found.counts()["failed"] == 0
 
 
 def test_fingerprint_is_the_same_in_another_process_and_tells_models_apart(line) -> None:
     """A stored study continues in another process, but never with another model."""
     own = LineSubject.of(line).fingerprint()
-    text = f"import granum as gr; from granum.studies import LineSubject; print(LineSubject.of(gr.read({str(CASE)!r})).fingerprint())"
-    other = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout.strip()
+    text = (
+        f"import granum as gr; from granum.studies import LineSubject; "
+        f"print(LineSubject.of(gr.read({str(CASE)!r})).fingerprint())"
+    )
+    other = subprocess.run(
+        [sys.executable, "-c", text], capture_output=True, text=True, check=True
+    ).stdout.strip()
     assert other == own
     assert LineSubject.of(line.with_values(**{"warm.temperature": 320.0})).fingerprint() != own
     assert LineSubject.of(line).with_quantities({"q": "warm.heat_duty"}).fingerprint() != own
     stokes, newton = (
-        studies.subject_of("particles.terminal_velocity", {"drag": law}).fingerprint() for law in ("stokes", "haider_levenspiel")
+        studies.subject_of("particles.terminal_velocity", {"drag": law}).fingerprint()
+        for law in ("stokes", "haider_levenspiel")
     )
     assert stokes != newton
 
@@ -135,7 +166,11 @@ def test_unknown_inputs_suggest(line, path: str, message: str) -> None:
 
 @pytest.mark.parametrize(
     ("path", "message"),
-    [("warm.heat_dty", "Did you mean 'heat_duty'?"), ("out.mass_flw", "Did you mean 'mass_flow'?"), ("nothing", "is not known")],
+    [
+        ("warm.heat_dty", "Did you mean 'heat_duty'?"),
+        ("out.mass_flw", "Did you mean 'mass_flow'?"),
+        ("nothing", "is not known"),
+    ],
 )
 def test_unknown_figures_suggest(line, path: str, message: str) -> None:
     with pytest.raises(GranumError) as caught:
@@ -172,13 +207,21 @@ def test_sizes_found_by_a_specification_under_uncertainty(tmp_path) -> None:
     (tmp_path / "case.toml").write_text(SPECIFIED)
     found = read_studies(tmp_path / "case.toml")["sizes"].run()
     assert found.counts()["failed"] == 0
-    assert found.column("divide.side_fraction") == pytest.approx(found.column("fresh.mass_flow") / 4.0, rel=1e-6)
+    assert found.column("divide.side_fraction") == pytest.approx(
+        found.column("fresh.mass_flow") / 4.0, rel=1e-6
+    )
     assert np.ptp(found.column("heat_per_product")) < 1e-6 * found.column("heat_per_product")[0]
-    (tmp_path / "case.toml").write_text(SPECIFIED.replace('upper = "3 kg/s"', 'upper = "7 kg/s"'))  # above 3.8 kg/s: no share can do it
-    found = read_studies(tmp_path / "case.toml")["sizes"].run()
-    assert found.counts()["reasons"] == {"the design specifications cannot be met": int((found.column("fresh.mass_flow") > 3.8).sum())}
     (tmp_path / "case.toml").write_text(
-        SPECIFIED.replace('"fresh.mass_flow" =', '"divide.side_fraction" =').replace('kg/s", upper', '", upper')
+        SPECIFIED.replace('upper = "3 kg/s"', 'upper = "7 kg/s"')
+    )  # above 3.8 kg/s: no share can do it
+    found = read_studies(tmp_path / "case.toml")["sizes"].run()
+    assert found.counts()["reasons"] == {
+        "the design specifications cannot be met": int((found.column("fresh.mass_flow") > 3.8).sum())
+    }
+    (tmp_path / "case.toml").write_text(
+        SPECIFIED.replace('"fresh.mass_flow" =', '"divide.side_fraction" =').replace(
+            'kg/s", upper', '", upper'
+        )
     )
     with pytest.raises(GranumError):
         read_studies(tmp_path / "case.toml")["sizes"].run()

@@ -1,4 +1,6 @@
-"""Studies on disk: damaged, foreign and unwritable files are told and never become results; what was computed is kept."""
+"""Studies on disk: damaged, foreign and unwritable files are told and never become results; what was computed
+is kept.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ ROOT = Path(__file__).parents[2]
 SETTLING = ROOT / "examples" / "studies" / "settling.toml"
 STOKES = "particles.terminal_velocity_stokes"
 SLURRY = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-SPREAD = {"particle_diameter": {"distribution": "lognormal", "median": "20 um", "geometric_standard_deviation": 1.3}}
+SPREAD = {
+    "particle_diameter": {"distribution": "lognormal", "median": "20 um", "geometric_standard_deviation": 1.3}
+}
 
 
 def spread(folder: Path, **how: Any) -> Any:
@@ -85,21 +89,37 @@ def of_another_shape(chunk: Path, _tmp: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "harm", [truncated, emptied, one_byte_of_a_number, its_last_byte, of_another_study, another_chunk_of_this_study, of_another_shape]
+    "harm",
+    [
+        truncated,
+        emptied,
+        one_byte_of_a_number,
+        its_last_byte,
+        of_another_study,
+        another_chunk_of_this_study,
+        of_another_shape,
+    ],
 )
-def test_a_chunk_that_is_not_what_it_should_be_is_named_and_computed_again(kept: Path, tmp_path: Path, harm: Any) -> None:
+def test_a_chunk_that_is_not_what_it_should_be_is_named_and_computed_again(
+    kept: Path, tmp_path: Path, harm: Any
+) -> None:
     chunk = kept / "cases-000000032.npz"
     harm(chunk, tmp_path)
     computed: list[int] = []
     found = spread(kept, progress=lambda p: computed.append(p.done))
     assert computed == [128, 160]  # four chunks were taken as they are, one computed
-    assert found.cases.notes == ["'cases-000000032.npz' was damaged or belongs to another study: its cases were computed again."]
+    assert found.cases.notes == [
+        "'cases-000000032.npz' was damaged or belongs to another study: its cases were computed again."
+    ]
     assert found.as_json()["notes"] == found.cases.notes
     assert found.column("terminal_velocity") == pytest.approx(by_hand(found), rel=1e-12)
     assert spread(kept).cases.notes == []  # whole again
 
 
-@pytest.mark.parametrize("content", ["", "{", '{"study": "x"}', "[]", "3", '{"study": 1, "chunk": 0, "check": ""}', "[" * 100_000, "é"])
+@pytest.mark.parametrize(
+    "content",
+    ["", "{", '{"study": "x"}', "[]", "3", '{"study": 1, "chunk": 0, "check": ""}', "[" * 100_000, "é"],
+)
 def test_a_broken_manifest_is_one_message(kept: Path, content: str) -> None:
     (kept / "study.json").write_text(content, encoding="latin-1")
     with pytest.raises(InputError, match=r"study\.json' is damaged .* delete the folder"):
@@ -114,7 +134,9 @@ def test_a_manifest_whose_chunk_size_was_changed_is_broken(kept: Path) -> None:
         spread(kept)
 
 
-def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(engine, "evaluator", lambda *_: pytest.fail("computed"))
     (tmp_path / "file").write_text("")
     for folder in (tmp_path / "file", tmp_path / "file" / "below"):
@@ -129,7 +151,9 @@ def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(
         spread(tmp_path / "new")
 
 
-def test_a_disk_that_fills_up_keeps_what_was_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disk_that_fills_up_keeps_what_was_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     written = store.write_atomic
 
     def full(path: Path, content: Any) -> None:
@@ -163,23 +187,31 @@ def test_a_study_goes_on_in_chunks_of_another_size(kept: Path, monkeypatch: pyte
 
 def test_a_study_without_any_result_is_an_error_with_the_reason() -> None:
     endless = {"outputs": ["terminal_velocity / (terminal_velocity - terminal_velocity)"], "fixed": SLURRY}
-    with pytest.raises(ConvergenceError, match=r"None of the 50 cases has a result: 50 × result '.*' is not a finite number") as caught:
+    with pytest.raises(
+        ConvergenceError, match=r"None of the 50 cases has a result: 50 × result '.*' is not a finite number"
+    ) as caught:
         studies.monte_carlo(STOKES, SPREAD, samples=50, **endless)
     assert caught.value.exit_code == 3
     assert not caught.value.last.fine.any()
 
 
 def test_failed_cases_stand_beside_each_statistic() -> None:
-    """Of a normal size whose mean is one standard deviation, 15.9 % lie below zero; the median of the others is that of the rest."""
+    """Of a normal size whose mean is one standard deviation, 15.9 % lie below zero; the median of the others
+    is that of the rest.
+    """
     wide = {"particle_diameter": {"distribution": "normal", "mean": "10 um", "standard_deviation": "10 um"}}
-    row = studies.monte_carlo(STOKES, wide, fixed=SLURRY, samples=1000).findings()["statistics"]["terminal_velocity"]
+    row = studies.monte_carlo(STOKES, wide, fixed=SLURRY, samples=1000).findings()["statistics"][
+        "terminal_velocity"
+    ]
     assert (row["cases"], row["failed"]) == (1000, pytest.approx(159, abs=2))
     left = NormalDist(10e-6, 10e-6)
     middle = left.inv_cdf(0.5 + 0.5 * left.cdf(0.0))
     assert row["p50"] == pytest.approx((2650.0 - 1000.0) * 9.80665 * middle**2 / (18 * 1e-3), rel=0.02)
 
 
-@pytest.mark.parametrize("count", [0, -1, 10**12, 1.5, float("inf"), float("nan"), "1e3", "many", 10**5000], ids=range(9))
+@pytest.mark.parametrize(
+    "count", [0, -1, 10**12, 1.5, float("inf"), float("nan"), "1e3", "many", 10**5000], ids=range(9)
+)
 def test_counts_are_bounded(count: Any) -> None:
     over = {"particle_diameter": {"from": "1 um", "to": "9 um", "steps": count}}
     tables: list[tuple[str, dict[str, Any]]] = [
@@ -187,11 +219,20 @@ def test_counts_are_bounded(count: Any) -> None:
         ("sobol", {"samples": count}),
         ("sweep", {"over": over}),
         ("map", {"over": over | {"dynamic_viscosity": {"from": "1 cP", "to": "2 cP", "steps": count}}}),
-        ("optimize", {"over": {"particle_diameter": ["1 um", "9 um"]}, "maximize": "terminal_velocity", "starts": count}),
+        (
+            "optimize",
+            {
+                "over": {"particle_diameter": ["1 um", "9 um"]},
+                "maximize": "terminal_velocity",
+                "starts": count,
+            },
+        ),
     ]
     for kind, table in tables:
         with pytest.raises(InputError, match="must be a whole number from") as caught:
-            Study.of(kind, table, studies.subject_of(STOKES, SLURRY | {"particle_diameter": 5e-6}), SPREAD).run()
+            Study.of(
+                kind, table, studies.subject_of(STOKES, SLURRY | {"particle_diameter": 5e-6}), SPREAD
+            ).run()
         assert len(caught.value.message) < 200
 
 
@@ -228,7 +269,9 @@ def test_the_command_names_a_bad_chunk_and_refuses_what_it_cannot_write(tmp_path
     assert "delete the folder" in err
 
 
-def test_a_file_that_cannot_be_finished_is_one_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_cannot_be_finished_is_one_message(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(*_: Any) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 

@@ -1,4 +1,6 @@
-"""Case files for a page: read safely, shown as forms made from the declarations, edited without losing a comment."""
+"""Case files for a page: read safely, shown as forms made from the declarations, edited without losing a
+comment.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,15 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 
 FEED_KINDS = {
-    "mass_flow": "MassFlow", "solids_mass_fraction": "MassFraction", "solid_flow": "MassFlow", "liquid_flow": "MassFlow",
-    "gas_flow": "MassFlow", "relative_humidity": "Fraction", "temperature": "Temperature", "pressure": "Pressure",
-}  # fmt: skip
+    "mass_flow": "MassFlow",
+    "solids_mass_fraction": "MassFraction",
+    "solid_flow": "MassFlow",
+    "liquid_flow": "MassFlow",
+    "gas_flow": "MassFlow",
+    "relative_humidity": "Fraction",
+    "temperature": "Temperature",
+    "pressure": "Pressure",
+}
 
 
 def read_line(payload: Mapping[str, Any]) -> Any:
@@ -28,11 +36,15 @@ def read_line(payload: Mapping[str, Any]) -> Any:
     folder, root = payload.get("folder"), payload.get("root")
     for named in _files_in(parsed(text, "case")):
         try:
-            inside = bool(root) and (Path(str(folder)) / named).resolve().is_relative_to(Path(str(root)).resolve())
+            inside = bool(root) and (Path(str(folder)) / named).resolve().is_relative_to(
+                Path(str(root)).resolve()
+            )
         except (OSError, ValueError):
             inside = False
         if not inside:
-            raise CaseError(_("The case names the file '{path}', which is not in the workspace.").format(path=named))
+            raise CaseError(
+                _("The case names the file '{path}', which is not in the workspace.").format(path=named)
+            )
     return read_text(text, folder=Path(str(folder)) if folder else None)
 
 
@@ -42,7 +54,9 @@ def _files_in(raw: Mapping[str, Any]) -> list[str]:
     named = mixture.get("materials", []) if isinstance(mixture, dict) else []
     tables = fits.values() if isinstance(fits, dict) else []
     data = [table.get("data") for table in tables if isinstance(table, dict)]
-    return [str(name) for name in (*(named if isinstance(named, list) else [named]), *data) if name is not None]
+    return [
+        str(name) for name in (*(named if isinstance(named, list) else [named]), *data) if name is not None
+    ]
 
 
 def line_form(case: str) -> dict[str, Any]:
@@ -61,7 +75,14 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
     try:
         card = registry.find(str(table.get("model", ""))).card
     except GranumError as fault:
-        return {"model": str(table.get("model", "")), "title": "", "summary": fault.message, "parameters": [], "limits": [], "values": {}}
+        return {
+            "model": str(table.get("model", "")),
+            "title": "",
+            "summary": fault.message,
+            "parameters": [],
+            "limits": [],
+            "values": {},
+        }
     form = card_form(card.key)
     return {
         "model": card.key,
@@ -99,12 +120,18 @@ def _text(value: Any) -> str:
     if isinstance(value, dict):
         return json.dumps(value, ensure_ascii=False, default=str)
     if isinstance(value, list):
-        return "; ".join(map(_text, value)) if any(isinstance(x, str) for x in value) else " ".join(map(str, value))
+        return (
+            "; ".join(map(_text, value))
+            if any(isinstance(x, str) for x in value)
+            else " ".join(map(str, value))
+        )
     return str(value)
 
 
 def edited(case: str, table: str, name: str, key: str, text: str) -> str:
-    """The case with one value changed; empty text removes it. Everything else, comments included, stays as it was written."""
+    """The case with one value changed; empty text removes it. Everything else, comments included, stays as it
+    was written.
+    """
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 

@@ -9,7 +9,9 @@ from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 
 class Connection(AutoHTTPProtocol):  # type: ignore[misc, valid-type]
-    """A connection that is closed when no whole head of a request arrives in time, however slowly its bytes come."""
+    """A connection that is closed when no whole head of a request arrives in time, however slowly its bytes
+    come.
+    """
 
     patience = 20.0  # seconds
     loop: asyncio.AbstractEventLoop
@@ -23,7 +25,9 @@ class Connection(AutoHTTPProtocol):  # type: ignore[misc, valid-type]
         self._end = self.loop.call_later(self.patience, self._close)
 
     def data_received(self, data: bytes) -> None:
-        """Stop the clock while a request is answered; after that uvicorn's own keep-alive holds, until the next request begins."""
+        """Stop the clock while a request is answered; after that uvicorn's own keep-alive holds, until the
+        next request begins.
+        """
         super().data_received(data)
         if self.cycle is not None and not self.cycle.response_complete:
             self._stop()

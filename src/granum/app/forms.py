@@ -1,4 +1,6 @@
-"""What a page needs to make a form of a card: choices with labels, ranges and values in the units people write."""
+"""What a page needs to make a form of a card: choices with labels, ranges and values in the units people
+write.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,16 @@ from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
-from granum.core.units import display_unit, field_units, format_number, from_si, parse_unit, pretty_unit, show, to_si
+from granum.core.units import (
+    display_unit,
+    field_units,
+    format_number,
+    from_si,
+    parse_unit,
+    pretty_unit,
+    show,
+    to_si,
+)
 from granum.core.written import read_number
 from granum.materials.stated import asked_of_a_fluid
 from granum.reports.mathml import mathml
@@ -45,12 +56,18 @@ def card_form(key: str) -> dict[str, Any]:
 
 
 def fluid_field(card: Card) -> dict[str, Any] | None:
-    """The field of a fluid said in words, and the inputs it stands for; None where the card asks for no property of one."""
+    """The field of a fluid said in words, and the inputs it stands for; None where the card asks for no
+    property of one.
+    """
     gives = asked_of_a_fluid(card.parameters) if card.sort in ("formula", "procedure", "lab test") else ()
     hint = _("such as {example}, in place of: {names}").format(
         example=_("water at 20 °C"), names=", ".join(p.label for p in card.parameters if p.name in gives)
     )
-    return {"name": "fluid", "label": _("fluid"), "required": False, "gives": list(gives), "allowed": hint} if gives else None
+    return (
+        {"name": "fluid", "label": _("fluid"), "required": False, "gives": list(gives), "allowed": hint}
+        if gives
+        else None
+    )
 
 
 def _field(p: Parameter) -> dict[str, Any]:
@@ -70,7 +87,9 @@ def _units_of(kind: Kind, rows: list[dict[str, str]]) -> list[dict[str, str]]:
     return wanted + [u for u in rows if same_dimension(u["unit"], kind) and u not in wanted]
 
 
-def _unit_of(shown: dict[str, str] | None, kind: Kind | None, offered: list[dict[str, str]]) -> list[dict[str, str]]:
+def _unit_of(
+    shown: dict[str, str] | None, kind: Kind | None, offered: list[dict[str, str]]
+) -> list[dict[str, str]]:
     """The unit of an example where none of those offered is it."""
     found = read_number(shown["number"]) if shown and kind else None
     unit = found[1] if found else ""
@@ -80,7 +99,9 @@ def _unit_of(shown: dict[str, str] | None, kind: Kind | None, offered: list[dict
 
 
 def same_dimension(unit: str, kind: Kind) -> bool:
-    """Whether a kind can be written in a unit; a word of the glossary may be used with another kind than its usual one."""
+    """Whether a kind can be written in a unit; a word of the glossary may be used with another kind than its
+    usual one.
+    """
     return parse_unit(unit).dimensionality == parse_unit(kind.unit).dimensionality
 
 
@@ -92,7 +113,9 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         return {"number": "yes" if value else "no", "unit": ""}
     if p.kind is None or isinstance(value, str):
         return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
-    if isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):  # each with its own unit
+    if isinstance(value, (list, tuple)) and any(
+        isinstance(item, str) for item in value
+    ):  # each with its own unit
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)
@@ -103,8 +126,8 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
 def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     """What is typed in a field means: ``{"number", "unit"}`` beside what a form knows of its parameter.
 
-    Gives the quantity in words and, where all its values share one unit, its number and that unit: one of the offered ones that means the
-    same as the one typed (microns: um), else as it was typed.
+    Gives the quantity in words and, where all its values share one unit, its number and that unit: one of the
+    offered ones that means the same as the one typed (microns: um), else as it was typed.
     """
     p = _asked_parameter(asked)
     assert p.kind is not None
@@ -118,11 +141,17 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     unit = next((u for u in offered if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
     between = " " if p.series else "; "  # beside one number a blank sets thousands apart
     numbers = between.join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
-    return {"shown": _listed(array, unit, p.kind), "number": numbers, "unit": "" if unit == "dimensionless" else unit}
+    return {
+        "shown": _listed(array, unit, p.kind),
+        "number": numbers,
+        "unit": "" if unit == "dimensionless" else unit,
+    }
 
 
 def _converted(text: str, p: Parameter, several: bool) -> np.ndarray:
-    """The values of a text: one, or those of a series; several of a single input only where it cannot be read as one."""
+    """The values of a text: one, or those of a series; several of a single input only where it cannot be read
+    as one.
+    """
     try:
         return np.atleast_1d(np.asarray(convert(text, p), dtype=float))
     except InputError:
@@ -144,20 +173,34 @@ def _several(text: str, p: Parameter) -> np.ndarray | None:
 def _declared_kinds() -> dict[tuple[str, str], Kind]:
     """Kinds that only a card declares, by name and unit."""
     cards = (thing.card for thing in registry.everything().values())
-    return {(p.kind.name, p.kind.unit): p.kind for card in cards for p in (*card.parameters, *card.outputs) if p.kind}
+    return {
+        (p.kind.name, p.kind.unit): p.kind
+        for card in cards
+        for p in (*card.parameters, *card.outputs)
+        if p.kind
+    }
 
 
 def _asked_parameter(asked: Mapping[str, Any]) -> Parameter:
     name, unit = str(asked.get("kind")), str(asked.get("unit"))
-    kind = next((k for k in KINDS.values() if k.name == name and k.unit == unit), None) or _declared_kinds().get((name, unit))
+    kind = next(
+        (k for k in KINDS.values() if k.name == name and k.unit == unit), None
+    ) or _declared_kinds().get((name, unit))
     if kind is None:
         raise InputError(_("'{name}' is missing.").format(name="kind"), name="kind")
     edges = {end: asked.get(end) for end in ("lower", "upper")}
     if any(not isinstance(x, (int, float)) for x in edges.values() if x is not None):
-        raise InputError(_("'{name}' cannot take this value: {value}.").format(name="lower", value=str(edges)[:60]), name="lower")
-    bounds = {end: x if x is not None else (-math.inf if end == "lower" else math.inf) for end, x in edges.items()}
+        raise InputError(
+            _("'{name}' cannot take this value: {value}.").format(name="lower", value=str(edges)[:60]),
+            name="lower",
+        )
+    bounds = {
+        end: x if x is not None else (-math.inf if end == "lower" else math.inf) for end, x in edges.items()
+    }
     bounds |= {end: bool(asked.get(end)) for end in ("open_lower", "open_upper")}
-    return Parameter(str(asked.get("name", "")), replace(kind, **bounds), series="points" if asked.get("series") else None)
+    return Parameter(
+        str(asked.get("name", "")), replace(kind, **bounds), series="points" if asked.get("series") else None
+    )
 
 
 def _known(unit: str, kind: Kind) -> bool:
@@ -175,11 +218,15 @@ def _alike(one: str, other: str, kind: Kind) -> bool:
 
 def _listed(values: np.ndarray, unit: str, kind: Kind) -> str:
     """Values in one unit as people read them: ``85 µm``, ``2 · 4 · 8 µm``."""
-    return f"{' · '.join(format_number(float(x), 9) for x in from_si(values, unit, kind))} {pretty_unit(unit)}".strip()
+    return (
+        f"{' · '.join(format_number(float(x), 9) for x in from_si(values, unit, kind))} {pretty_unit(unit)}"
+    ).strip()
 
 
 def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
-    """The value of the docstring's example, else the middle of the ordinary range; None for what may stay empty."""
+    """The value of the docstring's example, else the middle of the ordinary range; None for what may stay
+    empty.
+    """
     if p.name in given:
         return entry(p, given[p.name])
     if given or not p.required or p.kind is None or p.series:
@@ -192,7 +239,9 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
 
 
 def docstring_values(card: Card) -> dict[str, Any]:
-    """Arguments of the call in the docstring's example, as far as they are literals; empty when one is not."""
+    """Arguments of the call in the docstring's example, as far as they are literals; empty when one is
+    not.
+    """
     for item in doctest.DocTestParser().get_examples(card.doc):
         for node in ast.walk(ast.parse(item.source)):
             if (
@@ -219,26 +268,39 @@ def options(p: Parameter) -> list[dict[str, str]]:
         return [{"value": "yes", "label": _("yes")}, {"value": "no", "label": _("no")}]
     if not p.law:
         return []
-    found = [option for thing in registry.family(p.law).values() if (option := _law_option(thing.card)) is not None]
+    found = [
+        option for thing in registry.family(p.law).values() if (option := _law_option(thing.card)) is not None
+    ]
     return sorted(found, key=lambda o: o["label"])
 
 
 def _law_option(card: Card) -> dict[str, str] | None:
-    """A law that may be chosen; one that needs parameters starts from those of its own example, or is left to case files."""
+    """A law that may be chosen; one that needs parameters starts from those of its own example, or is left to
+    case files.
+    """
     if card.sort != "law" or not any(q.required for q in card.parameters):
         return {"value": card.name, "label": law_label(card)}
     example = docstring_values(card)
     if any(q.required and q.name not in example for q in card.parameters):
         return None
-    return {"value": card.name, "label": law_label(card), "table": json.dumps({"law": card.name} | example, ensure_ascii=False)}
+    return {
+        "value": card.name,
+        "label": law_label(card),
+        "table": json.dumps({"law": card.name} | example, ensure_ascii=False),
+    }
 
 
 def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
-    """Titles and parameters of the laws that may stand for a parameter, by the names under which a case or a link calls them."""
+    """Titles and parameters of the laws that may stand for a parameter, by the names under which a case or a
+    link calls them.
+    """
     found: dict[str, dict[str, Any]] = {}
     for thing in registry.family(p.law).values() if p.law else ():
         if thing.card.sort == "law":
-            law = {"title": thing.card.title, "parameters": {q.name: q.as_json() | _field(q) for q in thing.card.parameters}}
+            law = {
+                "title": thing.card.title,
+                "parameters": {q.name: q.as_json() | _field(q) for q in thing.card.parameters},
+            }
             found |= {thing.card.name: law, thing.card.name.removeprefix(p.law or "").strip("_"): law}
     return found
 

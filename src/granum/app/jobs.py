@@ -1,4 +1,5 @@
-"""Long work in processes of its own: cancelled when its client leaves, stopped when it takes too long or too much memory.
+"""Long work in processes of its own: cancelled when its client leaves, stopped when it takes too long or too
+much memory.
 
 What a study has computed by then is kept: its chunks lie in a folder from which another process reads them.
 """
@@ -33,8 +34,11 @@ from granum.core.units import unit_system
 
 LOOK = 8  # jobs after which the memory of a process is looked at
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
-LONG = 3.0  # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
-PATIENCE = 900.0  # seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
+LONG = (
+    3.0  # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
+)
+# seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
+PATIENCE = 900.0
 STUDY = 3600.0  # seconds after which a study is given up
 
 
@@ -64,7 +68,8 @@ class Job:
     Parameters
     ----------
     longest: seconds after which it is given up.
-    patience: seconds without a question after which its client is taken to have left; None when somebody waits for it.
+    patience: seconds without a question after which its client is taken to have left; None when somebody
+        waits for it.
     """
 
     def __init__(self, task: str, payload: Any, longest: float, patience: float | None = None):
@@ -86,17 +91,26 @@ class Job:
         """How far it is."""
         since = 0.0 if self.started is None else time.monotonic() - self.started
         waiting = _("waiting for a free process") if self.started is None else ""
-        return {"state": "running", "share": self.share, "note": self.note or waiting, "seconds": round(since, 1)}
+        return {
+            "state": "running",
+            "share": self.share,
+            "note": self.note or waiting,
+            "seconds": round(since, 1),
+        }
 
 
 class _Process:
     """A worker process and what it has worked on."""
 
     def __init__(self, memory: int, cache_folder: str):
-        environment = os.environ | {"JAX_COMPILATION_CACHE_DIR": os.environ.get("JAX_COMPILATION_CACHE_DIR", cache_folder),
-                                    "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.3"}  # fmt: skip
+        environment = os.environ | {
+            "JAX_COMPILATION_CACHE_DIR": os.environ.get("JAX_COMPILATION_CACHE_DIR", cache_folder),
+            "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.3",
+        }
         command = [sys.executable, "-m", "granum.app.worker", str(memory)]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment
+        )
         self._answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.known: set[str] = set()
         self.jobs = 0
@@ -165,7 +179,9 @@ class Crew:
         self._asked_about: dict[str, Job] = {}
         self._folder = tempfile.TemporaryDirectory(prefix="granum-", ignore_cleanup_errors=True)
 
-    def submit(self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None) -> Job:
+    def submit(
+        self, task: str, payload: Any, key: str = "", longest: float = 300.0, patience: float | None = None
+    ) -> Job:
         """Queue a job; ``key`` says which jobs share compiled code. Refused when too many wait."""
         with self._lock:
             if self._now >= self._waiting:
@@ -175,7 +191,9 @@ class Crew:
         self._threads.submit(self._work, job, f"{task} {key}")
         return job
 
-    async def run(self, task: str, payload: Any, key: str = "", request: Request | None = None, longest: float = 300.0) -> bytes:
+    async def run(
+        self, task: str, payload: Any, key: str = "", request: Request | None = None, longest: float = 300.0
+    ) -> bytes:
         """The answer of a job; the job is cancelled when the client of the request leaves.
 
         A client that names the job (header ``x-job``) can ask meanwhile how far it is.
@@ -289,7 +307,9 @@ class Crew:
                 self.warm()
             if message is None or (message and message[0] == "memory"):
                 process.stop()
-                raise GivenUp(_("The calculation needed more memory than one calculation may have, and was given up."))
+                raise GivenUp(
+                    _("The calculation needed more memory than one calculation may have, and was given up.")
+                )
             if message and message[0] == "progress":
                 job.share, job.note = message[1:]
             elif message:
@@ -302,7 +322,11 @@ class Crew:
                 raise GivenUp(_("The calculation was cancelled."))
             if now - started > job.longest:
                 process.stop()
-                raise GivenUp(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(job.longest)))
+                raise GivenUp(
+                    _("The calculation took longer than {seconds} s and was given up.").format(
+                        seconds=int(job.longest)
+                    )
+                )
 
 
 def _heard(future: asyncio.Future[bytes]) -> None:
@@ -330,7 +354,8 @@ def crew() -> Crew:
 
 
 class Jobs:
-    """Studies by name, about which a page asks again and again; one that nobody asks about for long is cancelled.
+    """Studies by name, about which a page asks again and again; one that nobody asks about for long is
+    cancelled.
 
     One that was stopped gives what it had computed: its finished chunks are collected by another process.
     """
@@ -358,6 +383,8 @@ class Jobs:
         job.asked = time.monotonic()
         stopped = job.future.done() and isinstance(job.future.exception(), GivenUp)
         if stopped and not job.payload["collect"] and any(Path(job.payload["parts"]).glob("cases-*")):
-            job = self._jobs[name] = self._workers().submit("study", job.payload | {"collect": True}, longest=60.0)
+            job = self._jobs[name] = self._workers().submit(
+                "study", job.payload | {"collect": True}, longest=60.0
+            )
             job.note = _("collecting what was computed")
         return job

@@ -26,12 +26,21 @@ from granum.core.units import set_unit_system
 
 LARGEST_BODY = 5_000_000  # bytes
 SLOWEST_BODY = 60.0  # seconds in which a body must be here
-DEEPEST, MOST_VALUES, MOST_KEYS, MOST_DIGITS = 32, 100_000, 1_000, 300  # of JSON: nesting, values, keys of an object, digits of a number
+DEEPEST, MOST_VALUES, MOST_KEYS, MOST_DIGITS = (
+    32,
+    100_000,
+    1_000,
+    300,
+)  # of JSON: nesting, values, keys of an object, digits of a number
 POLICY = (
     "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-HEADERS = {"content-security-policy": POLICY, "x-content-type-options": "nosniff", "referrer-policy": "no-referrer"}
+HEADERS = {
+    "content-security-policy": POLICY,
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+}
 COOKIE = "granum_token"
 
 
@@ -69,7 +78,11 @@ class Workers:
                 return future.result()
             if asyncio.get_running_loop().time() > deadline:
                 job.cancel()
-                raise Busy(_("The calculation took longer than {seconds} s and was given up.").format(seconds=int(self._longest)))
+                raise Busy(
+                    _("The calculation took longer than {seconds} s and was given up.").format(
+                        seconds=int(self._longest)
+                    )
+                )
             if request is not None and await request.is_disconnected():
                 job.cancel()
                 raise Busy(_("The calculation was cancelled."))
@@ -79,9 +92,15 @@ class Workers:
 
 
 class Familiar:
-    """Calculations of a form met before and quick then: their code is compiled, so they need not wait behind one that is not."""
+    """Calculations of a form met before and quick then: their code is compiled, so they need not wait behind
+    one that is not.
+    """
 
-    quick, most, look = 0.03, 20_000, 50  # seconds; forms remembered; new forms after which the memory is looked at
+    quick, most, look = (
+        0.03,
+        20_000,
+        50,
+    )  # seconds; forms remembered; new forms after which the memory is looked at
     _number = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*(?:[A-Za-zµμ°℃%Ω][^\s;,\[\]]{0,30})?\s*")
 
     def __init__(self) -> None:
@@ -127,11 +146,15 @@ def _quietly(loop: asyncio.AbstractEventLoop, call: Callable[[], None]) -> None:
 
 def problem(status: int, message: str, **headers: str) -> JSONResponse:
     """A refusal in the shape of every error."""
-    return JSONResponse({"error": {"type": "RequestError", "message": message}}, status_code=status, headers=HEADERS | headers)
+    return JSONResponse(
+        {"error": {"type": "RequestError", "message": message}}, status_code=status, headers=HEADERS | headers
+    )
 
 
 def excess(body: bytes) -> str:
-    """What is too much in a JSON body, in words; empty when nothing is. A body that is no JSON is told where it is read."""
+    """What is too much in a JSON body, in words; empty when nothing is. A body that is no JSON is told where
+    it is read.
+    """
 
     def whole(digits: str) -> int:
         if len(digits) > MOST_DIGITS:
@@ -151,9 +174,9 @@ def excess(body: bytes) -> str:
         count += len(level)
         inner = [value for value in level if isinstance(value, (dict, list))]
         if count > MOST_VALUES or any(isinstance(value, dict) and len(value) > MOST_KEYS for value in inner):
-            return _("The request has more than {values} values, or an object with more than {keys} keys.").format(
-                values=MOST_VALUES, keys=MOST_KEYS
-            )
+            return _(
+                "The request has more than {values} values, or an object with more than {keys} keys."
+            ).format(values=MOST_VALUES, keys=MOST_KEYS)
         level = [part for value in inner for part in (value.values() if isinstance(value, dict) else value)]
         if not level:
             return ""
@@ -161,7 +184,9 @@ def excess(body: bytes) -> str:
 
 
 class Guard:
-    """Outermost layer: language of the request, token, size of the body (announced or not), headers of the answer."""
+    """Outermost layer: language of the request, token, size of the body (announced or not), headers of the
+    answer.
+    """
 
     def __init__(self, app: ASGIApp, token: str = "", slowest: float = SLOWEST_BODY):
         self._app, self._token, self._slowest = app, token, slowest
@@ -176,7 +201,9 @@ class Guard:
         set_unit_system("field" if headers.get("x-units") == "field" else "si")
         given = query.get("token", [""])[-1]
         if self._token and not self._known(given or _cookie(headers.get("cookie", ""))):
-            await problem(401, _("This server needs the token that was printed when it started."))(scope, receive, send)
+            await problem(401, _("This server needs the token that was printed when it started."))(
+                scope, receive, send
+            )
             return
         announced = headers.get("content-length", "0")
         try:

@@ -74,7 +74,11 @@ def _refusals(app: FastAPI) -> None:
 
     @app.exception_handler(GranumError)
     async def refused(_request: Request, fault: GranumError) -> JSONResponse:
-        status = 429 if isinstance(fault, Busy) and not isinstance(fault, GivenUp) else (422 if fault.exit_code == 2 else 409)
+        status = (
+            429
+            if isinstance(fault, Busy) and not isinstance(fault, GivenUp)
+            else (422 if fault.exit_code == 2 else 409)
+        )
         return Answer({"error": told(fault.as_json())}, status_code=status)
 
     @app.exception_handler(RequestValidationError)
@@ -84,7 +88,10 @@ def _refusals(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def absent(_request: Request, fault: HTTPException) -> JSONResponse:
-        return problem(fault.status_code, _("There is nothing at this address.") if fault.status_code == 404 else str(fault.detail))
+        return problem(
+            fault.status_code,
+            _("There is nothing at this address.") if fault.status_code == 404 else str(fault.detail),
+        )
 
     @app.exception_handler(Exception)
     async def broken(request: Request, fault: Exception) -> JSONResponse:
@@ -107,7 +114,9 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
             return _json(await quick.run(_cards_text))
         needle = word.lower()
         found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
-        return Answer({"cards": [c for c in found if needle in f"{c['card']} {c['title']} {c['summary']}".lower()]})
+        return Answer(
+            {"cards": [c for c in found if needle in f"{c['card']} {c['title']} {c['summary']}".lower()]}
+        )
 
     @app.get("/api/cards/{key}")
     async def card(key: str) -> Response:
@@ -131,7 +140,9 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
             return _json(calculate(payload, Tell()))
         if await quick.run(lambda: registry.find(key).card.sort) == "procedure":  # may be long
             return _json(await crew().run("calculate", payload, key, request))
-        return _json(await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request))
+        return _json(
+            await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
+        )
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
@@ -153,27 +164,44 @@ def _long_work(app: FastAPI, workspace: Path | None) -> None:
         return _json(await crew().run("chart", {"key": key, "inputs": inputs}, key, request))
 
     @app.post("/api/fit/{key}")
-    async def fit(request: Request, key: str, file: Annotated[UploadFile, File()], conditions: Annotated[str, Form()] = "{}") -> Response:
+    async def fit(
+        request: Request,
+        key: str,
+        file: Annotated[UploadFile, File()],
+        conditions: Annotated[str, Form()] = "{}",
+    ) -> Response:
         """Fit a lab test to an uploaded table."""
         content = await file.read(LARGEST_BODY + 1)
         name = Path(file.filename or "data.csv").name
-        return _json(await crew().run("fit", {"key": key, "content": content, "name": name, "conditions": conditions}, key, request))
+        return _json(
+            await crew().run(
+                "fit", {"key": key, "content": content, "name": name, "conditions": conditions}, key, request
+            )
+        )
 
     @app.post("/api/table")
     async def table(request: Request, file: Annotated[UploadFile, File()]) -> Response:
         """An uploaded table (CSV or Excel) as comma-separated text."""
         content = await file.read(LARGEST_BODY + 1)
-        return _json(await crew().run("table", {"content": content, "name": Path(file.filename or "data.csv").name}, "", request))
+        return _json(
+            await crew().run(
+                "table", {"content": content, "name": Path(file.filename or "data.csv").name}, "", request
+            )
+        )
 
     @app.post("/api/run")
     async def run(request: Request, case: Case, place: Place = "") -> Response:
         """Solve the text of a case file; ``place`` is where it was opened, for the files it names."""
-        return _json(await crew().run("run", {"case": case} | _folder(workspace, place), _structure(case), request))
+        return _json(
+            await crew().run("run", {"case": case} | _folder(workspace, place), _structure(case), request)
+        )
 
     @app.post("/api/report", response_class=HTMLResponse)
     async def report(request: Request, case: Case, place: Place = "") -> HTMLResponse:
         """The report of a case file."""
-        return HTMLResponse(await crew().run("report", {"case": case} | _folder(workspace, place), _structure(case), request))
+        return HTMLResponse(
+            await crew().run("report", {"case": case} | _folder(workspace, place), _structure(case), request)
+        )
 
     @app.get("/api/progress/{name}")
     async def progress(name: str) -> Response:
@@ -190,7 +218,10 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         """What a study of a line (``case``) or a card (``card``, ``inputs``) may vary and watch."""
         return _json(
             await crew().run(
-                "study_choices", inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))), request
+                "study_choices",
+                inputs | _folder(workspace, inputs.get("place")),
+                _structure(str(inputs.get("case", ""))),
+                request,
             )
         )
 
@@ -198,7 +229,11 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
     async def start(inputs: Inputs) -> Response:
         """Start a study: ``{"case" or "card" and "inputs", "table"}``; gives its name."""
         return Answer(
-            {"id": jobs.start(inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", ""))))},
+            {
+                "id": jobs.start(
+                    inputs | _folder(workspace, inputs.get("place")), _structure(str(inputs.get("case", "")))
+                )
+            },
             status_code=202,
         )
 
@@ -208,7 +243,10 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         job = jobs.find(name)
         if not job.future.done():
             return Answer(job.as_json())
-        return Response(b'{"state":"done","share":1,"outcome":' + job.future.result() + b"}", media_type="application/json")
+        return Response(
+            b'{"state":"done","share":1,"outcome":' + job.future.result() + b"}",
+            media_type="application/json",
+        )
 
     @app.delete("/api/studies/{name}")
     async def cancel(name: str) -> Response:
@@ -232,7 +270,9 @@ def _case_forms(app: FastAPI, quick: Workers) -> None:
 
 
 def _folder(workspace: Path | None, place: Any) -> dict[str, str]:
-    """Folder and root for the files a case names: those of the workspace, or of the example it was opened from."""
+    """Folder and root for the files a case names: those of the workspace, or of the example it was opened
+    from.
+    """
     sort, _colon, name = str(place or "").partition(":")
     if sort == "examples" and name in _examples():
         return {"folder": str(_examples()[name].parent), "root": str(_examples()[name].parent)}
@@ -256,7 +296,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         """Case files of the workspace."""
         if workspace is None:
             return Answer({"files": None})
-        return Answer({"files": sorted(str(p.relative_to(workspace)) for p in workspace.rglob("*.toml") if p.is_file())})
+        return Answer(
+            {"files": sorted(str(p.relative_to(workspace)) for p in workspace.rglob("*.toml") if p.is_file())}
+        )
 
     @app.get("/api/workspace/{path:path}")
     async def opened(path: str) -> Response:
@@ -268,7 +310,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
             raise InputError(_("There is no file '{path}' in the workspace.").format(path=path)) from None
 
     @app.put("/api/workspace/{path:path}")
-    async def saved(path: str, text: Annotated[str, Body(embed=True)], replace: Annotated[bool, Body(embed=True)] = False) -> Response:
+    async def saved(
+        path: str, text: Annotated[str, Body(embed=True)], replace: Annotated[bool, Body(embed=True)] = False
+    ) -> Response:
         """Save a case file atomically; one that exists is replaced only when that is said."""
         from granum.core.files import write_atomic
 
@@ -279,7 +323,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
             place.parent.mkdir(parents=True, exist_ok=True)
             write_atomic(place, text)
         except (OSError, UnicodeError) as fault:
-            raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=fault)) from None
+            raise InputError(
+                _("'{path}' cannot be written: {reason}.").format(path=path, reason=fault)
+            ) from None
         return Answer({"path": path})
 
     @app.get("/api/examples")
@@ -288,7 +334,9 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return Answer(
             {
                 "files": sorted(_examples()),
-                "titles": {name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()},
+                "titles": {
+                    name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()
+                },
             }
         )
 
@@ -308,12 +356,16 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
     async def plotly() -> FileResponse:
         """Plotly, as the installed Python package ships it."""
         place = files("plotly") / "package_data" / "plotly.min.js"
-        return FileResponse(str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"})
+        return FileResponse(
+            str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"}
+        )
 
 
 def _examples_folder() -> Path:
     root = Path(str(files("granum") / "examples"))
-    return root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"  # installed, or in a source tree
+    return (
+        root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"
+    )  # installed, or in a source tree
 
 
 @cache
@@ -365,15 +417,25 @@ def _form_text(key: str, language: str, units: str) -> bytes:
 
 
 def _trial(key: str) -> dict[str, Any] | None:
-    """Data and conditions to try a lab test with: those of the first ``granum fit`` of it in a README of the examples."""
+    """Data and conditions to try a lab test with: those of the first ``granum fit`` of it in a README of the
+    examples.
+    """
     for place in sorted(_examples_folder().glob("*/README.md")):
         for line in place.read_text(encoding="utf-8").splitlines():
             if line.startswith(f"granum fit {key} "):
                 data, *conditions = shlex.split(line)[3:]
                 table = place.parent / Path(data).name
                 values = dict(word.split("=", 1) for word in conditions)
-                laws = {name: json.dumps(tomllib.loads(f"v = {text}")["v"]) for name, text in values.items() if text.startswith("{")}
-                return {"name": f"{place.parent.name}/{table.name}", "table": table.read_text(encoding="utf-8"), "values": values | laws}
+                laws = {
+                    name: json.dumps(tomllib.loads(f"v = {text}")["v"])
+                    for name, text in values.items()
+                    if text.startswith("{")
+                }
+                return {
+                    "name": f"{place.parent.name}/{table.name}",
+                    "table": table.read_text(encoding="utf-8"),
+                    "values": values | laws,
+                }
     return None
 
 

@@ -39,7 +39,9 @@ def serve(host: str, port: int, browser: bool, workspace: Path | None) -> None:
     if workspace is not None and not workspace.is_dir():
         raise InputError(_("'{path}' is not a folder.").format(path=workspace), path=str(workspace))
     try:
-        listener = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
+        listener = socket.create_server(
+            (host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET
+        )
     except OSError as problem:
         raise InputError(
             _("Address {host}, port {port} cannot be used: {reason}. Choose another with --port.").format(

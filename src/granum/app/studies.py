@@ -1,4 +1,6 @@
-"""Studies for a page: what may vary and what may be watched, and an outcome as charts and tables with numbers as people read them."""
+"""Studies for a page: what may vary and what may be watched, and an outcome as charts and tables with numbers
+as people read them.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,9 @@ def choices(payload: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "title": found.title,
         "inputs": [row for path in _inputs(found) if (row := _input_row(found, path))],
-        "figures": [{"name": v.path, "label": v.label, "quantity": v.parameter.as_json()} for v in _figures(found)],
+        "figures": [
+            {"name": v.path, "label": v.label, "quantity": v.parameter.as_json()} for v in _figures(found)
+        ],
         "declared": _declared(payload),
     }
 
@@ -53,9 +57,17 @@ def _declared(payload: Mapping[str, Any]) -> list[dict[str, str]]:
     from granum.cases.reading import parsed
 
     tables = parsed(str(payload.get("case") or ""), "case").get("study")
-    rows = {name: table for name, table in tables.items() if isinstance(table, dict)} if isinstance(tables, dict) else {}
+    rows = (
+        {name: table for name, table in tables.items() if isinstance(table, dict)}
+        if isinstance(tables, dict)
+        else {}
+    )
     return [
-        {"name": name, "title": str(table.get("title") or name.replace("_", " ")), "kind": str(table.get("kind", name))}
+        {
+            "name": name,
+            "title": str(table.get("title") or name.replace("_", " ")),
+            "kind": str(table.get("kind", name)),
+        }
         for name, table in rows.items()
     ]
 
@@ -79,7 +91,11 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
         return None  # a list, a choice, or without a value: not for a form
     kind = v.parameter.kind
     spread = Parameter(v.parameter.name, KINDS["TemperatureDifference"]) if kind.unit == "K" else v.parameter
-    unit = (v.parameter.units or (kind.unit,))[0] if not np.isfinite(value) or value == 0.0 else v.parameter.display_unit(value)
+    unit = (
+        (v.parameter.units or (kind.unit,))[0]
+        if not np.isfinite(value) or value == 0.0
+        else v.parameter.display_unit(value)
+    )
     number = f"{float(from_si(value, unit, kind)):.5g}" if np.isfinite(value) else ""
     return {
         "name": path,
@@ -150,27 +166,43 @@ def _declared_study(payload: Mapping[str, Any]) -> Any:
 def _not_too_many(table: Mapping[str, Any]) -> None:
     for key in ("samples", "starts"):
         if isinstance(table.get(key), (int, float)) and table[key] > MOST_CASES:
-            raise InputError(_("'{name}' may be at most {most} here.").format(name=key, most=MOST_CASES), name=key)
+            raise InputError(
+                _("'{name}' may be at most {most} here.").format(name=key, most=MOST_CASES), name=key
+            )
     over = table.get("over")
     if isinstance(over, dict) and all(isinstance(row, dict) for row in over.values()):
-        cases = np.prod([float(row["steps"]) if isinstance(row.get("steps"), (int, float)) else 1.0 for row in over.values()])
+        cases = np.prod(
+            [
+                float(row["steps"]) if isinstance(row.get("steps"), (int, float)) else 1.0
+                for row in over.values()
+            ]
+        )
         if cases > MOST_CASES:
-            raise InputError(_("'{name}' may be at most {most} here.").format(name="steps", most=MOST_CASES), name="steps")
+            raise InputError(
+                _("'{name}' may be at most {most} here.").format(name="steps", most=MOST_CASES), name="steps"
+            )
 
 
 def _outcome(declared: Any, payload: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
-    """Run it; finished chunks lie in the folder ``parts``, from which ``collect`` reads them without computing more."""
+    """Run it; finished chunks lie in the folder ``parts``, from which ``collect`` reads them without
+    computing more.
+    """
     from granum.studies.report import warnings_of
     from granum.studies.store import forget
 
     parts = Path(str(payload["parts"])) if declared.kept_in_parts and payload.get("parts") else None
-    outcome = declared.run(progress=_telling(tell), cancel=lambda: bool(payload.get("collect")) or tell.stopped(), folder=parts)
+    outcome = declared.run(
+        progress=_telling(tell), cancel=lambda: bool(payload.get("collect")) or tell.stopped(), folder=parts
+    )
     if parts is not None:
         forget(parts)
     if not outcome.complete and not outcome.counts()["run"]:
         raise Cancelled
     return plain_data(outcome.as_json(cases=SHOWN_CASES)) | {
-        "charts": [{"name": name, "figure": json.loads(figure.to_json())} for name, figure in outcome.charts().items()],
+        "charts": [
+            {"name": name, "figure": json.loads(figure.to_json())}
+            for name, figure in outcome.charts().items()
+        ],
         "tables": _tables(outcome),
         "warnings": warnings_of(outcome),
     }
@@ -195,9 +227,15 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
     tables: list[dict[str, Any]] = []
     if outcome.kind == "monte_carlo":
         rows = [
-            [figures[p].label, _text(s["mean"], figures[p]), _spread(s["standard_deviation"], figures[p]), *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95")), str(s["failed"])]
+            [
+                figures[p].label,
+                _text(s["mean"], figures[p]),
+                _spread(s["standard_deviation"], figures[p]),
+                *(_text(s[k], figures[p]) for k in ("p5", "p50", "p95")),
+                str(s["failed"]),
+            ]
             for p, s in found["statistics"].items()
-        ]  # fmt: skip
+        ]
         heads = [_("result"), _("mean"), _("standard deviation"), "5 %", "50 %", "95 %", _("failed cases")]
         tables.append({"title": _("Spread of the results"), "columns": heads, "rows": rows})
         chances = [
@@ -206,25 +244,51 @@ def _tables(outcome: Any) -> list[dict[str, Any]]:
             if "probability" in c
         ]
         if chances:
-            tables.append({"title": _("Chance of keeping the limits"), "columns": [_("limit"), _("chance")], "rows": chances})
+            tables.append(
+                {
+                    "title": _("Chance of keeping the limits"),
+                    "columns": [_("limit"), _("chance")],
+                    "rows": chances,
+                }
+            )
     if outcome.kind == "sobol":
         rows = [
-            [figures[p].label, group, *("—" if s[k] is None else format_number(s[k], 3) for k in ("first", "total"))]
+            [
+                figures[p].label,
+                group,
+                *("—" if s[k] is None else format_number(s[k], 3) for k in ("first", "total")),
+            ]
             for p, groups in found["indices"].items()
             for group, s in groups.items()
         ]
         tables.append(
-            {"title": _("Shares of the variance"), "columns": [_("result"), _("input"), _("alone"), _("with interactions")], "rows": rows}
+            {
+                "title": _("Shares of the variance"),
+                "columns": [_("result"), _("input"), _("alone"), _("with interactions")],
+                "rows": rows,
+            }
         )
     if outcome.kind == "optimize":
         rows = [[inputs[p].label, "—", _text(row["value"], inputs[p])] for p, row in found["inputs"].items()]
         rows += [
-            [figures[p].label, _text(row["before"], figures[p]), _text(row["value"], figures[p])] for p, row in found["outputs"].items()
+            [figures[p].label, _text(row["before"], figures[p]), _text(row["value"], figures[p])]
+            for p, row in found["outputs"].items()
         ]
-        tables.append({"title": _("Optimum"), "columns": [_("quantity"), _("before"), _("best")], "rows": rows})
-        held = [[(figures | inputs)[row["name"]].label, _text(row["limit"], (figures | inputs)[row["name"]])] for row in found["active"]]
+        tables.append(
+            {"title": _("Optimum"), "columns": [_("quantity"), _("before"), _("best")], "rows": rows}
+        )
+        held = [
+            [(figures | inputs)[row["name"]].label, _text(row["limit"], (figures | inputs)[row["name"]])]
+            for row in found["active"]
+        ]
         if held:
-            tables.append({"title": _("What holds the optimum back"), "columns": [_("quantity"), _("limit")], "rows": held})
+            tables.append(
+                {
+                    "title": _("What holds the optimum back"),
+                    "columns": [_("quantity"), _("limit")],
+                    "rows": held,
+                }
+            )
     if outcome.kind == "sweep":
         columns = {**inputs, **figures}
         count = len(next(iter(found["table"].values())))

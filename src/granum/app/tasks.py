@@ -41,14 +41,18 @@ LONGEST = 900.0  # s that a line may take
 
 def packed(content: Any) -> bytes:
     """Whatever the package returns, as JSON."""
-    return json.dumps(plain_data(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+    return json.dumps(
+        plain_data(content), ensure_ascii=False, allow_nan=False, separators=(",", ":")
+    ).encode()
 
 
 def evaluable(key: str, sorts: tuple[str, ...]) -> Any:
     """The declared thing of a key, refused when it is of another sort."""
     thing = registry.find(key)
     if thing.card.sort not in sorts:
-        raise InputError(_("'{key}' is a {sort}; it cannot be used here.").format(key=key, sort=_(thing.card.sort)))
+        raise InputError(
+            _("'{key}' is a {sort}; it cannot be used here.").format(key=key, sort=_(thing.card.sort))
+        )
     return thing
 
 
@@ -74,7 +78,9 @@ def _law(name: str, text: str) -> Any:
 
 
 def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
-    """The values for a card; what a page or a file cannot mean (a list for a law, nothing for a list) is refused here."""
+    """The values for a card; what a page or a file cannot mean (a list for a law, nothing for a list) is
+    refused here.
+    """
     values = given_values(inputs)
     for p in card.parameters:
         value = values.get(p.name)
@@ -88,7 +94,10 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
             or (isinstance(value, dict) and not p.law and p.kind is None)
             or (isinstance(value, bool) and p.sort is not bool and p.kind is None)
         ):
-            raise InputError(_("'{name}' cannot take this value: {value}.").format(name=p.name, value=str(value)[:60]), name=p.name)
+            raise InputError(
+                _("'{name}' cannot take this value: {value}.").format(name=p.name, value=str(value)[:60]),
+                name=p.name,
+            )
     return values
 
 
@@ -103,7 +112,9 @@ def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
     thing = evaluable(payload["key"], ("formula",))
     given = inputs_for(thing.card, payload["inputs"])
-    return packed({"rows": spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0])})
+    return packed(
+        {"rows": spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0])}
+    )
 
 
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -135,7 +146,9 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
             "statistics_shown": " · ".join(
-                filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data)))
+                filter(
+                    None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))
+                )
             ),
             "chart": json.loads(test.chart().to_json()),
         }
@@ -197,11 +210,19 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
         for p, value in report.figures():
             data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
         data["units"][name]["checks"] = [
-            row | check_row(c)._asdict() for row, c in zip(data["units"][name]["checks"], report.checks, strict=True)
+            row | check_row(c)._asdict()
+            for row, c in zip(data["units"][name]["checks"], report.checks, strict=True)
         ]
     for name, stream in outcome.streams.items():
         data["streams"][name]["shown"] = stream_figures(stream)
-    return packed(data | {"flags": noticed(data["flags"]), "diagram": outcome.drawing(), "stream_table": stream_table(outcome)})
+    return packed(
+        data
+        | {
+            "flags": noticed(data["flags"]),
+            "diagram": outcome.drawing(),
+            "stream_table": stream_table(outcome),
+        }
+    )
 
 
 def report(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -238,5 +259,6 @@ def fill(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 
 TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
-    task.__name__: task for task in (calculate, others, chart, fit, table, run, report, study_choices, study, rest, fill)
+    task.__name__: task
+    for task in (calculate, others, chart, fit, table, run, report, study_choices, study, rest, fill)
 }

@@ -20,7 +20,9 @@ class Tell:
     stopped: whether the task is no longer wanted; asked by tasks that can stop with a part of their result.
     """
 
-    def __init__(self, send: Callable[[float, str], None] | None = None, stopped: Callable[[], bool] = lambda: False):
+    def __init__(
+        self, send: Callable[[float, str], None] | None = None, stopped: Callable[[], bool] = lambda: False
+    ):
         self._send, self.stopped = send, stopped
 
     def __call__(self, share: float, note: str = "") -> None:

@@ -19,7 +19,9 @@ from granum.reports.quantities import MOST_SHOWN, law_label, value_text
 
 
 def plain_data(value: Any) -> Any:
-    """Whatever the package returns as JSON can carry it: arrays as lists, numbers that are not finite as None."""
+    """Whatever the package returns as JSON can carry it: arrays as lists, numbers that are not finite as
+    None.
+    """
     if isinstance(value, dict):
         return {str(name): plain_data(item) for name, item in value.items()}
     if hasattr(value, "_asdict"):
@@ -43,7 +45,14 @@ def python_line(card: Card, given: dict[str, Any]) -> str:
 
 def command_line(card: Card, given: dict[str, Any]) -> str:
     """The command that repeats a calculation."""
-    return " ".join(["granum", "calc", card.key, *(shlex.quote(f"{name}={_typed(value)}") for name, value in given.items())])
+    return " ".join(
+        [
+            "granum",
+            "calc",
+            card.key,
+            *(shlex.quote(f"{name}={_typed(value)}") for name, value in given.items()),
+        ]
+    )
 
 
 def _typed(value: Any) -> str:
@@ -59,16 +68,22 @@ def _input_text(value: Any, text: str, origin: str) -> str:
 
 
 def ranking(result: Result) -> dict[str, Any] | None:
-    """Outputs that run side by side, such as names, marks and reasons of a choice, as one table; None when there are none."""
+    """Outputs that run side by side, such as names, marks and reasons of a choice, as one table; None when
+    there are none.
+    """
     ranked = result.ranking
     if ranked is None:
         return None
     columns = [{"name": p.name, "label": p.label, "number": p.kind is not None} for p in ranked[0]]
-    return {"columns": columns, "rows": [[value_text(x, p) for p, x in zip(ranked[0], row, strict=True)] for row in ranked[1]]}
+    return {
+        "columns": columns,
+        "rows": [[value_text(x, p) for p, x in zip(ranked[0], row, strict=True)] for row in ranked[1]],
+    }
 
 
 def series_tables(result: Result) -> list[dict[str, Any]]:
-    """Outputs that run along the same axis as tables, all rows, each column in one unit; given series of that axis come first.
+    """Outputs that run along the same axis as tables, all rows, each column in one unit; given series of that
+    axis come first.
 
     A lone short series stays in the line of the other results.
     """
@@ -84,14 +99,25 @@ def series_tables(result: Result) -> list[dict[str, Any]]:
         lengths = [x.size for _p, x, own in columns if own]
         if lengths and lengths[0] > (MOST_SHOWN if len(lengths) == 1 else 1):
             found.append([_column(p, x) for p, x, _own in columns if x.size == lengths[0]])
-    return [{"columns": columns, "rows": [list(row) for row in zip(*(c.pop("texts") for c in columns), strict=True)]} for columns in found]
+    return [
+        {
+            "columns": columns,
+            "rows": [list(row) for row in zip(*(c.pop("texts") for c in columns), strict=True)],
+        }
+        for columns in found
+    ]
 
 
 def _column(p: Parameter, values: np.ndarray) -> dict[str, Any]:
     assert p.kind is not None  # only quantities become columns
     unit = p.display_unit(values)
     shown = [float(x) for x in from_si(values, unit, p.kind)]
-    head = {"name": p.name, "label": p.label, "unit": pretty_unit(unit), "file_unit": "" if unit == "dimensionless" else unit}
+    head = {
+        "name": p.name,
+        "label": p.label,
+        "unit": pretty_unit(unit),
+        "file_unit": "" if unit == "dimensionless" else unit,
+    }
     return head | {"values": shown, "texts": [format_number(x) for x in shown]}
 
 
@@ -99,14 +125,23 @@ def described(result: Result, given: dict[str, Any]) -> dict[str, Any]:
     """The stable calc shape, with what a page shows beside it."""
     step = note_step(result)
     rows = [
-        {"name": p.name, "label": p.label, "text": value_text(result.outputs[p.name], p), "symbol": row["symbol"]}
+        {
+            "name": p.name,
+            "label": p.label,
+            "text": value_text(result.outputs[p.name], p),
+            "symbol": row["symbol"],
+        }
         for p, row in zip(result.card.outputs, step["outputs"], strict=True)
     ]
     table, series = ranking(result), series_tables(result)
     tabled = {c["name"] for found in (*([table] if table else []), *series) for c in found["columns"]}
     used = [p for p in result.card.parameters if result.inputs[p.name] is not None]
     inputs = [
-        row | {"name": p.name, "text": _input_text(result.inputs[p.name], row["text"], result.origins.get(p.name, ""))}
+        row
+        | {
+            "name": p.name,
+            "text": _input_text(result.inputs[p.name], row["text"], result.origins.get(p.name, "")),
+        }
         for p, row in zip(used, step["inputs"], strict=True)
     ]
     return result.as_json() | {

@@ -23,11 +23,14 @@ _EXAMPLE = re.compile(r"(?:(?<=')|(?<=«\s))1\.5 ([A-Za-z]\S*?)(?='|\s»)")
 
 
 def page_words(message: str, allowed: object = None) -> str:
-    """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by it; a quoted key is meant as such.
+    """A message as a page says it: what has a label in the glossary, or a title among the cards, is called by
+    it; a quoted key is meant as such.
 
-    >>> page_words("sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1.")
+    >>> page_words(
+    ...     "sphericity ('sphericity') = 1.2 is not possible for particles.terminal_velocity: it must be between 0 and 1."
+    ... )
     'Sphericity = 1.2 is not possible for Terminal velocity: it must be between 0 and 1.'
-    """
+    """  # noqa: E501
     text = _STUDY.sub("", _PLACE.sub(r"\1: ", message))
     text = _BESIDE.sub(lambda found: "" if quantity_in(found[1]) else found[0], text)
     text = _WITH_LABEL.sub(_labelled, text)
@@ -47,7 +50,12 @@ def told(error: Mapping[str, Any]) -> dict[str, Any]:
 
 def noticed(flags: list[Any]) -> list[Any]:
     """Flags with the messages of a page."""
-    return [{**flag, "message": page_words(flag["message"])} if isinstance(flag, Mapping) and "message" in flag else flag for flag in flags]
+    return [
+        {**flag, "message": page_words(flag["message"])}
+        if isinstance(flag, Mapping) and "message" in flag
+        else flag
+        for flag in flags
+    ]
 
 
 def _labelled(found: re.Match[str]) -> str:

@@ -1,6 +1,8 @@
-"""A worker process of the app: takes one task after the other from its standard input, within a limit of memory.
+"""A worker process of the app: takes one task after the other from its standard input, within a limit of
+memory.
 
-Started as ``python -m granum.app.worker MEGABYTES``. Messages are pickles between this process and the one that started it.
+Started as ``python -m granum.app.worker MEGABYTES``. Messages are pickles between this process and the one
+that started it.
 """
 
 from __future__ import annotations
@@ -25,7 +27,9 @@ def _limit(megabytes: int) -> None:
 
 
 def _listen(source: BinaryIO, tasks: queue.SimpleQueue[Any], cancelled: threading.Event) -> None:
-    """Sort what arrives: tasks into the queue, a wish to cancel into the event; the end of the input ends the process."""
+    """Sort what arrives: tasks into the queue, a wish to cancel into the event; the end of the input ends the
+    process.
+    """
     while True:
         try:
             message = pickle.load(source)
@@ -77,7 +81,9 @@ def main() -> None:
             send("memory")
         except (ArithmeticError, LinAlgError) as fault:
             told = ApplicabilityError(
-                _("The numbers got out of hand with these inputs ({reason}). Are they of the right size?").format(reason=fault)
+                _(
+                    "The numbers got out of hand with these inputs ({reason}). Are they of the right size?"
+                ).format(reason=fault)
             )
             send("refused", told.as_json(), told.exit_code)
         except Exception as fault:

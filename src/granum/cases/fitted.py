@@ -1,4 +1,6 @@
-"""Lab data in a case file: each test is read and fitted, and its estimates become inputs of the line with their uncertainty."""
+"""Lab data in a case file: each test is read and fitted, and its estimates become inputs of the line with
+their uncertainty.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,9 @@ from granum.estimation import Fit
 
 
 def fits_of(tables: Mapping[str, FitTable], folder: Path | None) -> dict[str, tuple[Fit, str]]:
-    """Fit and estimate by input of the line. The fit of one table is shared, so that correlations are kept."""
+    """Fit and estimate by input of the line. The fit of one table is shared, so that correlations are
+    kept.
+    """
     found: dict[str, tuple[Fit, str]] = {}
     for name, table in tables.items():
         try:

@@ -47,12 +47,18 @@ def text_of(path: Path) -> str:
     """The text of a case file."""
     try:
         if path.stat().st_size > LARGEST_FILE:
-            raise CaseError(_("'{path}' is larger than a case file can be.").format(path=path), path=str(path))
+            raise CaseError(
+                _("'{path}' is larger than a case file can be.").format(path=path), path=str(path)
+            )
         return path.read_text(encoding="utf-8")
     except OSError as problem:
-        raise CaseError(_("'{path}' cannot be read: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+        raise CaseError(
+            _("'{path}' cannot be read: {reason}.").format(path=path, reason=problem.strerror), path=str(path)
+        ) from None
     except UnicodeDecodeError:
-        raise CaseError(_("'{path}' is not a text file in UTF-8.").format(path=path), path=str(path)) from None
+        raise CaseError(
+            _("'{path}' is not a text file in UTF-8.").format(path=path), path=str(path)
+        ) from None
 
 
 def read_text(text: str, folder: Path | None = None, name: str = "case") -> Line:
@@ -65,7 +71,9 @@ def parsed(text: str, name: str) -> dict[str, Any]:
     try:
         return read_toml(text)
     except InputError as problem:
-        raise CaseError(_("{name} is not valid TOML: {problem}.").format(name=name, problem=problem)) from None
+        raise CaseError(
+            _("{name} is not valid TOML: {problem}.").format(name=name, problem=problem)
+        ) from None
 
 
 def validated(shape: type[Shape], raw: Mapping[str, Any], name: str) -> Shape:
@@ -85,7 +93,10 @@ def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
             return (
                 f"{name}: "
                 + unknown_name(
-                    _("Key"), str(first["loc"][-1]), owner, _("in [{place}]").format(place=".".join(map(str, first["loc"][:-1])) or name)
+                    _("Key"),
+                    str(first["loc"][-1]),
+                    owner,
+                    _("in [{place}]").format(place=".".join(map(str, first["loc"][:-1])) or name),
                 ).message
             )
     if first["type"] == "missing":
@@ -95,7 +106,11 @@ def _complaint(shape: type[Shape], name: str, problem: ValidationError) -> str:
 
 def _fields_at(shape: type[Shape], location: tuple[Any, ...]) -> list[str]:
     tables = {(): shape, ("mixture",): MixtureTable, ("feeds", "*"): FeedTable, ("streams", "*"): StreamTable}
-    key = tuple(location[:1]) + ("*",) * (len(location) > 1) if location and location[0] in ("feeds", "streams") else tuple(location[:1])
+    key = (
+        tuple(location[:1]) + ("*",) * (len(location) > 1)
+        if location and location[0] in ("feeds", "streams")
+        else tuple(location[:1])
+    )
     model = tables.get(key)
     return [f.alias or n for n, f in model.model_fields.items()] if model else []
 
@@ -110,16 +125,24 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
     try:
         mixture = _mixture(case.mixture, folder)
     except GranumError as problem:
-        raise CaseError(problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}", **problem.details) from None
+        raise CaseError(
+            problem.message if "[mixture" in problem.message else f"[mixture] {problem.message}",
+            **problem.details,
+        ) from None
     feeds = {name: _feed(name, table, mixture) for name, table in case.feeds.items()}
-    units = {name: _with_materials(_unit(name, dict(table)), mixture.materials) for name, table in case.units.items()}
+    units = {
+        name: _with_materials(_unit(name, dict(table)), mixture.materials)
+        for name, table in case.units.items()
+    }
     links: dict[str, tuple[str, str]] = {name: ("", table.to) for name, table in case.feeds.items()}
     for name, table in case.streams.items():
         if name in links:
             raise CaseError(_("[streams] '{name}': a feed has the same name.").format(name=name))
         if isinstance(table, list):
             if len(table) not in (1, 2):
-                raise CaseError(_('[streams] \'{name}\': write it as ["unit.outlet", "unit.inlet"].').format(name=name))
+                raise CaseError(
+                    _('[streams] \'{name}\': write it as ["unit.outlet", "unit.inlet"].').format(name=name)
+                )
             table = StreamTable.model_validate({"from": table[0], "to": table[1] if len(table) == 2 else ""})
         links[name] = (table.origin, table.target)
     sheet = Flowsheet(units, feeds, links)
@@ -128,18 +151,40 @@ def build(case: Case, folder: Path | None = None, text: str = "") -> Line:
         sheet = sheet.with_values(fitted_values(fits))
     targets = tuple(_target(name, spec, sheet) for name, spec in case.specifications.items())
     _require_independent(case, targets)
-    told = {"description": case.description, "project": case.report.project, "author": case.report.author, "date": case.report.date}
-    return Line(case.title, sheet, targets, None if case.dynamic is None else movement(case.dynamic, sheet), text, fits, told)
+    told = {
+        "description": case.description,
+        "project": case.report.project,
+        "author": case.report.author,
+        "date": case.report.date,
+    }
+    return Line(
+        case.title,
+        sheet,
+        targets,
+        None if case.dynamic is None else movement(case.dynamic, sheet),
+        text,
+        fits,
+        told,
+    )
 
 
 def _mixture(table: MixtureTable, folder: Path | None) -> Mixture:
     s = table.sizes
     if s.boundaries is not None:
-        edges = np.asarray(convert(s.boundaries, Parameter("boundaries", KINDS["Distance"], series="classes"), _(" in [mixture.sizes]")))
+        edges = np.asarray(
+            convert(
+                s.boundaries,
+                Parameter("boundaries", KINDS["Distance"], series="classes"),
+                _(" in [mixture.sizes]"),
+            )
+        )
     else:
         if s.smallest is None or s.largest is None:
             raise CaseError(_("[mixture.sizes] needs 'smallest' and 'largest', or 'boundaries'."))
-        low, high = (quantity(v, "Length", n, "in [mixture.sizes]") for n, v in (("smallest", s.smallest), ("largest", s.largest)))
+        low, high = (
+            quantity(v, "Length", n, "in [mixture.sizes]")
+            for n, v in (("smallest", s.smallest), ("largest", s.largest))
+        )
         if low >= high:
             raise CaseError(_("[mixture.sizes] 'smallest' must be below 'largest'."))
         edges = np.geomspace(low, high, s.classes + 1)
@@ -160,11 +205,15 @@ def _feed(name: str, table: FeedTable, mixture: Mixture) -> Stream:
 def _unit(name: str, table: dict[str, Any]) -> Any:
     model = table.pop("model", None)
     if not isinstance(model, str):
-        raise CaseError(_("[units.{name}] needs 'model', such as model = \"streams.mixer\".").format(name=name), unit=name)
+        raise CaseError(
+            _("[units.{name}] needs 'model', such as model = \"streams.mixer\".").format(name=name), unit=name
+        )
     try:
         thing = registry.find(model)
         if thing.card.sort != "equipment":
-            raise InputError(_("'{model}' is a {sort}, not equipment.").format(model=model, sort=_(thing.card.sort)))
+            raise InputError(
+                _("'{model}' is a {sort}, not equipment.").format(model=model, sort=_(thing.card.sort))
+            )
         return thing(**table)
     except GranumError as problem:
         raise CaseError(f"[units.{name}] {problem.message}", **{**problem.details, "unit": name}) from None
@@ -176,7 +225,9 @@ def _with_materials(unit: Any, materials: Library) -> Any:
     def looks(part: Any) -> bool:
         return hasattr(type(part), "with_materials")
 
-    return jax.tree.map(lambda part: part.with_materials(materials) if looks(part) else part, unit, is_leaf=looks)
+    return jax.tree.map(
+        lambda part: part.with_materials(materials) if looks(part) else part, unit, is_leaf=looks
+    )
 
 
 def _target(name: str, spec: Any, sheet: Flowsheet) -> Target:
@@ -201,7 +252,13 @@ def _require_independent(case: Case, targets: tuple[Target, ...]) -> None:
     """As many parameters to find as results to meet, each once."""
     names = list(case.specifications)
     for place, reason in (
-        ("vary", _("both vary '{what}': one parameter cannot meet two conditions. Vary another parameter in one of them, or drop one.")),
+        (
+            "vary",
+            _(
+                "both vary '{what}': one parameter cannot meet two conditions. Vary another parameter "
+                "in one of them, or drop one."
+            ),
+        ),
         ("so_that", _("both fix '{what}': the line is over-specified. Drop one of them.")),
     ):
         seen: dict[str, str] = {}
@@ -213,7 +270,10 @@ def _require_independent(case: Case, targets: tuple[Target, ...]) -> None:
             seen[what] = name
     for name, target in zip(names, targets, strict=True):
         if not target.lower < target.upper:
-            raise CaseError(_("[specifications.{name}] 'lower' must be below 'upper'.").format(name=name), specification=name)
+            raise CaseError(
+                _("[specifications.{name}] 'lower' must be below 'upper'.").format(name=name),
+                specification=name,
+            )
 
 
 def movement(table: DynamicTable, sheet: Flowsheet) -> Movement:
@@ -224,7 +284,9 @@ def movement(table: DynamicTable, sheet: Flowsheet) -> Movement:
         raise CaseError(_("[dynamic] 'step' must be above zero and not longer than 'duration'."))
     if duration / step > MOST_STEPS:
         raise CaseError(
-            _("[dynamic] asks for {count} steps; at most {most} are run.").format(count=f"{duration / step:.3g}", most=MOST_STEPS)
+            _("[dynamic] asks for {count} steps; at most {most} are run.").format(
+                count=f"{duration / step:.3g}", most=MOST_STEPS
+            )
         )
     try:
         check_start(sheet, table.start)
@@ -238,7 +300,11 @@ def movement(table: DynamicTable, sheet: Flowsheet) -> Movement:
             kind = KINDS["MassFlow"]
         else:
             sheet.locate(change.vary)
-            kind = type(sheet.units[head]).card.parameter(field).kind if head in sheet.units and "." not in field else KINDS["Number"]
+            kind = (
+                type(sheet.units[head]).card.parameter(field).kind
+                if head in sheet.units and "." not in field
+                else KINDS["Number"]
+            )
         values = convert(change.values, Parameter("values", kind, series="points"), " " + place)
         times = convert(change.times, Parameter("times", KINDS["Time"], series="points"), " " + place)
         profiles.append(Profile(change.vary, np.asarray(times, dtype=float), np.asarray(values, dtype=float)))

@@ -36,7 +36,9 @@ class MixtureTable(_Strict):
     gases: list[str] = []
     sizes: Sizes = Sizes(smallest="1 um", largest="10 mm")
     axes: dict[str, Axis] = {}
-    materials: list[str] = Field(default=[], description="TOML files of own materials, relative to the case file")
+    materials: list[str] = Field(
+        default=[], description="TOML files of own materials, relative to the case file"
+    )
 
 
 class SizeTable(BaseModel):
@@ -48,12 +50,16 @@ class SizeTable(BaseModel):
 
 
 class FeedTable(_Strict):
-    """A stream entering from outside. Shares are mass fractions within the phase; flows are of the whole phase."""
+    """A stream entering from outside. Shares are mass fractions within the phase; flows are of the whole
+    phase.
+    """
 
     to: str
     temperature: Quantity = "25 degC"
     pressure: Quantity = "1 atm"
-    mass_flow: Quantity | None = Field(default=None, description="solid and liquid together, divided by 'solids_mass_fraction'")
+    mass_flow: Quantity | None = Field(
+        default=None, description="solid and liquid together, divided by 'solids_mass_fraction'"
+    )
     solids_mass_fraction: Quantity | None = None
     liquid_flow: Quantity | None = None
     liquid: dict[str, Quantity] = {}
@@ -61,7 +67,9 @@ class FeedTable(_Strict):
     solid: dict[str, Quantity] = {}
     gas_flow: Quantity | None = None
     gas: dict[str, Quantity] = {}
-    relative_humidity: Quantity | None = Field(default=None, description="of a gas feed: sets its vapor; 'gas_flow' is then dry gas")
+    relative_humidity: Quantity | None = Field(
+        default=None, description="of a gas feed: sets its vapor; 'gas_flow' is then dry gas"
+    )
     sizes: SizeTable | None = None
 
 
@@ -91,7 +99,9 @@ class Project(_Strict):
 
 
 class FitTable(_Strict):
-    """A lab test read from a data file beside the case; what it estimates goes into the line with its uncertainty."""
+    """A lab test read from a data file beside the case; what it estimates goes into the line with its
+    uncertainty.
+    """
 
     test: str = Field(description="a lab test, as domain.name")
     data: str = Field(description="CSV or XLSX, relative to the case file")
@@ -112,15 +122,21 @@ class DynamicTable(_Strict):
 
     duration: Quantity
     step: Quantity
-    start: str | dict[str, str] = Field(default="steady", description="steady or empty, or either by unit, the others being empty")
+    start: str | dict[str, str] = Field(
+        default="steady", description="steady or empty, or either by unit, the others being empty"
+    )
     disturbances: dict[str, Disturbance] = {}
 
 
 class Studied(_Strict):
     """What a file with studies may hold besides its model."""
 
-    uncertain: dict[str, dict[str, Any]] = Field(default={}, description="distributions of inputs, shared by the studies")
-    quantities: dict[str, Any] = Field(default={}, description="figures made from figures: expressions, or formulas with their inputs")
+    uncertain: dict[str, dict[str, Any]] = Field(
+        default={}, description="distributions of inputs, shared by the studies"
+    )
+    quantities: dict[str, Any] = Field(
+        default={}, description="figures made from figures: expressions, or formulas with their inputs"
+    )
     fits: dict[str, FitTable] = {}
     study: dict[str, dict[str, Any]] = Field(default={}, description="studies by name, see 'granum study'")
 
@@ -148,4 +164,6 @@ class Case(Studied):
     units: dict[str, dict[str, Any]]
     streams: dict[str, StreamTable | list[str]] = {}
     specifications: dict[str, Specification] = {}
-    dynamic: DynamicTable | None = Field(default=None, description="how the line runs in time: start-up and disturbances")
+    dynamic: DynamicTable | None = Field(
+        default=None, description="how the line runs in time: start-up and disturbances"
+    )

@@ -1,5 +1,7 @@
-"""Studies in a file: of the line in the same case file, of a line in another one (``case = "line.toml"``), or of a formula
-(``card = "domain.name"`` with ``[inputs]``). ``[uncertain]``, ``[quantities]`` and ``[fits]`` are shared by its ``[study.NAME]`` tables."""
+"""Studies in a file: of the line in the same case file, of a line in another one (``case = "line.toml"``), or
+of a formula (``card = "domain.name"`` with ``[inputs]``). ``[uncertain]``, ``[quantities]`` and ``[fits]``
+are shared by its ``[study.NAME]`` tables.
+"""
 
 from __future__ import annotations
 
@@ -45,11 +47,15 @@ def studies_of_text(text: str, folder: Path | None = None, name: str = "case") -
     """The studies of the text of a file; ``folder`` is where the files it names are looked for."""
     subject, declared, doubts = _model(Recipe(text, str((folder or Path()).resolve()), name))
     if not declared.study:
-        raise CaseError(_("{name} declares no study: add a table [study.NAME] with a 'kind'.").format(name=name))
+        raise CaseError(
+            _("{name} declares no study: add a table [study.NAME] with a 'kind'.").format(name=name)
+        )
     return {key: Study.of(key, table, subject, doubts) for key, table in declared.study.items()}
 
 
-def studies_of_line(line: Any, tables: Mapping[str, Any], uncertain: Mapping[str, Any] | None = None) -> dict[str, Study]:
+def studies_of_line(
+    line: Any, tables: Mapping[str, Any], uncertain: Mapping[str, Any] | None = None
+) -> dict[str, Study]:
     """Studies of a line that is already there, as a form would declare them."""
     subject = LineSubject.of(line)
     return {key: Study.of(key, table, subject, uncertain) for key, table in tables.items()}
@@ -65,13 +71,16 @@ def _model(recipe: Recipe) -> tuple[Subject, Studied, dict[str, Any]]:
     declared = validated(StudyFile, raw, recipe.name)
     if (declared.case is None) == (declared.card is None):
         raise CaseError(
-            _('{name}: name the model as case = "line.toml" or card = "domain.name", or write the studies into a case file.').format(
-                name=recipe.name
-            )
+            _(
+                '{name}: name the model as case = "line.toml" or card = "domain.name", or write the '
+                "studies into a case file."
+            ).format(name=recipe.name)
         )
     if declared.case is not None:
         if declared.inputs:
-            raise CaseError(_("{name}: [inputs] belong to a card; a line has its own.").format(name=recipe.name))
+            raise CaseError(
+                _("{name}: [inputs] belong to a card; a line has its own.").format(name=recipe.name)
+            )
         path = folder / declared.case
         case = validated(Case, parsed(text_of(path), path.name), path.name)
         return _line(case, declared, folder, recipe, path.parent)
@@ -82,7 +91,9 @@ def _model(recipe: Recipe) -> tuple[Subject, Studied, dict[str, Any]]:
     return subject.with_quantities(declared.quantities), declared, {**fits, **declared.uncertain}
 
 
-def _line(case: Case, declared: Studied, folder: Path, recipe: Recipe, home: Path | None = None) -> tuple[Subject, Studied, dict[str, Any]]:
+def _line(
+    case: Case, declared: Studied, folder: Path, recipe: Recipe, home: Path | None = None
+) -> tuple[Subject, Studied, dict[str, Any]]:
     """A line with the studies of ``declared``, which may stand in another file than the case."""
     line = build(case, folder=home or folder)
     fits = fits_of(case.fits, home or folder)

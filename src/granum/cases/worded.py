@@ -1,7 +1,9 @@
-"""A study typed as words: a card with its inputs, some of them ranges or spreads, as the text of the file that says the same.
+"""A study typed as words: a card with its inputs, some of them ranges or spreads, as the text of the file
+that says the same.
 
-``pressure_drop=0.3..0.8bar`` is a range, ``cake_resistance=1e7+-30%`` a spread. Equipment takes the streams at its inlets by port
-(``feed.solid_flow=800kg/h``) and the substances under ``mixture`` (``mixture.solids=quartz``), as the tables of a case file do.
+``pressure_drop=0.3..0.8bar`` is a range, ``cake_resistance=1e7+-30%`` a spread. Equipment takes the streams
+at its inlets by port (``feed.solid_flow=800kg/h``) and the substances under ``mixture``
+(``mixture.solids=quartz``), as the tables of a case file do.
 """
 
 from __future__ import annotations
@@ -22,16 +24,30 @@ SHOWN = 6  # results of a piece of equipment, when none are named
 ROBUST = 200  # samples under which a design is kept safe when none are asked for
 
 
-def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximize: str = "", sobol: bool = False, samples: int | None = None,
-               steps: int | None = None, limit: Sequence[str] = (), output: Sequence[str] = ()) -> str:  # fmt: skip
+def study_text(
+    key: str,
+    words: Mapping[str, str],
+    *,
+    minimize: str = "",
+    maximize: str = "",
+    sobol: bool = False,
+    samples: int | None = None,
+    steps: int | None = None,
+    limit: Sequence[str] = (),
+    output: Sequence[str] = (),
+) -> str:
     """The text of a study file of one card.
 
-    One range is a sweep and two are a map; spreads, or a number of samples, make a Monte Carlo study (ranges are then even); what is to be
-    least or greatest makes an optimization over the ranges.
+    One range is a sweep and two are a map; spreads, or a number of samples, make a Monte Carlo study (ranges
+    are then even); what is to be least or greatest makes an optimization over the ranges.
 
-    >>> print(study_text("particles.reynolds_number", {"velocity": "1..3m/s", "particle_diameter": "1mm"}).splitlines()[-1])
+    >>> print(
+    ...     study_text(
+    ...         "particles.reynolds_number", {"velocity": "1..3m/s", "particle_diameter": "1mm"}
+    ...     ).splitlines()[-1]
+    ... )
     "study" = { "sweep" = { "kind" = "sweep", "over" = { "velocity" = { "from" = "1 m/s", "to" = "3m/s", "steps" = 25 } } } }
-    """
+    """  # noqa: E501
     thing: Any = registry.find(key)
     if thing.card.sort in ("formula", "law", "procedure"):
         known = thing.card.inputs
@@ -41,7 +57,11 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
             if name.partition(".")[0].partition("[")[0] not in known:
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))
     ranges = {name: _pair(name, value, "..") for name, value in words.items() if ".." in value}
-    spreads = {name: _pair(name, value.replace("±", "+-"), "+-") for name, value in words.items() if "+-" in value or "±" in value}
+    spreads = {
+        name: _pair(name, value.replace("±", "+-"), "+-")
+        for name, value in words.items()
+        if "+-" in value or "±" in value
+    }
     fixed = {name: value for name, value in words.items() if name not in ranges and name not in spreads}
     unit = key.rpartition(".")[2] if thing.card.sort == "equipment" else ""
     own = {p.name for p in (*thing.card.parameters, *thing.card.outputs)} if unit else set()
@@ -53,18 +73,30 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
     uncertain = {path(n): _spread(*pair) for n, pair in spreads.items()}
     study: dict[str, Any] = {"kind": kind}
     if kind in ("sweep", "map"):
-        study["over"] = {path(n): {"from": low, "to": high, "steps": steps or STEPS[kind]} for n, (low, high) in ranges.items()}
+        study["over"] = {
+            path(n): {"from": low, "to": high, "steps": steps or STEPS[kind]}
+            for n, (low, high) in ranges.items()
+        }
     elif kind == "optimize":
         study["over"] = {path(n): {"lower": low, "upper": high} for n, (low, high) in ranges.items()}
         study |= {word: path(name) for word, name in (("minimize", minimize), ("maximize", maximize)) if name}
         study |= {"samples": samples or ROBUST} if uncertain else {}
     else:
-        uncertain |= {path(n): {"distribution": "uniform", "lower": low, "upper": high} for n, (low, high) in ranges.items()}
-    shown = list(output) or [p.name for p in thing.card.outputs if p.kind is not None and not p.series][:SHOWN] * bool(unit)
+        uncertain |= {
+            path(n): {"distribution": "uniform", "lower": low, "upper": high}
+            for n, (low, high) in ranges.items()
+        }
+    shown = list(output) or [p.name for p in thing.card.outputs if p.kind is not None and not p.series][
+        :SHOWN
+    ] * bool(unit)
     study |= {"outputs": [path(name) for name in shown]} if shown else {}
     study |= {"limits": _limits(limit, path)} if limit else {}
     middle = {n: low for n, (low, _other) in (ranges | spreads).items()}
-    model = _line(thing, unit, fixed | middle) if unit else {"title": thing.card.title, "card": key, "inputs": fixed}
+    model = (
+        _line(thing, unit, fixed | middle)
+        if unit
+        else {"title": thing.card.title, "card": key, "inputs": fixed}
+    )
     tables = {**model, "uncertain": uncertain, "study": {kind: study}}
     return "\n".join(f"{json.dumps(name)} = {_toml(value)}" for name, value in tables.items()) + "\n"
 
@@ -72,32 +104,53 @@ def study_text(key: str, words: Mapping[str, str], *, minimize: str = "", maximi
 def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | None) -> str:
     if not ranges and not spreads:
         raise InputError(
-            _("Nothing varies: give an input as a range, such as temperature=20..60degC, or with its spread, such as 1.2+-5%.")
+            _(
+                "Nothing varies: give an input as a range, such as temperature=20..60degC, or with its "
+                "spread, such as 1.2+-5%."
+            )
         )
     if best:
         if not ranges:
-            raise InputError(_("The optimization has nothing to vary: give at least one input as a range, such as temperature=20..60degC."))
+            raise InputError(
+                _(
+                    "The optimization has nothing to vary: give at least one input as a range, such as "
+                    "temperature=20..60degC."
+                )
+            )
         return "optimize"
     if sobol:
         return "sobol"
     if spreads or samples:
         return "monte_carlo"
     if ranges > 2:
-        raise InputError(_("More than two ranges: draw cases from them with --samples, or ask what moves the results with --sobol."))
+        raise InputError(
+            _(
+                "More than two ranges: draw cases from them with --samples, or ask what moves the "
+                "results with --sobol."
+            )
+        )
     return "sweep" if ranges == 1 else "map"
 
 
 def _pair(name: str, value: str, mark: str) -> tuple[str, str]:
-    """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has none."""
+    """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has
+    none.
+    """
     first, _mark, second = value.partition(mark)
     low, high = read_number(first), read_number(second)
     if low is None or high is None:
         raise InputError(
-            _("'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um.").format(name=name, value=value),
+            _(
+                "'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um."
+            ).format(name=name, value=value),
             name=name,
         )
     (one, unit), (_two, last) = low, high
-    return (f"{repr(one).removesuffix('.0')} {unit or last}".strip() if mark == ".." or last != "%" else first.strip()), second.strip()
+    return (
+        f"{repr(one).removesuffix('.0')} {unit or last}".strip()
+        if mark == ".." or last != "%"
+        else first.strip()
+    ), second.strip()
 
 
 def _spread(mean: str, width: str) -> dict[str, Any]:
@@ -112,7 +165,11 @@ def _limits(words: Sequence[str], path: Any) -> dict[str, dict[str, str]]:
     for word in words:
         match = _LIMIT.match(word)
         if match is None or not match[1].strip() or not match[3].strip():
-            raise InputError(_("'{word}' is not a limit: write it as moisture_dry_basis<=3% or residence_time>=10min.").format(word=word))
+            raise InputError(
+                _(
+                    "'{word}' is not a limit: write it as moisture_dry_basis<=3% or residence_time>=10min."
+                ).format(word=word)
+            )
         name, sign, value = (part.strip() for part in match.groups())
         found.setdefault(path(name), {})["upper" if sign[0] == "<" else "lower"] = value
     return found
@@ -127,19 +184,31 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
         if head in parameters:
             _put(tables["units"][unit], name, value)
         elif head == "mixture" and dot:
-            _put(tables["mixture"], rest, [part.strip() for part in value.split(",")] if rest in ("solids", "liquids", "gases") else value)
+            _put(
+                tables["mixture"],
+                rest,
+                [part.strip() for part in value.split(",")]
+                if rest in ("solids", "liquids", "gases")
+                else value,
+            )
         elif dot and (ports is None or head in ports):
             _put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
         else:
             raise unknown_name(
-                _("Input"), name, (*parameters, *(f"{p}.liquid_flow" for p in ports or ())), _("for {owner}").format(owner=thing.card.key)
+                _("Input"),
+                name,
+                (*parameters, *(f"{p}.liquid_flow" for p in ports or ())),
+                _("for {owner}").format(owner=thing.card.key),
             )
     for port in ports or ():
         if port not in tables["feeds"] and port not in thing.optional_inlets():
             raise InputError(
-                _("{owner} needs a stream at its inlet '{port}': give its flow, such as {port}.liquid_flow=1000kg/h, and what it is made of, such as mixture.liquids=water.")
-                .format(owner=thing.card.key, port=port), name=port,
-            )  # fmt: skip
+                _(
+                    "{owner} needs a stream at its inlet '{port}': give its flow, such as "
+                    "{port}.liquid_flow=1000kg/h, and what it is made of, such as mixture.liquids=water."
+                ).format(owner=thing.card.key, port=port),
+                name=port,
+            )
     return {"title": thing.card.title, **tables}
 
 
@@ -160,7 +229,11 @@ def _put(table: dict[str, Any], name: str, value: Any) -> None:
 def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return (
-            "{ " + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v)}" for k, v in value.items()) + " }" if value else "{}"
+            "{ "
+            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v)}" for k, v in value.items())
+            + " }"
+            if value
+            else "{}"
         )
     if isinstance(value, list):
         return "[" + ", ".join(map(_toml, value)) + "]"

@@ -24,22 +24,31 @@ class GroundTable(NamedTuple):
 
 @procedure(source="austin1984; reid1965", title="Grinding of a size table")
 def ground_fractions(
-    class_edges: Edges, class_fractions: Fractions, grinding_time: Time, selection: Annotated[Any, Law("selection_function")],
-    breakage: Annotated[Any, Law("breakage_function")], mixing: Annotated[Any, Law("residence_time_law")] = PlugFlow(),
+    class_edges: Edges,
+    class_fractions: Fractions,
+    grinding_time: Time,
+    selection: Annotated[Any, Law("selection_function")],
+    breakage: Annotated[Any, Law("breakage_function")],
+    mixing: Annotated[Any, Law("residence_time_law")] = PlugFlow(),
     breakage_convention: Convention = "continuous",
-) -> GroundTable:  # fmt: skip
-    """Mass fractions by class after grinding a batch for a time, or after a continuous mill of that mean residence time.
+) -> GroundTable:
+    """Mass fractions by class after grinding a batch for a time, or after a continuous mill of that mean
+    residence time.
 
-    Sizes are those that 80 % pass. A batch is plug flow; the solution is exact in time. The laws are those of single sizes unless the convention
-    is that of root-two classes (see ``ball_mill``).
+    Sizes are those that 80 % pass. A batch is plug flow; the solution is exact in time. The laws are those of
+    single sizes unless the convention is that of root-two classes (see ``ball_mill``).
 
     >>> from granum.comminution.breakage import AustinBreakage, AustinSelection
-    >>> table = ground_fractions("0, 1, 2, 4 mm", "0, 0, 100 %", "3 s", AustinSelection(0.1, 1.0), AustinBreakage(1.0, 1.0, 4.0))
+    >>> table = ground_fractions(
+    ...     "0, 1, 2, 4 mm", "0, 0, 100 %", "3 s", AustinSelection(0.1, 1.0), AustinBreakage(1.0, 1.0, 4.0)
+    ... )
     >>> [round(float(x), 4) for x in table.class_fractions]
     [0.2592, 0.192, 0.5488]
     """
     feed = SizeDistribution(class_edges, class_fractions)
     matrix = rate_matrix(feed.edges, selection, breakage, breakage_convention)
-    product = SizeDistribution(feed.edges, jnp.maximum(mixing.operator(matrix, grinding_time) @ feed.fractions, 0.0))
+    product = SizeDistribution(
+        feed.edges, jnp.maximum(mixing.operator(matrix, grinding_time) @ feed.fractions, 0.0)
+    )
     coarse, fine = feed.percentile(0.8), product.percentile(0.8)
     return GroundTable(product.fractions, coarse, fine, coarse / fine)

@@ -22,13 +22,19 @@ class SelectionFunction(eqx.Module):
         """Part of the material of a size that breaks per time, 1/s."""
 
 
-@law("selection_function", name="austin_selection", source="austin1984, ch. 5", title="Austin's selection function",
-     equation=r"S(x) = a \left(\frac{x}{x_0}\right)^{\alpha} \frac{1}{1 + (x/\mu)^{\Lambda}}")  # fmt: skip
+@law(
+    "selection_function",
+    name="austin_selection",
+    source="austin1984, ch. 5",
+    title="Austin's selection function",
+    equation=r"S(x) = a \left(\frac{x}{x_0}\right)^{\alpha} \frac{1}{1 + (x/\mu)^{\Lambda}}",
+)
 class AustinSelection(SelectionFunction):
     """Power of the size, with a fall-off for particles too large for the grinding media.
 
-    ``x_0`` is 1 mm by custom. Without a largest size well ground there is no fall-off. The rate is that of a single size; where the convention of the
-    mill is ``root_two``, as that of published constants, it is that of a root-two class by its upper limit.
+    ``x_0`` is 1 mm by custom. Without a largest size well ground there is no fall-off. The rate is that of a
+    single size; where the convention of the mill is ``root_two``, as that of published constants, it is that
+    of a root-two class by its upper limit.
 
     >>> round(float(AustinSelection(selection_rate="0.6 1/min", selection_exponent=0.8)(1e-3)) * 60, 6)
     0.6
@@ -44,7 +50,11 @@ class AustinSelection(SelectionFunction):
         """Part of the material of a size that breaks per time, 1/s."""
         x = jnp.asarray(particle_diameter, dtype=float)
         rate = self.selection_rate * (x / self.reference_size) ** self.selection_exponent
-        return rate if self.falloff_size is None else rate / (1.0 + (x / self.falloff_size) ** self.falloff_exponent)
+        return (
+            rate
+            if self.falloff_size is None
+            else rate / (1.0 + (x / self.falloff_size) ** self.falloff_exponent)
+        )
 
 
 class BreakageFunction(eqx.Module):
@@ -52,16 +62,24 @@ class BreakageFunction(eqx.Module):
 
     @abstractmethod
     def __call__(self, size_ratio: Fraction) -> Fraction:
-        """Mass fraction of the fragments below a size, by that size over the parent's (lower limit of its class in the convention ``root_two``)."""
+        """Mass fraction of the fragments below a size, by that size over the parent's (lower limit of its
+        class in the convention ``root_two``).
+        """
 
 
-@law("breakage_function", name="austin_breakage", source="austin1984, ch. 4", title="Austin's breakage function",
-     equation=r"B(y) = \Phi\,y^{\gamma} + (1 - \Phi)\,y^{\beta}")  # fmt: skip
+@law(
+    "breakage_function",
+    name="austin_breakage",
+    source="austin1984, ch. 4",
+    title="Austin's breakage function",
+    equation=r"B(y) = \Phi\,y^{\gamma} + (1 - \Phi)\,y^{\beta}",
+)
 class AustinBreakage(BreakageFunction):
-    """Two power laws: fines with the exponent gamma, the coarse rest with beta; normalized, the same for every parent size.
+    """Two power laws: fines with the exponent gamma, the coarse rest with beta; normalized, the same for
+    every parent size.
 
-    The ratio is taken to the size of the parent; where the convention of the mill is ``root_two``, as in the source, to the lower limit of its
-    root-two class, which all fragments leave.
+    The ratio is taken to the size of the parent; where the convention of the mill is ``root_two``, as in the
+    source, to the lower limit of its root-two class, which all fragments leave.
 
     >>> round(float(AustinBreakage(fines_share=0.6, fines_exponent=0.9, coarse_exponent=4.0)(0.5)), 4)
     0.3465
@@ -76,11 +94,20 @@ class AustinBreakage(BreakageFunction):
         y = jnp.clip(jnp.asarray(size_ratio, dtype=float), 0.0, 1.0)
         positive = y > 0
         t = jnp.where(positive, y, 1.0)
-        return jnp.where(positive, self.fines_share * t**self.fines_exponent + (1.0 - self.fines_share) * t**self.coarse_exponent, 0.0)
+        return jnp.where(
+            positive,
+            self.fines_share * t**self.fines_exponent + (1.0 - self.fines_share) * t**self.coarse_exponent,
+            0.0,
+        )
 
 
-@law("breakage_function", name="broadbent_callcott", source="broadbent1956", title="Broadbent–Callcott breakage function",
-     equation=r"B(y) = \frac{1 - e^{-y}}{1 - e^{-1}}")  # fmt: skip
+@law(
+    "breakage_function",
+    name="broadbent_callcott",
+    source="broadbent1956",
+    title="Broadbent–Callcott breakage function",
+    equation=r"B(y) = \frac{1 - e^{-y}}{1 - e^{-1}}",
+)
 class BroadbentCallcottBreakage(BreakageFunction):
     """Fragments of coal and rock without any fitted parameter.
 
@@ -93,8 +120,14 @@ class BroadbentCallcottBreakage(BreakageFunction):
         return jnp.expm1(-jnp.clip(jnp.asarray(size_ratio, dtype=float), 0.0, 1.0)) / jnp.expm1(-1.0)
 
 
-@formula(source="herbst1980", equation=r"S_i = S_i^E\,\frac{P}{H}", title="Selection rate from the specific power (Herbst–Fuerstenau)")
-def selection_rate_herbst_fuerstenau(specific_selection: MassPerEnergy, shaft_power: Power, holdup_mass: Mass) -> Frequency:
+@formula(
+    source="herbst1980",
+    equation=r"S_i = S_i^E\,\frac{P}{H}",
+    title="Selection rate from the specific power (Herbst–Fuerstenau)",
+)
+def selection_rate_herbst_fuerstenau(
+    specific_selection: MassPerEnergy, shaft_power: Power, holdup_mass: Mass
+) -> Frequency:
     """Breakage rate in proportion to the power per mass in the mill.
 
     >>> round(selection_rate_herbst_fuerstenau("1 tonne/kWh", "10 kW", "1 tonne") * 3600, 6)
@@ -104,10 +137,16 @@ def selection_rate_herbst_fuerstenau(specific_selection: MassPerEnergy, shaft_po
     return safe_divide(specific_selection * shaft_power, holdup_mass, jnp.nan)
 
 
-@law("selection_probability", name="whiten_classification", source="whiten1972; napiermunn1996", title="Whiten's crusher classification",
-     equation=r"C(x) = 0\ (x < K_1),\ 1 - \left(\frac{K_2 - x}{K_2 - K_1}\right)^{K_3},\ 1\ (x > K_2)")  # fmt: skip
+@law(
+    "selection_probability",
+    name="whiten_classification",
+    source="whiten1972; napiermunn1996",
+    title="Whiten's crusher classification",
+    equation=r"C(x) = 0\ (x < K_1),\ 1 - \left(\frac{K_2 - x}{K_2 - K_1}\right)^{K_3},\ 1\ (x > K_2)",
+)
 class WhitenClassification(eqx.Module):
-    """Chance that a particle is nipped and broken before it leaves a cone or jaw crusher; class means are taken over its limits.
+    """Chance that a particle is nipped and broken before it leaves a cone or jaw crusher; class means are
+    taken over its limits.
 
     >>> [round(float(c), 3) for c in WhitenClassification("10 mm", "30 mm")(jnp.array([5e-3, 20e-3, 40e-3]))]
     [0.0, 0.797, 1.0]

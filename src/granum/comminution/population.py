@@ -1,13 +1,16 @@
 """Population balance of grinding on size classes: exact, mass-conserving transfer operators.
 
-Classes run from fine to coarse. An operator is a matrix, target class by source class, whose columns add up to 1.
+Classes run from fine to coarse. An operator is a matrix, target class by source class, whose columns add up
+to 1.
 
 The laws may mean two things, and parameters are tied to what they were fitted with (``Convention``):
 
-* ``continuous``: rate and fragments of a particle of a size. They are averaged over each class; fragments that stay in the class of their parent
-  are counted there. The result converges with the square of the class width, on any classes.
-* ``root_two``: Austin's discrete convention, in which most constants are published. The rate is that at which a root-two class loses mass, by its upper
-  limit; all fragments leave the class, measured from its lower limit. Only right on the classes of the fit, so other classes are refused.
+* ``continuous``: rate and fragments of a particle of a size. They are averaged over each class; fragments
+    that stay in the class of their parent are counted there. The result converges with the square of the
+    class width, on any classes.
+* ``root_two``: Austin's discrete convention, in which most constants are published. The rate is that at which
+    a root-two class loses mass, by its upper limit; all fragments leave the class, measured from its lower
+    limit. Only right on the classes of the fit, so other classes are refused.
 """
 
 from __future__ import annotations
@@ -28,8 +31,14 @@ from granum.core.kinds import OpenFraction, Ratio, Time, Within
 Convention = Literal["continuous", "root_two"]
 # Nominal openings of root-two sieves (ISO 565, R20/3) stray by up to 1.8 % (180 over 125 µm).
 _ROOT_TWO_TOLERANCE = 0.025
-GROUND, SQUARINGS = 2e6, 20  # lifetimes after which a batch is ground; the matrix exponential is NaN where it would square more often
-_NODES, _WEIGHTS = (0.5 * (np.polynomial.legendre.leggauss(3)[0] + 1.0), 0.5 * np.polynomial.legendre.leggauss(3)[1])
+GROUND, SQUARINGS = (
+    2e6,
+    20,
+)  # lifetimes after which a batch is ground; the matrix exponential is NaN where it would square more often
+_NODES, _WEIGHTS = (
+    0.5 * (np.polynomial.legendre.leggauss(3)[0] + 1.0),
+    0.5 * np.polynomial.legendre.leggauss(3)[1],
+)
 
 
 def _checked_root_two(edges: Any) -> None:
@@ -38,38 +47,51 @@ def _checked_root_two(edges: Any) -> None:
     if np.any(off > _ROOT_TWO_TOLERANCE):
         ratio = float((limits[1:] / limits[:-1])[np.argmax(off)])
         raise InputError(
-            _("With the convention 'root_two' the breakage laws hold on classes whose limits have the ratio 1.414; here two limits have {ratio:.4g}. "
-              "Give root-two classes, or laws fitted to single sizes and the convention 'continuous'.").format(ratio=ratio),
-            name="breakage_convention", value="root_two",
-        )  # fmt: skip
+            _(
+                "With the convention 'root_two' the breakage laws hold on classes whose limits have the "
+                "ratio 1.414; here two limits have {ratio:.4g}. "
+                "Give root-two classes, or laws fitted to single sizes and the convention 'continuous'."
+            ).format(ratio=ratio),
+            name="breakage_convention",
+            value="root_two",
+        )
 
 
 def _below(ratio: Any, breakage: Any) -> Any:
-    """Fragments below a size, by that size over the parent's; whatever is not below the parent is all of them."""
+    """Fragments below a size, by that size over the parent's; whatever is not below the parent is all of
+    them.
+    """
     return jnp.where(ratio >= 1.0 - 1e-12, 1.0, breakage(jnp.minimum(ratio, 1.0)))
 
 
 def _root_two_fragments(edges: Any, breakage: Any) -> Any:
     lower = edges[:-1]
     n = lower.shape[0]
-    parts = jnp.diff(_below(edges[1:, None] / jnp.where(lower > 0, lower, 1.0)[None, :], breakage), axis=0, prepend=0.0)
+    parts = jnp.diff(
+        _below(edges[1:, None] / jnp.where(lower > 0, lower, 1.0)[None, :], breakage), axis=0, prepend=0.0
+    )
     return jnp.where(jnp.arange(n)[:, None] < jnp.arange(n)[None, :], parts, 0.0)
 
 
 def _parents(edges: Any) -> Any:
-    """Sizes that stand for each class but the finest, class by node: evenly spread over the logarithm of size."""
+    """Sizes that stand for each class but the finest, class by node: evenly spread over the logarithm of
+    size.
+    """
     return edges[1:-1, None] ** (1.0 - _NODES) * edges[2:, None] ** _NODES
 
 
 def _averaged(edges: Any, breakage: Any, weight: Any) -> Any:
-    """Fragments by class of every parent class, averaged with a weight on its nodes; none of the finest class."""
+    """Fragments by class of every parent class, averaged with a weight on its nodes; none of the finest
+    class.
+    """
     below = _below(edges[1:, None, None] / _parents(edges)[None], breakage)
     parts = jnp.sum(jnp.diff(below, axis=0, prepend=0.0) * (weight * _WEIGHTS)[None], axis=-1)
     return jnp.pad(parts, ((0, 0), (1, 0)))
 
 
 def fragments(edges: Any, breakage: Any, convention: Convention = "continuous") -> Any:
-    """Fragments by class of each parent class, columns adding up to 1; the finest class, which does not break, has none.
+    """Fragments by class of each parent class, columns adding up to 1; the finest class, which does not
+    break, has none.
 
     >>> from granum.comminution.breakage import AustinBreakage
     >>> b = fragments(jnp.array([0.0, 1e-4, 2e-4, 2.8e-4]), AustinBreakage(1.0, 1.0, 4.0), "continuous")
@@ -101,11 +123,14 @@ def rate_matrix(edges: Any, selection: Any, breakage: Any, convention: Conventio
 def batch_operator(matrix: Any, time: Any) -> Any:
     """Exact effect of grinding a batch for a time: the matrix exponential.
 
-    After ``GROUND`` lifetimes of the class that breaks fastest nothing changes any more, and squaring further would only gather rounding.
+    After ``GROUND`` lifetimes of the class that breaks fastest nothing changes any more, and squaring further
+    would only gather rounding.
     """
     fastest = jnp.max(-jnp.diagonal(matrix))
     longest = GROUND / jnp.where(fastest > 0.0, fastest, 1.0)
-    return linalg.expm(matrix * jnp.where(fastest > 0.0, jnp.minimum(time, longest), time), max_squarings=SQUARINGS)
+    return linalg.expm(
+        matrix * jnp.where(fastest > 0.0, jnp.minimum(time, longest), time), max_squarings=SQUARINGS
+    )
 
 
 def reid_solution(matrix: Any, mass: Any, time: Any) -> Any:
@@ -140,7 +165,13 @@ def _mixed(matrix: Any, residence_time: Any) -> Any:
     return jnp.linalg.inv(jnp.eye(matrix.shape[0]) - matrix * residence_time)
 
 
-@law("residence_time_law", name="plug_flow", source="levenspiel1999", title="Plug flow", equation=r"E(t) = \delta(t - \tau)")
+@law(
+    "residence_time_law",
+    name="plug_flow",
+    source="levenspiel1999",
+    title="Plug flow",
+    equation=r"E(t) = \delta(t - \tau)",
+)
 class PlugFlow(ResidenceTimeLaw):
     """Everything stays for the same time."""
 
@@ -153,8 +184,13 @@ class PlugFlow(ResidenceTimeLaw):
         return batch_operator(matrix, residence_time)
 
 
-@law("residence_time_law", name="tanks_in_series", source="levenspiel1999", title="Equal tanks in series",
-     equation=r"\left(I - A\tau/N\right)^{-N}")  # fmt: skip
+@law(
+    "residence_time_law",
+    name="tanks_in_series",
+    source="levenspiel1999",
+    title="Equal tanks in series",
+    equation=r"\left(I - A\tau/N\right)^{-N}",
+)
 class TanksInSeries(ResidenceTimeLaw):
     """Equal stirred tanks in a row; one is a fully mixed mill, many approach plug flow."""
 
@@ -174,10 +210,17 @@ class TanksInSeries(ResidenceTimeLaw):
         return jnp.linalg.matrix_power(_mixed(matrix, residence_time / self.tank_count), self.tank_count)
 
 
-@law("residence_time_law", name="large_and_two_small", source="austin1984, ch. 14", title="One large and two small tanks (ball mills)",
-     equation=r"(I - A\tau_1)^{-1} (I - A\tau_2)^{-2},\ \tau_1 + 2\tau_2 = \tau")  # fmt: skip
+@law(
+    "residence_time_law",
+    name="large_and_two_small",
+    source="austin1984, ch. 14",
+    title="One large and two small tanks (ball mills)",
+    equation=r"(I - A\tau_1)^{-1} (I - A\tau_2)^{-2},\ \tau_1 + 2\tau_2 = \tau",
+)
 class LargeAndTwoSmall(ResidenceTimeLaw):
-    """A large stirred tank followed by two equal small ones, as tracer tests of tumbling mills show; 0.7 and 2 × 0.15 are usual."""
+    """A large stirred tank followed by two equal small ones, as tracer tests of tumbling mills show; 0.7 and
+    2 × 0.15 are usual.
+    """
 
     large_share: Annotated[OpenFraction, Within(0.34, 0.999)] = 0.7
 

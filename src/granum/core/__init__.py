@@ -5,12 +5,22 @@ from __future__ import annotations
 from typing import Any
 
 _HOME = {
-    "formula": "formulas", "Formula": "formulas", "record_steps": "formulas",
-    "law": "declarations", "equipment": "declarations", "lab_test": "declarations",
-    "chart": "procedures", "procedure": "procedures",
-    "watch": "flags", "unconverged": "flags", "limit_active": "flags", "impossible": "flags",
-    "Result": "results", "Card": "cards", "Parameter": "parameters",
-}  # fmt: skip
+    "formula": "formulas",
+    "Formula": "formulas",
+    "record_steps": "formulas",
+    "law": "declarations",
+    "equipment": "declarations",
+    "lab_test": "declarations",
+    "chart": "procedures",
+    "procedure": "procedures",
+    "watch": "flags",
+    "unconverged": "flags",
+    "limit_active": "flags",
+    "impossible": "flags",
+    "Result": "results",
+    "Card": "cards",
+    "Parameter": "parameters",
+}
 
 
 def __getattr__(name: str) -> Any:

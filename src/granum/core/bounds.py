@@ -13,13 +13,17 @@ from granum.core import flags
 from granum.core.errors import ApplicabilityError
 from granum.core.parameters import Parameter
 
-ROUNDING = 1e-12  # by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
+ROUNDING = (
+    1e-12  # by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
+)
 SOLVED = 1e-6  # of the largest figure of a series that was solved for step by step
 CONTRADICTION = "The values given contradict one another, or lie beyond what this holds for."
 
 
 def limits(parameter: Parameter) -> tuple[float, float]:
-    """Bounds that a computed value keeps: those of its kind, widened by what rounding does to numbers of ordinary size."""
+    """Bounds that a computed value keeps: those of its kind, widened by what rounding does to numbers of
+    ordinary size.
+    """
     kind = parameter.kind
     assert kind is not None
     ends = (kind.lower, kind.upper, *parameter.ordinary())
@@ -35,7 +39,9 @@ def figures(outputs: Iterable[Parameter], out: Any) -> Iterator[tuple[Parameter,
 
 
 def concerned(mask: Any, value: Any, whole: bool) -> Any:
-    """The elements of a value that a check concerns; ``whole`` where a check over another axis concerns all of it."""
+    """The elements of a value that a check concerns; ``whole`` where a check over another axis concerns all
+    of it.
+    """
     shape = jnp.shape(value)
     mask = flags.within(mask, shape)
     fits = all(n in (1, m) for n, m in zip(mask.shape[::-1], shape[::-1], strict=False))
@@ -43,7 +49,9 @@ def concerned(mask: Any, value: Any, whole: bool) -> Any:
 
 
 def record_outside(outputs: Iterable[Parameter], out: Any, card: str, source: str, start: int) -> None:
-    """Record the finite outputs outside their own bounds, where no record made since ``start`` has said so of the inputs."""
+    """Record the finite outputs outside their own bounds, where no record made since ``start`` has said so of
+    the inputs.
+    """
     told = [found.mask for found in flags.kept()[start:] if found.bit == flags.OUTSIDE_DOMAIN]
     for p, value in figures(outputs, out):
         low, high = limits(p)
@@ -54,13 +62,29 @@ def record_outside(outputs: Iterable[Parameter], out: Any, card: str, source: st
         for mask in told:
             beyond = beyond & ~concerned(mask, beyond, False)
         assert p.kind is not None
-        flags.record(flags.OUTSIDE_DOMAIN, beyond, value, p.name, card, p.kind.lower, p.kind.upper, source, CONTRADICTION)
+        flags.record(
+            flags.OUTSIDE_DOMAIN,
+            beyond,
+            value,
+            p.name,
+            card,
+            p.kind.lower,
+            p.kind.upper,
+            source,
+            CONTRADICTION,
+        )
 
 
-def without_impossible(outputs: Iterable[Parameter], out: Any, records: Iterable[flags.Record], whole: bool) -> Any:
+def without_impossible(
+    outputs: Iterable[Parameter], out: Any, records: Iterable[flags.Record], whole: bool
+) -> Any:
     """Outputs with NaN where a record says that no value exists, and where one of them is infinite."""
     masks = [found.mask for found in records if found.bit == flags.OUTSIDE_DOMAIN]
-    masks += [jnp.isinf(value) for _p, value in figures(outputs, out) if jnp.issubdtype(jnp.result_type(value), jnp.floating)]
+    masks += [
+        jnp.isinf(value)
+        for _p, value in figures(outputs, out)
+        if jnp.issubdtype(jnp.result_type(value), jnp.floating)
+    ]
 
     def kept(value: Any) -> Any:
         if jnp.issubdtype(jnp.result_type(value), jnp.floating):
@@ -72,7 +96,9 @@ def without_impossible(outputs: Iterable[Parameter], out: Any, records: Iterable
 
 
 def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
-    """Raise where a result of concrete numbers, solved to within ``SOLVED``, lies outside the bounds of its own kind."""
+    """Raise where a result of concrete numbers, solved to within ``SOLVED``, lies outside the bounds of its
+    own kind.
+    """
     if not isinstance(out, (tuple, float, np.ndarray, jax.Array)):
         return
     for p, value in figures(outputs, out):
@@ -84,13 +110,23 @@ def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
         if beyond.size:
             assert p.kind is not None
             record = flags.Record(
-                np.asarray(True), beyond[0], flags.OUTSIDE_DOMAIN, p.name, card, p.kind.lower, p.kind.upper, "", CONTRADICTION
+                np.asarray(True),
+                beyond[0],
+                flags.OUTSIDE_DOMAIN,
+                p.name,
+                card,
+                p.kind.lower,
+                p.kind.upper,
+                "",
+                CONTRADICTION,
             )
             raise ApplicabilityError(flags.describe([record])[0]["message"], name=p.name)
 
 
 def judged(outputs: Iterable[Parameter], out: Any, card: str, source: str) -> Any:
-    """What a law called on concrete numbers gives: one outside the bounds of its kind raises, elements of an array become NaN."""
+    """What a law called on concrete numbers gives: one outside the bounds of its kind raises, elements of an
+    array become NaN.
+    """
     outputs = tuple(outputs)
     if all(np.all(kept_inside(p, value)) for p, value in figures(outputs, out)):
         return out

@@ -57,7 +57,9 @@ class Card:
 
     @property
     def title(self) -> str:
-        """Title in the current language: as declared, else the glossary label with the author of the correlation."""
+        """Title in the current language: as declared, else the glossary label with the author of the
+        correlation.
+        """
         if self.given_title:
             return _(self.given_title)
         word = quantity_in(self.name)
@@ -87,7 +89,9 @@ class Card:
 
     @property
     def inputs(self) -> dict[str, Parameter]:
-        """By name all that must be known for a value: of a law what it is called with and what it is made of."""
+        """By name all that must be known for a value: of a law what it is called with and what it is made
+        of.
+        """
         return {p.name: p for p in (*self.arguments, *self.parameters)}
 
     def parameter(self, name: str) -> Parameter:
@@ -127,10 +131,20 @@ def key_of(thing: Any, name: str) -> str:
 
 
 def make_card(
-    thing: Callable[..., Any], name: str, sort: str, *, parameters: tuple[Parameter, ...], outputs: tuple[Parameter, ...],
-    source: str, equation: str = "", fitted: Ranges | None = None, family: str = "", title: str = "", limits: tuple[Limit, ...] = (),
+    thing: Callable[..., Any],
+    name: str,
+    sort: str,
+    *,
+    parameters: tuple[Parameter, ...],
+    outputs: tuple[Parameter, ...],
+    source: str,
+    equation: str = "",
+    fitted: Ranges | None = None,
+    family: str = "",
+    title: str = "",
+    limits: tuple[Limit, ...] = (),
     arguments: tuple[Parameter, ...] = (),
-) -> Card:  # fmt: skip
+) -> Card:
     """The card of a declared function or class."""
     return Card(
         key=key_of(thing, name),

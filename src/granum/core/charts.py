@@ -1,4 +1,6 @@
-"""The one look of every chart: template, colors of the phases, axis titles, log axes, points, lines and bands. Uses Plotly."""
+"""The one look of every chart: template, colors of the phases, axis titles, log axes, points, lines and
+bands. Uses Plotly.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +21,18 @@ LINES = (ACCENT, SOLID, LIQUID, HEAT, "#6b46c1", GAS, OK, "#97266d", CAUTION, "#
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash")
 
 _AXIS = {
-    "showline": True, "linecolor": INK, "linewidth": 1, "mirror": False, "gridcolor": GRID, "gridwidth": 1, "zeroline": False,
-    "ticks": "outside", "ticklen": 4, "tickcolor": INK, "title": {"standoff": 8},
-}  # fmt: skip
+    "showline": True,
+    "linecolor": INK,
+    "linewidth": 1,
+    "mirror": False,
+    "gridcolor": GRID,
+    "gridwidth": 1,
+    "zeroline": False,
+    "ticks": "outside",
+    "ticklen": 4,
+    "tickcolor": INK,
+    "title": {"standoff": 8},
+}
 
 
 def template() -> go.layout.Template:
@@ -29,12 +40,23 @@ def template() -> go.layout.Template:
     separators = ",\u202f" if current_language() == "fr" else ".\u202f"
     return go.layout.Template(
         layout={
-            "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, sans-serif", "size": 13, "color": INK},
-            "paper_bgcolor": "white", "plot_bgcolor": "white", "colorway": list(LINES), "xaxis": _AXIS, "yaxis": _AXIS,
-            "margin": {"l": 70, "r": 25, "t": 45, "b": 60}, "hovermode": "closest", "separators": separators,
-            "legend": {"bgcolor": "rgba(255,255,255,0.8)", "borderwidth": 0}, "title": {"font": {"size": 15}, "x": 0.0, "xanchor": "left"},
+            "font": {
+                "family": "system-ui, -apple-system, Segoe UI, Roboto, sans-serif",
+                "size": 13,
+                "color": INK,
+            },
+            "paper_bgcolor": "white",
+            "plot_bgcolor": "white",
+            "colorway": list(LINES),
+            "xaxis": _AXIS,
+            "yaxis": _AXIS,
+            "margin": {"l": 70, "r": 25, "t": 45, "b": 60},
+            "hovermode": "closest",
+            "separators": separators,
+            "legend": {"bgcolor": "rgba(255,255,255,0.8)", "borderwidth": 0},
+            "title": {"font": {"size": 15}, "x": 0.0, "xanchor": "left"},
         }
-    )  # fmt: skip
+    )
 
 
 def axis_title(name: str, unit: str = "", label: str | None = None) -> str:
@@ -50,21 +72,31 @@ def axis_title(name: str, unit: str = "", label: str | None = None) -> str:
     return f"{text}{symbol}" + (f" / {shown}" if shown else "")
 
 
-def figure(x: str, y: str, *, title: str = "", x_log: bool = False, y_log: bool = False, **layout: Any) -> go.Figure:
+def figure(
+    x: str, y: str, *, title: str = "", x_log: bool = False, y_log: bool = False, **layout: Any
+) -> go.Figure:
     """An empty figure in the house style; ``x`` and ``y`` are finished axis titles (see ``axis_title``)."""
     chart = go.Figure()
     chart.update_layout(template=template(), title=title or None, width=None, height=480, **layout)
     for update, text, log in ((chart.update_xaxes, x, x_log), (chart.update_yaxes, y, y_log)):
-        update(title=text, type="log" if log else "linear", **({"dtick": 1, "exponentformat": "power"} if log else {}))
+        update(
+            title=text,
+            type="log" if log else "linear",
+            **({"dtick": 1, "exponentformat": "power"} if log else {}),
+        )
     return chart
 
 
 def _mark_short_decades(chart: go.Figure) -> None:
-    """Marks within the decade on logarithmic axes whose data span little more than one, which would have one mark or none."""
+    """Marks within the decade on logarithmic axes whose data span little more than one, which would have one
+    mark or none.
+    """
     for axis, coordinate in ((chart.layout.xaxis, "x"), (chart.layout.yaxis, "y")):
         if axis.type != "log":
             continue
-        seen = np.concatenate([np.asarray(getattr(trace, coordinate, None), dtype=float).ravel() for trace in chart.data])
+        seen = np.concatenate(
+            [np.asarray(getattr(trace, coordinate, None), dtype=float).ravel() for trace in chart.data]
+        )
         seen = seen[np.isfinite(seen) & (seen > 0)]
         low, high = (float(seen.min()), float(seen.max())) if seen.size else (1.0, 100.0)
         short = high < 20.0 * low and low >= 1e-3 and high < 1e5
@@ -76,12 +108,16 @@ def _mark_short_decades(chart: go.Figure) -> None:
 
 
 def as_html(chart: go.Figure, *, plotly: bool = True, page: bool = False) -> str:
-    """A chart as HTML, a part of a page or a page of its own; ``plotly`` puts the library in. Nothing offers to send its data anywhere."""
+    """A chart as HTML, a part of a page or a page of its own; ``plotly`` puts the library in. Nothing offers
+    to send its data anywhere.
+    """
     config = {"displaylogo": False, "showSendToCloud": False, "plotlyServerURL": ""}
     return chart.to_html(full_html=page, include_plotlyjs=plotly, config=config)
 
 
-def add_points(chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK, hollow: bool = False, **more: Any) -> None:
+def add_points(
+    chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK, hollow: bool = False, **more: Any
+) -> None:
     """Data points; hollow ones are excluded from a fit."""
     marker = {"color": "white" if hollow else color, "size": 7, "line": {"color": color, "width": 1.5}}
     chart.add_trace(go.Scatter(x=x, y=y, mode="markers", name=name, marker=marker, **more))
@@ -89,10 +125,22 @@ def add_points(chart: go.Figure, x: Any, y: Any, name: str, *, color: str = INK,
 
 
 def add_line(
-    chart: go.Figure, x: Any, y: Any, name: str, *, color: str = ACCENT, dash: str = "solid", width: float = 2, **more: Any
+    chart: go.Figure,
+    x: Any,
+    y: Any,
+    name: str,
+    *,
+    color: str = ACCENT,
+    dash: str = "solid",
+    width: float = 2,
+    **more: Any,
 ) -> None:
     """A model line."""
-    chart.add_trace(go.Scatter(x=x, y=y, mode="lines", name=name, line={"color": color, "dash": dash, "width": width}, **more))
+    chart.add_trace(
+        go.Scatter(
+            x=x, y=y, mode="lines", name=name, line={"color": color, "dash": dash, "width": width}, **more
+        )
+    )
     _mark_short_decades(chart)
 
 
@@ -100,8 +148,21 @@ def add_band(chart: go.Figure, x: Any, low: Any, high: Any, name: str, *, color:
     """A 95 % band between two curves."""
     red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
     fill = f"rgba({red},{green},{blue},0.15)"
-    chart.add_trace(go.Scatter(x=x, y=high, mode="lines", line={"width": 0}, showlegend=False, hoverinfo="skip"))
-    chart.add_trace(go.Scatter(x=x, y=low, mode="lines", line={"width": 0}, fill="tonexty", fillcolor=fill, name=name, hoverinfo="skip"))
+    chart.add_trace(
+        go.Scatter(x=x, y=high, mode="lines", line={"width": 0}, showlegend=False, hoverinfo="skip")
+    )
+    chart.add_trace(
+        go.Scatter(
+            x=x,
+            y=low,
+            mode="lines",
+            line={"width": 0},
+            fill="tonexty",
+            fillcolor=fill,
+            name=name,
+            hoverinfo="skip",
+        )
+    )
 
 
 def add_label(chart: go.Figure, x: float, y: float, text: str, *, color: str = INK, **more: Any) -> None:

@@ -1,4 +1,6 @@
-"""Physical constants (CODATA 2018 exact values; standard gravity and atmosphere by definition) and units by which sources count."""
+"""Physical constants (CODATA 2018 exact values; standard gravity and atmosphere by definition) and units by
+which sources count.
+"""
 
 import math
 

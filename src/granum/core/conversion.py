@@ -1,4 +1,6 @@
-"""Whatever a user passes for a parameter as what a body takes, or one clear error; and arguments matched to parameters."""
+"""Whatever a user passes for a parameter as what a body takes, or one clear error; and arguments matched to
+parameters.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
         return given.not_a_number(parameter.name, where)
     shown = units.show(float(value), kind) if np.isfinite(value) else str(float(value))
     if kind.lower > -np.inf and kind.upper < np.inf:
-        allowed = _("between {low} and {high}").format(low=units.show(kind.lower, kind), high=units.show(kind.upper, kind))
+        allowed = _("between {low} and {high}").format(
+            low=units.show(kind.lower, kind), high=units.show(kind.upper, kind)
+        )
     elif kind.lower > -np.inf:
         word = _("greater than {low}") if kind.open_lower else _("at least {low}")
         allowed = word.format(low=units.show(kind.lower, kind))
@@ -51,24 +55,28 @@ def out_of_bounds(value: Any, parameter: Parameter, where: str) -> InputError:
 def _forgotten_unit(value: float, parameter: Parameter, where: str) -> InputError:
     """The error for a bare number colder than any temperature here: it was meant in degrees Celsius."""
     message = _(
-        "{label} ('{name}') = {value} K is below any operation here{where}: a number without a unit is read in kelvin. Did you mean {value} °C?"
+        "{label} ('{name}') = {value} K is below any operation here{where}: a number without a unit is "
+        "read in kelvin. Did you mean {value} °C?"
     ).format(label=parameter.label, name=parameter.name, value=units.format_number(value), where=where)
     return InputError(message, name=parameter.name, value=value)
 
 
 def convert(value: Any, parameter: Parameter, where: str = "", several: bool = False) -> Any:
-    """Whatever a user passes for a parameter as what the function body takes; raises one clear error otherwise.
+    """Whatever a user passes for a parameter as what the function body takes; raises one clear error
+    otherwise.
 
-    Text and Pint quantities become SI numbers; words become choices or laws; numbers are checked against the hard
-    bounds when they are single values. Where ``several`` values may stand, arrays keep their out-of-range elements, which
-    evaluation flags. Tracers pass.
+    Text and Pint quantities become SI numbers; words become choices or laws; numbers are checked against the
+    hard bounds when they are single values. Where ``several`` values may stand, arrays keep their
+    out-of-range elements, which evaluation flags. Tracers pass.
     """
     if is_tracer(value):
         return value
     if value is None:
         if parameter.default is None or parameter.optional:
             return None
-        raise InputError(_("'{name}' needs a value{where}.").format(name=parameter.name, where=where), name=parameter.name)
+        raise InputError(
+            _("'{name}' needs a value{where}.").format(name=parameter.name, where=where), name=parameter.name
+        )
     if parameter.law:
         return _law(value, parameter, where)
     if parameter.choices:
@@ -78,7 +86,9 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
     kind, coldest = parameter.kind, parameter.coldest
     bare = not given.is_quantity(value) and not (isinstance(value, str) and units.has_unit(value))
     if isinstance(value, str):
-        read = units.read_series if parameter.series else units.read_values if several else units.read_quantity
+        read = (
+            units.read_series if parameter.series else units.read_values if several else units.read_quantity
+        )
         value = read(value, kind, parameter.name)
     elif given.is_quantity(value):
         value = units.quantity_to_si(value, kind, parameter.name)
@@ -107,12 +117,15 @@ def convert(value: Any, parameter: Parameter, where: str = "", several: bool = F
         bad = ~np.asarray(kind.contains(array))
         if bad.any():
             first = int(np.argmax(bad.ravel()))
-            raise out_of_bounds(array.ravel()[first], parameter, where + _(" (item {index})").format(index=first + 1))
+            raise out_of_bounds(
+                array.ravel()[first], parameter, where + _(" (item {index})").format(index=first + 1)
+            )
     elif not several and not (hasattr(value, "at") and _inside_a_formula()):
         raise InputError(
-            _("'{name}' takes one value{where}; {count} were given. Call it once for each, or vary it with 'granum study'.").format(
-                name=parameter.name, where=where, count=np.size(value)
-            ),
+            _(
+                "'{name}' takes one value{where}; {count} were given. Call it once for each, or vary it "
+                "with 'granum study'."
+            ).format(name=parameter.name, where=where, count=np.size(value)),
             name=parameter.name,
         )
     return value
@@ -130,7 +143,10 @@ def _items(values: Any, parameter: Parameter, where: str) -> Any:
     single, kind = replace(parameter, series=None, default=REQUIRED, optional=False), parameter.kind
     assert kind is not None
     if given.depth(values) > 3:
-        raise InputError(_("'{name}' has lists in lists too deep{where}.").format(name=parameter.name, where=where), name=parameter.name)
+        raise InputError(
+            _("'{name}' has lists in lists too deep{where}.").format(name=parameter.name, where=where),
+            name=parameter.name,
+        )
     items = [
         v
         if type(v) is float and kind.contains(v) and v not in (np.inf, -np.inf) and parameter.coldest is None
@@ -142,7 +158,10 @@ def _items(values: Any, parameter: Parameter, where: str) -> Any:
 
         return jnp.asarray(items)
     if len(set(map(np.shape, items))) > 1:
-        raise InputError(_("'{name}' has rows of unequal length{where}.").format(name=parameter.name, where=where), name=parameter.name)
+        raise InputError(
+            _("'{name}' has rows of unequal length{where}.").format(name=parameter.name, where=where),
+            name=parameter.name,
+        )
     return np.asarray(items, dtype=float)
 
 
@@ -150,10 +169,16 @@ def _choice(value: Any, parameter: Parameter, where: str) -> Any:
     if isinstance(value, str) and value not in parameter.choices:  # a number typed as text
         value = next((choice for choice in parameter.choices if str(choice) == value.strip()), value)
     fits = isinstance(value, (str, int, float)) and any(
-        value == choice and isinstance(value, bool) == isinstance(choice, bool) for choice in parameter.choices
+        value == choice and isinstance(value, bool) == isinstance(choice, bool)
+        for choice in parameter.choices
     )
     if not fits:
-        raise unknown_name(_("Choice for '{name}'").format(name=parameter.name), given.shown(value), map(str, parameter.choices), where)
+        raise unknown_name(
+            _("Choice for '{name}'").format(name=parameter.name),
+            given.shown(value),
+            map(str, parameter.choices),
+            where,
+        )
     return value
 
 
@@ -161,13 +186,18 @@ def _plain(value: Any, parameter: Parameter, where: str) -> Any:
     if parameter.sort is bool:
         word = given.truth(value)
         if word is None:
-            raise InputError(_("'{name}' takes yes or no{where}.").format(name=parameter.name, where=where), name=parameter.name)
+            raise InputError(
+                _("'{name}' takes yes or no{where}.").format(name=parameter.name, where=where),
+                name=parameter.name,
+            )
         return word
     if parameter.sort is int:
         return _whole(value, parameter, where)
     if parameter.sort is str and not isinstance(value, str):
         raise InputError(
-            _("'{name}' = {value} is not a text{where}.").format(name=parameter.name, value=given.shown(value), where=where),
+            _("'{name}' = {value} is not a text{where}.").format(
+                name=parameter.name, value=given.shown(value), where=where
+            ),
             name=parameter.name,
         )
     return value
@@ -177,13 +207,18 @@ def _whole(value: Any, parameter: Parameter, where: str) -> int:
     count = given.whole_number(value)
     if count is None:
         raise InputError(
-            _("'{name}' = {value} must be a whole number{where}.").format(name=parameter.name, value=given.shown(value), where=where),
+            _("'{name}' = {value} must be a whole number{where}.").format(
+                name=parameter.name, value=given.shown(value), where=where
+            ),
             name=parameter.name,
         )
     limits = parameter.within
     if limits is not None and not limits.lower <= count <= limits.upper:
         raise InputError(
-            _("{label} ('{name}') = {value} is not possible{where}: it must be a whole number from {low} to {high}.").format(
+            _(
+                "{label} ('{name}') = {value} is not possible{where}: it must be a whole number from "
+                "{low} to {high}."
+            ).format(
                 label=parameter.label,
                 name=parameter.name,
                 value=given.shown(count),
@@ -202,7 +237,9 @@ def _table(text: str, parameter: Parameter, where: str) -> Any:
         return read_toml(f"value = {text}")["value"]
     except InputError:
         raise InputError(
-            _("'{name}' is not a table such as {{law = \"…\", option = 1}}{where}.").format(name=parameter.name, where=where),
+            _("'{name}' is not a table such as {{law = \"…\", option = 1}}{where}.").format(
+                name=parameter.name, where=where
+            ),
             name=parameter.name,
         ) from None
 
@@ -225,7 +262,9 @@ def _law(value: Any, parameter: Parameter, where: str) -> Any:
     name = options.pop("law", None)
     if not isinstance(name, str):
         raise InputError(
-            _("'{name}' is a table without 'law'{where}; name the law, as in {{law = \"…\", …}}.").format(name=parameter.name, where=where),
+            _("'{name}' is a table without 'law'{where}; name the law, as in {{law = \"…\", …}}.").format(
+                name=parameter.name, where=where
+            ),
             name=parameter.name,
         )
     return law(parameter.law, name, where, options)
@@ -244,11 +283,17 @@ class Binder:
         """A binder for the card named ``owner``."""
         return Binder(owner, parameters, {p.name: i for i, p in enumerate(parameters)})
 
-    def with_fluid(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> tuple[Mapping[str, Any], dict[str, str]]:
-        """The arguments with the properties of a ``fluid`` in its place, and what each of these says of its origin; explicit values win."""
+    def with_fluid(
+        self, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+    ) -> tuple[Mapping[str, Any], dict[str, str]]:
+        """The arguments with the properties of a ``fluid`` in its place, and what each of these says of its
+        origin; explicit values win.
+        """
         if "fluid" not in kwargs or "fluid" in self.index:
             return kwargs, {}
-        stated = import_module("granum.materials.stated")  # the core knows no materials; whoever names one has them
+        stated = import_module(
+            "granum.materials.stated"
+        )  # the core knows no materials; whoever names one has them
         rest = {name: value for name, value in kwargs.items() if name != "fluid"}
         found, origin = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
         origins: dict[str, str] = dict.fromkeys(found, str(origin))
@@ -257,13 +302,17 @@ class Binder:
     def left_out(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> frozenset[str]:
         """Names that were not given and have a default other than nothing."""
         rest = self.parameters[len(args) :]
-        return frozenset(p.name for p in rest if p.name not in kwargs and not p.required and p.default is not None)
+        return frozenset(
+            p.name for p in rest if p.name not in kwargs and not p.required and p.default is not None
+        )
 
     def arrange(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> list[Any]:
         """Raw values in the order of the parameters, defaults filled in; nothing converted yet."""
         if len(args) > len(self.parameters):
             raise InputError(
-                _("{owner} takes {count} values; {given} were given.").format(owner=self.owner, count=len(self.parameters), given=len(args))
+                _("{owner} takes {count} values; {given} were given.").format(
+                    owner=self.owner, count=len(self.parameters), given=len(args)
+                )
             )
         values = list(args) + [p.default for p in self.parameters[len(args) :]]
         for name, value in kwargs.items():
@@ -271,7 +320,9 @@ class Binder:
             if position is None:
                 raise unknown_name(_("Input"), name, self.index, _("for {owner}").format(owner=self.owner))
             if position < len(args):
-                raise InputError(_("'{name}' was given twice for {owner}.").format(name=name, owner=self.owner), name=name)
+                raise InputError(
+                    _("'{name}' was given twice for {owner}.").format(name=name, owner=self.owner), name=name
+                )
             values[position] = value
         missing = [p for p, value in zip(self.parameters, values, strict=True) if value is REQUIRED]
         if missing:
@@ -279,7 +330,9 @@ class Binder:
                 _("{owner} needs {names}.").format(
                     owner=self.owner,
                     names=", ".join(
-                        f"'{p.name}' ({p.label}{', ' + p.units[0] if p.units and p.units[0] != 'dimensionless' else ''})" for p in missing
+                        f"'{p.name}' "
+                        f"({p.label}{', ' + p.units[0] if p.units and p.units[0] != 'dimensionless' else ''})"
+                        for p in missing
                     ),
                 ),
                 missing=[p.name for p in missing],
@@ -290,4 +343,7 @@ class Binder:
         """Converted values by name."""
         where = _(" for {owner}").format(owner=self.owner)
         given, _origins = self.with_fluid(args, kwargs)
-        return {p.name: convert(value, p, where) for p, value in zip(self.parameters, self.arrange(args, given), strict=True)}
+        return {
+            p.name: convert(value, p, where)
+            for p, value in zip(self.parameters, self.arrange(args, given), strict=True)
+        }

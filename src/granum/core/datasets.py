@@ -1,4 +1,6 @@
-"""The tables that come with the package: ``granum/<domain>/data/<name>.csv``, each with a sidecar that says where its numbers come from."""
+"""The tables that come with the package: ``granum/<domain>/data/<name>.csv``, each with a sidecar that says
+where its numbers come from.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +18,16 @@ from granum.core.unit_names import parse_unit, registry
 def dataset(domain: str, name: str) -> tuple[dict[str, Any], ...]:
     """The rows of a table by the words of its header.
 
-    A column whose header names a unit, ``aperture [mm]``, holds numbers, which are given in SI (``[SI]``: in that of each row's own
-    quantity), NaN where the cell is empty; every other column holds text.
+    A column whose header names a unit, ``aperture [mm]``, holds numbers, which are given in SI (``[SI]``: in
+    that of each row's own quantity), NaN where the cell is empty; every other column holds text.
 
     >>> dataset("particles", "sieves_iso565")[0]
     {'series': 'iso565_r20', 'designation': '125', 'aperture': 0.125}
     """
     text = (files("granum") / domain / "data" / f"{name}.csv").read_text(encoding="utf-8")
-    return tuple(dict(_read(head, cell) for head, cell in row.items()) for row in csv.DictReader(text.splitlines()))
+    return tuple(
+        dict(_read(head, cell) for head, cell in row.items()) for row in csv.DictReader(text.splitlines())
+    )
 
 
 def columns(domain: str, name: str) -> dict[str, np.ndarray]:
@@ -37,4 +41,6 @@ def _read(head: str, cell: str) -> tuple[str, Any]:
     if not unit:
         return word, cell
     number = float(cell or "nan")
-    return word, number if unit == "SI" else float(registry().Quantity(number, parse_unit(unit)).to_base_units().magnitude)
+    return word, number if unit == "SI" else float(
+        registry().Quantity(number, parse_unit(unit)).to_base_units().magnitude
+    )

@@ -1,4 +1,6 @@
-"""``@law``, ``@equipment`` and ``@lab_test``: cards for frozen modules (Equinox classes), whose fields are the parameters."""
+"""``@law``, ``@equipment`` and ``@lab_test``: cards for frozen modules (Equinox classes), whose fields are
+the parameters.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ class _LazyCard:
 
 
 def field_parameters(cls: type, fitted: Ranges, typical: Ranges) -> tuple[Parameter, ...]:
-    """The fields of a frozen module as parameters, in the order of its signature: what may only be named comes last."""
+    """The fields of a frozen module as parameters, in the order of its signature: what may only be named
+    comes last.
+    """
     hints = get_type_hints(cls, include_extras=True)
     found = []
     for item in sorted(dataclasses.fields(cls), key=lambda field: field.kw_only is True):
@@ -47,12 +51,30 @@ def field_parameters(cls: type, fitted: Ranges, typical: Ranges) -> tuple[Parame
         default = item.default if item.default is not dataclasses.MISSING else REQUIRED
         if item.default_factory is not dataclasses.MISSING:
             default = item.default_factory()
-        found.append(parameter_of(item.name, hints[item.name], default, fitted=fitted.get(item.name), typical=typical.get(item.name)))
+        found.append(
+            parameter_of(
+                item.name,
+                hints[item.name],
+                default,
+                fitted=fitted.get(item.name),
+                typical=typical.get(item.name),
+            )
+        )
     return tuple(found)
 
 
-def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fitted: Ranges, typical: Ranges, family: str,
-             title: str, results: Callable[..., Any] | None) -> type[T]:  # fmt: skip
+def _declare(
+    cls: type[T],
+    name: str,
+    sort: str,
+    source: str,
+    equation: str,
+    fitted: Ranges,
+    typical: Ranges,
+    family: str,
+    title: str,
+    results: Callable[..., Any] | None,
+) -> type[T]:
     def build() -> Card:
         outputs: tuple[Parameter, ...] = ()
         if results is not None:
@@ -64,9 +86,20 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
         arguments: tuple[Parameter, ...] = ()
         if sort == "law":
             arguments = tuple(p for p in parameters_of(cls.__call__, fitted, typical) if p.name != "self")  # type: ignore[operator]
-        return make_card(cls, name, sort, parameters=field_parameters(cls, fitted, typical), outputs=outputs,
-                         arguments=arguments, source=source, equation=equation, fitted=fitted, family=family, title=title,
-                         limits=tuple(getattr(cls, "limits", {}).values()))  # fmt: skip
+        return make_card(
+            cls,
+            name,
+            sort,
+            parameters=field_parameters(cls, fitted, typical),
+            outputs=outputs,
+            arguments=arguments,
+            source=source,
+            equation=equation,
+            fitted=fitted,
+            family=family,
+            title=title,
+            limits=tuple(getattr(cls, "limits", {}).values()),
+        )
 
     original = cls.__init__
     binder: list[Binder] = []
@@ -88,8 +121,9 @@ def _declare(cls: type[T], name: str, sort: str, source: str, equation: str, fit
 
 
 def _checked(call: Callable[..., Any]) -> Callable[..., Any]:
-    """A law's call, which tells where it leaves the ranges of its card and whose value is judged where nobody else does:
-    on concrete numbers, outside of a formula."""
+    """A law's call, which tells where it leaves the ranges of its card and whose value is judged where nobody
+    else does: on concrete numbers, outside of a formula.
+    """
     names = tuple(inspect.signature(call).parameters)[1:]
 
     @functools.wraps(call)
@@ -97,7 +131,12 @@ def _checked(call: Callable[..., Any]) -> Callable[..., Any]:
         out, card = call(self, *args, **kwargs), self.card
         if card.fitted and flags.listening():
             own = {p.name: getattr(self, p.name) for p in card.parameters}
-            values = own | dict(zip(names, args, strict=False)) | kwargs | {p.name: value for p, value in bounds.figures(card.outputs, out)}
+            values = (
+                own
+                | dict(zip(names, args, strict=False))
+                | kwargs
+                | {p.name: value for p, value in bounds.figures(card.outputs, out)}
+            )
             flags.ranged(card, {n: values[n] for n in card.fitted if values.get(n) is not None})
         if flags.nested() or any(map(is_tracer, jax.tree.leaves(out))):
             return out
@@ -114,7 +153,8 @@ def _called(cls: Any, /, **inputs: Any) -> Any:
 
 
 def _evaluate(cls: Any, /, **inputs: Any) -> Result:
-    """The value of this law, as of a formula, for its parameters and the arguments of its call in any unit, with its flags and card.
+    """The value of this law, as of a formula, for its parameters and the arguments of its call in any unit,
+    with its flags and card.
 
     What it is called with may be arrays.
     """
@@ -132,12 +172,22 @@ def _evaluate(cls: Any, /, **inputs: Any) -> Result:
     return Result(card, values, out, **told, defaults=binder.left_out((), given), origins=origins)
 
 
-def law(family: str, *, source: str, name: str, equation: str = "", fitted: Ranges | None = None,
-        typical: Ranges | None = None, title: str = "") -> Callable[[type[T]], type[T]]:  # fmt: skip
-    """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the law.
+def law(
+    family: str,
+    *,
+    source: str,
+    name: str,
+    equation: str = "",
+    fitted: Ranges | None = None,
+    typical: Ranges | None = None,
+    title: str = "",
+) -> Callable[[type[T]], type[T]]:
+    """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the
+    law.
 
-    ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share the family.
-    ``fitted`` are ranges over which the source holds, by parameter, argument of the call or result (the family's name), SI units.
+    ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share
+    the family. ``fitted`` are ranges over which the source holds, by parameter, argument of the call or
+    result (the family's name), SI units.
     """
 
     def declare(cls: type[T]) -> type[T]:
@@ -147,14 +197,25 @@ def law(family: str, *, source: str, name: str, equation: str = "", fitted: Rang
             if several:
                 type.__setattr__(cls, "called", classmethod(_called))
                 type.__setattr__(cls, "evaluate", classmethod(_evaluate))
-        return _declare(cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__)
+        return _declare(
+            cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__
+        )
 
     return declare
 
 
-def equipment(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
-              typical: Ranges | None = None) -> Callable[[type[T]], type[T]]:  # fmt: skip
-    """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``figures`` its outputs."""
+def equipment(
+    name: str,
+    *,
+    source: str,
+    title: str,
+    equation: str = "",
+    fitted: Ranges | None = None,
+    typical: Ranges | None = None,
+) -> Callable[[type[T]], type[T]]:
+    """Declare a piece of equipment: a frozen ``Unit`` whose fields are its parameters and whose ``figures``
+    its outputs.
+    """
     return lambda cls: _declare(
         cls,
         name,
@@ -169,7 +230,18 @@ def equipment(name: str, *, source: str, title: str, equation: str = "", fitted:
     )
 
 
-def lab_test(name: str, *, source: str, title: str, equation: str = "", fitted: Ranges | None = None,
-             typical: Ranges | None = None) -> Callable[[type[T]], type[T]]:  # fmt: skip
-    """Declare a lab test: ``Series`` fields are the columns of the data file, the others its conditions; ``fit`` its outcome."""
-    return lambda cls: _declare(cls, name, "lab test", source, equation, fitted or {}, typical or {}, "", title, None)
+def lab_test(
+    name: str,
+    *,
+    source: str,
+    title: str,
+    equation: str = "",
+    fitted: Ranges | None = None,
+    typical: Ranges | None = None,
+) -> Callable[[type[T]], type[T]]:
+    """Declare a lab test: ``Series`` fields are the columns of the data file, the others its conditions;
+    ``fit`` its outcome.
+    """
+    return lambda cls: _declare(
+        cls, name, "lab test", source, equation, fitted or {}, typical or {}, "", title, None
+    )

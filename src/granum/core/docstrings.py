@@ -1,4 +1,6 @@
-"""What ``help()`` shows of a card: the docstring as written, then what is declared, worked out when it is asked for."""
+"""What ``help()`` shows of a card: the docstring as written, then what is declared, worked out when it is
+asked for.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +65,13 @@ def _section(title: str, rows: list[str]) -> str:
 
 
 def _end(value: float | str) -> str:
-    return value if isinstance(value, str) else ("−∞" if value < 0 else "∞") if np.isinf(value) else format_number(value)
+    return (
+        value
+        if isinstance(value, str)
+        else ("−∞" if value < 0 else "∞")
+        if np.isinf(value)
+        else format_number(value)
+    )
 
 
 def _named(p: Parameter) -> list[str]:
@@ -84,7 +92,11 @@ def _input(p: Parameter) -> str:
     elif p.kind:
         words.append(_allowed(p.kind))
     if not p.required and p.default is not None:
-        shown = show(p.default, p.kind) if p.kind and isinstance(p.default, float | int) else str(default_as_json(p.default))
+        shown = (
+            show(p.default, p.kind)
+            if p.kind and isinstance(p.default, float | int)
+            else str(default_as_json(p.default))
+        )
         words.append(_("by default {value}").format(value=shown))
     return f"{p.name}: " + ", ".join(filter(None, words))
 

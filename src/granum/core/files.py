@@ -18,7 +18,10 @@ def write_atomic(path: str | Path, content: str | bytes) -> None:
     try:
         handle, name = tempfile.mkstemp(dir=target.parent or ".", prefix=f".{target.name}.")
     except OSError as problem:
-        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+        raise InputError(
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            path=str(path),
+        ) from None
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)
@@ -28,7 +31,10 @@ def write_atomic(path: str | Path, content: str | bytes) -> None:
         os.replace(name, target)
     except OSError as problem:
         Path(name).unlink(missing_ok=True)
-        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+        raise InputError(
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            path=str(path),
+        ) from None
 
 
 def check_writable(path: str | Path) -> None:
@@ -39,6 +45,9 @@ def check_writable(path: str | Path) -> None:
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as problem:
-        raise InputError(_("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror), path=str(path)) from None
+        raise InputError(
+            _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror),
+            path=str(path),
+        ) from None
     os.close(handle)
     Path(name).unlink()

@@ -1,7 +1,8 @@
 """Flags: what happened inside an array computation that a reader must know, as bits and as records.
 
-While a collector is open, every formula that runs, however deep, records where it left its fitted range. A record made
-inside an inner transformation (a loop body, an inner ``vmap``) is dropped: the caller records the final value again.
+While a collector is open, every formula that runs, however deep, records where it left its fitted range. A
+record made inside an inner transformation (a loop body, an inner ``vmap``) is dropped: the caller records the
+final value again.
 """
 
 from __future__ import annotations
@@ -44,8 +45,12 @@ class Record:
     high: float = field(metadata={"static": True})
     source: str = field(metadata={"static": True})
     reason: str = field(default="", metadata={"static": True})
-    computed: tuple[Any, Any] | None = None  # limits that depend on the other inputs, in place of low and high
-    without: tuple[str, ...] = field(default=(), metadata={"static": True})  # outputs that have no value for this reason
+    computed: tuple[Any, Any] | None = (
+        None  # limits that depend on the other inputs, in place of low and high
+    )
+    without: tuple[str, ...] = field(
+        default=(), metadata={"static": True}
+    )  # outputs that have no value for this reason
 
 
 class _Collector:
@@ -64,7 +69,9 @@ _current: ContextVar[Any] = ContextVar("granum_formula", default=None)
 
 @contextmanager
 def collect(only: int = 0) -> Iterator[list[Record]]:
-    """Open a collector; the list fills with records (``only`` those of one bit) while formulas run at this trace level."""
+    """Open a collector; the list fills with records (``only`` those of one bit) while formulas run at this
+    trace level.
+    """
     collector = _Collector(only)
     token = _active.set(collector)
     try:
@@ -74,7 +81,9 @@ def collect(only: int = 0) -> Iterator[list[Record]]:
 
 
 def listening() -> bool:
-    """Whether a record made now would be told to somebody: limits that cost much to compute are worth it only then."""
+    """Whether a record made now would be told to somebody: limits that cost much to compute are worth it only
+    then.
+    """
     collector = _active.get()
     return collector is not None and not collector.only and collector.accepts()
 
@@ -95,16 +104,30 @@ def inside(formula: Any) -> Iterator[None]:
         _current.reset(token)
 
 
-def record(bit: int, mask: Any, value: Any, name: str, card: str, low: float = -np.inf, high: float = np.inf, source: str = "",
-           reason: str = "", computed: tuple[Any, Any] | None = None, without: tuple[str, ...] = ()) -> None:  # fmt: skip
+def record(
+    bit: int,
+    mask: Any,
+    value: Any,
+    name: str,
+    card: str,
+    low: float = -np.inf,
+    high: float = np.inf,
+    source: str = "",
+    reason: str = "",
+    computed: tuple[Any, Any] | None = None,
+    without: tuple[str, ...] = (),
+) -> None:
     """Add a record if a collector listens at this trace level."""
     collector = _active.get()
     if collector is not None and collector.only in (0, bit) and collector.accepts():
-        # of plain numbers, as in an inner call with constants, "~(a < b)" is the integer -1 or -2, whose last bit is what was meant
+        # of plain numbers, as in an inner call with constants, "~(a < b)" is the integer -1 or -2, whose last
+        # bit is what was meant
         mask = jnp.asarray(bool(mask & 1) if type(mask) is int else mask)
         if computed is not None:
             computed = (jnp.broadcast_to(computed[0], mask.shape), jnp.broadcast_to(computed[1], mask.shape))
-        collector.records.append(Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed, without))
+        collector.records.append(
+            Record(mask, jnp.asarray(value), bit, name, card, low, high, source, reason, computed, without)
+        )
 
 
 def hand_on(records: list[Record]) -> None:
@@ -122,7 +145,8 @@ def nested() -> bool:
 def watch(**values: Any) -> None:
     """Inside a formula body: check a derived number against the range the card declares for that name.
 
-    ``@formula(fitted={"reynolds": (1e-4, 2e5)})`` with ``watch(reynolds=Re)`` in the body flags the extrapolation.
+    ``@formula(fitted={"reynolds": (1e-4, 2e5)})`` with ``watch(reynolds=Re)`` in the body flags the
+    extrapolation.
     """
     formula = _current.get()
     if formula is not None:
@@ -130,7 +154,9 @@ def watch(**values: Any) -> None:
 
 
 def ranged(card: Any, values: Mapping[str, Any]) -> None:
-    """Check numbers against the ranges that a card, or whoever has its key, source and ranges, declares for them."""
+    """Check numbers against the ranges that a card, or whoever has its key, source and ranges, declares for
+    them.
+    """
     if not listening():
         return
     for name, value in values.items():
@@ -142,46 +168,96 @@ def unconverged(converged: Any, name: str = "iteration") -> None:
     """Inside a formula body: record the elements whose inner iteration did not converge."""
     formula = _current.get()
     if formula is not None:
-        record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source)
+        record(
+            NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, formula.key, source=formula.source
+        )
 
 
 def unsolved(converged: Any, card: Any, name: str = "iteration", reason: str = "") -> None:
-    """Inside a unit: record that its inner solution was not found. ``card`` is the unit's; ``reason`` as for ``limit_active``."""
-    record(NOT_CONVERGED, ~jnp.asarray(converged), jnp.zeros(()), name, card.key, source=card.source, reason=reason)
+    """Inside a unit: record that its inner solution was not found. ``card`` is the unit's; ``reason`` as for
+    ``limit_active``.
+    """
+    record(
+        NOT_CONVERGED,
+        ~jnp.asarray(converged),
+        jnp.zeros(()),
+        name,
+        card.key,
+        source=card.source,
+        reason=reason,
+    )
 
 
-def extrapolated(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
-    """Inside a formula body: record the elements beyond limits that depend on the other inputs; ``reason`` as for ``impossible``."""
-    formula = _current.get()
-    if formula is not None:
-        record(EXTRAPOLATED, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
-
-
-def impossible(mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = "") -> None:
-    """Inside a formula body: record the elements for which the inputs contradict one another, so that no value exists.
-
-    The outermost call on concrete values gives none there; a body whose number would look plausible says NaN itself, for its callers.
-    Of several records the first one is what a reader is told; ``reason`` as for ``limit_active``, after the limits where there are
-    any. These may be computed: they are told for the element that lies farthest out.
+def extrapolated(
+    mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = ""
+) -> None:
+    """Inside a formula body: record the elements beyond limits that depend on the other inputs; ``reason`` as
+    for ``impossible``.
     """
     formula = _current.get()
     if formula is not None:
-        record(OUTSIDE_DOMAIN, mask, value, name, formula.key, source=formula.source, reason=reason, computed=(low, high))
+        record(
+            EXTRAPOLATED,
+            mask,
+            value,
+            name,
+            formula.key,
+            source=formula.source,
+            reason=reason,
+            computed=(low, high),
+        )
+
+
+def impossible(
+    mask: Any, value: Any, name: str, low: Any = -np.inf, high: Any = np.inf, reason: str = ""
+) -> None:
+    """Inside a formula body: record the elements for which the inputs contradict one another, so that no
+    value exists.
+
+    The outermost call on concrete values gives none there; a body whose number would look plausible says NaN
+    itself, for its callers. Of several records the first one is what a reader is told; ``reason`` as for
+    ``limit_active``, after the limits where there are any. These may be computed: they are told for the
+    element that lies farthest out.
+    """
+    formula = _current.get()
+    if formula is not None:
+        record(
+            OUTSIDE_DOMAIN,
+            mask,
+            value,
+            name,
+            formula.key,
+            source=formula.source,
+            reason=reason,
+            computed=(low, high),
+        )
 
 
 def limit_active(mask: Any, value: Any, name: str, reason: str, without: tuple[str, ...] = ()) -> None:
     """Inside a formula body: record where a physical limit cut the result.
 
-    ``reason`` is an English sentence with a French translation: which limit, why, and what is given in place. The elements
-    concerned are told after it. ``without`` names outputs that are not a number there, for this reason, while the others stand.
+    ``reason`` is an English sentence with a French translation: which limit, why, and what is given in place.
+    The elements concerned are told after it. ``without`` names outputs that are not a number there, for this
+    reason, while the others stand.
     """
     formula = _current.get()
     if formula is not None:
-        record(LIMIT_ACTIVE, mask, value, name, formula.key, source=formula.source, reason=reason, without=without)
+        record(
+            LIMIT_ACTIVE,
+            mask,
+            value,
+            name,
+            formula.key,
+            source=formula.source,
+            reason=reason,
+            without=without,
+        )
 
 
 def within(mask: Any, shape: tuple[int, ...]) -> Any:
-    """A mask without the leading axes that a result of this shape does not have: what concerns any of them concerns the element."""
+    """A mask without the leading axes that a result of this shape does not have: what concerns any of them
+    concerns the element.
+    """
     return mask.any(axis=tuple(range(max(mask.ndim - len(shape), 0))))
 
 
@@ -205,7 +281,9 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         if not mask.any():
             continue
         limits = found.computed or (found.low, found.high)
-        values, lows, highs = (np.broadcast_to(np.asarray(x, dtype=float), mask.shape)[mask] for x in (found.value, *limits))
+        values, lows, highs = (
+            np.broadcast_to(np.asarray(x, dtype=float), mask.shape)[mask] for x in (found.value, *limits)
+        )
         beyond = np.where(np.isfinite(values), np.fmax(lows - values, values - highs), -np.inf)
         at = int(np.argmax(beyond))
         worst, low, high = (float(x[at]) for x in (values, lows, highs))
@@ -225,8 +303,12 @@ def describe(records: list[Record]) -> list[dict[str, Any]]:
         )
         row["count"] += int(mask.sum())
         row["worst"] = worst if np.isfinite(worst) else None
-        limited = found.bit in (OUTSIDE_DOMAIN, EXTRAPOLATED) and (row["low"] is not None or row["high"] is not None)
-        told = ([sentence(row)] if limited or not found.reason else []) + ([_(found.reason)] if found.reason else [])
+        limited = found.bit in (OUTSIDE_DOMAIN, EXTRAPOLATED) and (
+            row["low"] is not None or row["high"] is not None
+        )
+        told = ([sentence(row)] if limited or not found.reason else []) + (
+            [_(found.reason)] if found.reason else []
+        )
         if found.bit == LIMIT_ACTIVE:
             told.append(_elements(row, values, mask.size))
         row["message"] = " ".join(filter(None, told))
@@ -247,7 +329,9 @@ def _elements(row: dict[str, Any], values: np.ndarray, total: int) -> str:
     name = term(word).label if word else row["name"]
     if total == 1:
         return f"({name} = {span})"
-    return _("({name} = {span}: {count} of {total} values)").format(name=name, span=span, count=values.size, total=total)
+    return _("({name} = {span}: {count} of {total} values)").format(
+        name=name, span=span, count=values.size, total=total
+    )
 
 
 def sentence(row: dict[str, Any]) -> str:
@@ -264,7 +348,9 @@ def sentence(row: dict[str, Any]) -> str:
         high = "∞" if row["high"] is None else shown(row["high"])
         span = f" [{low} … {high}{unit}]"
     templates = {
-        "extrapolated": _("{name}{value} is outside the range the source covers{span} in {card}: extrapolated."),
+        "extrapolated": _(
+            "{name}{value} is outside the range the source covers{span} in {card}: extrapolated."
+        ),
         "outside domain": _("{name}{value} is outside what is possible{span} in {card}: no value."),
         "not finite": _("{name} is not a finite number in {card}."),
         "not converged": _("{name} did not converge in {card}."),
@@ -273,17 +359,24 @@ def sentence(row: dict[str, Any]) -> str:
 
 
 def _units_of(row: dict[str, Any]) -> tuple[Any, str]:
-    """How to print the numbers of a flag, and their unit: those of the card's parameter where the flag is about one."""
+    """How to print the numbers of a flag, and their unit: those of the card's parameter where the flag is
+    about one.
+    """
     from granum.core.kinds import KINDS
     from granum.core.registry import find
     from granum.core.units import best_unit, format_number, from_si, pretty_unit
 
     try:
         kind = find(row["card"]).card.parameter(row["name"]).kind
-    except (InputError, StopIteration):  # a number computed inside the body, or a material: the kind that bears the name, if one does
+    except (
+        InputError,
+        StopIteration,
+    ):  # a number computed inside the body, or a material: the kind that bears the name, if one does
         kind = KINDS.get("".join(word.capitalize() for word in row["name"].split("_")))
     if kind is None:
         return format_number, ""
     numbers = [row[end] for end in ("worst", "low", "high") if row[end] is not None and np.isfinite(row[end])]
     unit = best_unit(max(map(abs, numbers), default=0.0), kind)
-    return lambda value: format_number(float(from_si(value, unit, kind))), f" {pretty_unit(unit)}" if pretty_unit(unit) else ""
+    return lambda value: format_number(
+        float(from_si(value, unit, kind))
+    ), f" {pretty_unit(unit)}" if pretty_unit(unit) else ""

@@ -1,4 +1,6 @@
-"""``@formula``: turns a pure ``jax.numpy`` function into a card that converts units, checks bounds and raises flags."""
+"""``@formula``: turns a pure ``jax.numpy`` function into a card that converts units, checks bounds and raises
+flags.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ KELVIN = "A temperature given here is below −123 °C: a number without a unit 
 
 @contextmanager
 def record_steps() -> Iterator[list[Result]]:
-    """Keep every formula evaluated on concrete values inside the block: the raw material of a calculation note."""
+    """Keep every formula evaluated on concrete values inside the block: the raw material of a calculation
+    note.
+    """
     steps: list[Result] = []
     token = _steps.set(steps)
     try:
@@ -48,18 +52,30 @@ def _floats(value: Any) -> Any:
     if isinstance(value, tuple):
         return type(value)(*map(_floats, value)) if hasattr(value, "_fields") else tuple(map(_floats, value))
     single = getattr(value, "ndim", 1) == 0 and jnp.issubdtype(value.dtype, jnp.floating)
-    return value.item() if single and not is_tracer(value) else value  # a call on constants inside an outer jit yields a tracer
+    return (
+        value.item() if single and not is_tracer(value) else value
+    )  # a call on constants inside an outer jit yields a tracer
 
 
 class Formula(Generic[P, R]):
     """A declared formula. Call it for the bare value, ``evaluate`` it for value, flags and card.
 
-    Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard bounds raise, and so do
-    single values that contradict one another; elements of arrays that do give NaN.
+    Accepts floats, arrays, tracers, text with units and Pint quantities. Single values outside the hard
+    bounds raise, and so do single values that contradict one another; elements of arrays that do give NaN.
     """
 
-    def __init__(self, function: Callable[P, R], *, source: str, equation: str, fitted: Ranges, typical: Ranges,
-                 title: str, output: str, family: str):  # fmt: skip
+    def __init__(
+        self,
+        function: Callable[P, R],
+        *,
+        source: str,
+        equation: str,
+        fitted: Ranges,
+        typical: Ranges,
+        title: str,
+        output: str,
+        family: str,
+    ):
         self.function: Callable[..., R] = function
         self.fitted = fitted
         self.source = source
@@ -80,12 +96,17 @@ class Formula(Generic[P, R]):
         hints = get_type_hints(self.function, include_extras=True)
         family = self._declared["family"] or output
         return make_card(
-            self.function, name, "formula",
+            self.function,
+            name,
+            "formula",
             parameters=parameters_of(self.function, self.fitted, self._typical),
             outputs=outputs_of(hints.get("return"), output, self.fitted),
-            source=self.source, equation=self._declared["equation"], fitted=self.fitted,
-            family=family, title=self._declared["title"],
-        )  # fmt: skip
+            source=self.source,
+            equation=self._declared["equation"],
+            fitted=self.fitted,
+            family=family,
+            title=self._declared["title"],
+        )
 
     @functools.cached_property
     def _binder(self) -> Binder:
@@ -114,19 +135,27 @@ class Formula(Generic[P, R]):
     def __repr__(self) -> str:
         return f"<formula {self.key}{self._signature}>"
 
-    def _collect_values(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> tuple[list[Any], bool, bool]:
+    def _collect_values(
+        self, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+    ) -> tuple[list[Any], bool, bool]:
         """Converted values in order, whether any is traced, whether any is an array."""
         values = self._binder.arrange(args, kwargs)
         traced = batched = False
         for i, (p, value) in enumerate(zip(self.card.parameters, values, strict=True)):
             if type(value) is float and p.kind is not None and not p.law and not p.series:
-                if not p.kind.contains(value) or value in (np.inf, -np.inf) or (p.coldest is not None and value < p.coldest):
+                if (
+                    not p.kind.contains(value)
+                    or value in (np.inf, -np.inf)
+                    or (p.coldest is not None and value < p.coldest)
+                ):
                     values[i] = convert(value, p, _(" for {owner}").format(owner=self.key))
                 continue
             if is_tracer(value):
                 traced = True
                 continue
-            values[i] = value = convert(value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key), several=True)
+            values[i] = value = convert(
+                value, p, "" if value is p.default else _(" for {owner}").format(owner=self.key), several=True
+            )
             if is_tracer(value):  # a list with traced elements
                 traced = True
                 continue
@@ -141,12 +170,18 @@ class Formula(Generic[P, R]):
 
     def _check_shapes(self, values: list[Any]) -> None:
         """Arrays given for single values fit one another: equally long, or as NumPy broadcasts them."""
-        rows = [(p.name, np.shape(v)) for p, v in zip(self.card.parameters, values, strict=True) if p.kind and not p.series and np.ndim(v)]
+        rows = [
+            (p.name, np.shape(v))
+            for p, v in zip(self.card.parameters, values, strict=True)
+            if p.kind and not p.series and np.ndim(v)
+        ]
         try:
             np.broadcast_shapes(*(shape for _name, shape in rows))
         except ValueError:
             shown = ", ".join(f"'{name}' ({' × '.join(map(str, shape))})" for name, shape in rows)
-            raise InputError(_("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0]) from None
+            raise InputError(
+                _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0]
+            ) from None
 
     def _check_lengths(self, values: list[Any]) -> None:
         """Series along one axis are equally long; an optional one may be a single value for all."""
@@ -154,15 +189,23 @@ class Formula(Generic[P, R]):
             rows = [(self.card.parameters[i], np.shape(values[i])[-1]) for i in group if np.ndim(values[i])]
             if len({count for p, count in rows if p.required or count > 1}) > 1:
                 shown = ", ".join(f"'{p.name}' ({count})" for p, count in rows)
-                raise InputError(_("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name)
+                raise InputError(
+                    _("Unequal numbers of values: {names}.").format(names=shown), name=rows[0][0].name
+                )
 
     @contextmanager
     def _fitting(self, values: list[Any]) -> Iterator[None]:
-        """Beside a series an array for a single value fits only some bodies: where it does not, the arrays are named."""
+        """Beside a series an array for a single value fits only some bodies: where it does not, the arrays
+        are named.
+        """
         try:
             yield
         except (TypeError, ValueError) as problem:
-            rows = [(p.name, np.shape(v)) for p, v in zip(self.card.parameters, values, strict=True) if p.kind and np.ndim(v)]
+            rows = [
+                (p.name, np.shape(v))
+                for p, v in zip(self.card.parameters, values, strict=True)
+                if p.kind and np.ndim(v)
+            ]
             single = [name for name, _shape in rows if not self.card.parameter(name).series]
             if not single or len(single) == len(rows):
                 raise
@@ -202,13 +245,17 @@ class Formula(Generic[P, R]):
         return self._possible(out, records)
 
     def _masked(self, values: list[Any]) -> Any:
-        """The value, NaN where none exists or an input lies outside the hard bounds; both branches stay finite."""
+        """The value, NaN where none exists or an input lies outside the hard bounds; both branches stay
+        finite.
+        """
         with flags.collect(flags.OUTSIDE_DOMAIN) as records:
             out = self._body(self._guard(values))
         return self._possible(out, records)
 
     def _possible(self, out: Any, records: list[flags.Record]) -> Any:
-        """Of the outermost call alone: the number of a formula inside another stays, as it may stand in a branch not taken."""
+        """Of the outermost call alone: the number of a formula inside another stays, as it may stand in a
+        branch not taken.
+        """
         return bounds.without_impossible(self.card.outputs, out, records, self._along)
 
     @functools.cached_property
@@ -225,14 +272,23 @@ class Formula(Generic[P, R]):
             if p.kind is None or values[i] is None or (p.kind.lower == -np.inf and p.kind.upper == np.inf):
                 continue
             inside = p.kind.contains(values[i])
-            flags.record(flags.OUTSIDE_DOMAIN, ~jnp.asarray(inside), values[i], p.name, self.key, p.kind.lower, p.kind.upper)
+            flags.record(
+                flags.OUTSIDE_DOMAIN,
+                ~jnp.asarray(inside),
+                values[i],
+                p.name,
+                self.key,
+                p.kind.lower,
+                p.kind.upper,
+            )
             guarded[i] = jnp.where(inside, values[i], sum(p.ordinary()) / 2)
         return guarded
 
     def _checked(self, values: list[Any]) -> tuple[Any, list[flags.Record]]:
         with flags.collect() as records:
             out = self._body(self._guard(values))
-            # where the body itself has said why there is no number, its outputs need not be reported one by one
+            # where the body itself has said why there is no number, its outputs need not be reported one by
+            # one
             told = [found for found in records if found.bit == flags.OUTSIDE_DOMAIN or found.without]
             for p, value in zip(self.card.outputs, out if isinstance(out, tuple) else (out,), strict=True):
                 lost = ~jnp.isfinite(jnp.asarray(value, dtype=float))
@@ -242,7 +298,9 @@ class Formula(Generic[P, R]):
         return self._possible(out, records), list(records)
 
     def _body(self, values: list[Any]) -> Any:
-        """Run the function, recording inputs and outputs outside the declared ranges and outputs outside their own bounds."""
+        """Run the function, recording inputs and outputs outside the declared ranges and outputs outside
+        their own bounds.
+        """
         start = len(flags.kept())
         for p, value in zip(self.card.parameters, values, strict=True):
             if p.kind is not None and value is not None:
@@ -267,17 +325,24 @@ class Formula(Generic[P, R]):
             flags.record(flags.EXTRAPOLATED, beyond, value, p.name, self.key, low, high, self.source)
 
     def _prepare(self, names: tuple[str, ...]) -> tuple[Any, ...]:
-        """For calls with these keywords as plain floats: bounds as strict limits, order of the arguments, compiled body."""
+        """For calls with these keywords as plain floats: bounds as strict limits, order of the arguments,
+        compiled body.
+        """
         given = dict.fromkeys(names, 1.0)
         values = self._binder.arrange((), given)
         for i, p in enumerate(self.card.parameters):
             if p.name not in given:
                 values[i] = convert(values[i], p)
-        if any(p.law or p.kind is None or p.series or p.sort is int for p in self.card.parameters if p.name in given):
+        if any(
+            p.law or p.kind is None or p.series or p.sort is int
+            for p in self.card.parameters
+            if p.name in given
+        ):
             return ()
         limits = [
             (
-                self.card.parameter(n).coldest or (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf)),
+                self.card.parameter(n).coldest
+                or (k.lower if k.open_lower else np.nextafter(k.lower, -np.inf)),
                 k.upper if k.open_upper else np.nextafter(k.upper, np.inf),
             )
             for n in names
@@ -292,7 +357,9 @@ class Formula(Generic[P, R]):
         return [(float(a), float(b)) for a, b in limits], order, self._compile(key, "bare")
 
     def _quick(self, kwargs: dict[str, Any]) -> Any:
-        """The common scalar call, all keywords plain floats inside their bounds; ``_DYNAMIC`` when it is not one."""
+        """The common scalar call, all keywords plain floats inside their bounds; ``_DYNAMIC`` when it is not
+        one.
+        """
         names = tuple(kwargs)
         prepared = self._prepared.get(names)
         if prepared is None:
@@ -338,12 +405,16 @@ class Formula(Generic[P, R]):
         return self._told(_floats(self._compile(key, "bare")(*dynamic)), kwargs, args)
 
     def _told(self, out: Any, kwargs: Mapping[str, Any], args: tuple[Any, ...] = ()) -> Any:
-        """What single inputs gave, unless they contradict one another: that raises. No number in, as from a failed root, gives none out."""
+        """What single inputs gave, unless they contradict one another: that raises. No number in, as from a
+        failed root, gives none out.
+        """
         lost = any(
             not is_tracer(x) and (x != x if type(x) is float else bool(np.isnan(x).all()))
             for x in (out if isinstance(out, tuple) else (out,))
         )
-        if lost and not any(hasattr(value, "at") and bool(jnp.isnan(value).any()) for value in (*args, *kwargs.values())):
+        if lost and not any(
+            hasattr(value, "at") and bool(jnp.isnan(value).any()) for value in (*args, *kwargs.values())
+        ):
             self.evaluate(*args, **kwargs)
         return out
 
@@ -352,8 +423,14 @@ class Formula(Generic[P, R]):
         kwargs, origins = self._binder.with_fluid(args, kwargs)  # type: ignore[assignment]
         values, traced, batched = self._collect_values(args, kwargs)
         if traced:
-            raise InputError(_("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(key=self.key))
-        result = replace(self._evaluate(values), defaults=self._binder.left_out(args, kwargs), origins=origins)
+            raise InputError(
+                _("'evaluate' works on concrete values; inside jit or grad call {key} itself.").format(
+                    key=self.key
+                )
+            )
+        result = replace(
+            self._evaluate(values), defaults=self._binder.left_out(args, kwargs), origins=origins
+        )
         return result if batched else result.possible()
 
     def _evaluate(self, values: list[Any]) -> Result:
@@ -379,13 +456,22 @@ Formula.__doc__ = CompletedDoc(Formula.__doc__, of_instances=True)  # type: igno
 _DYNAMIC = type("_Dynamic", (), {"__repr__": lambda self: "dynamic"})()
 
 
-def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, typical: Ranges | None = None,
-            title: str = "", output: str = "", family: str = "") -> Callable[[Callable[P, R]], Formula[P, R]]:  # fmt: skip
+def formula(
+    *,
+    source: str,
+    equation: str = "",
+    fitted: Ranges | None = None,
+    typical: Ranges | None = None,
+    title: str = "",
+    output: str = "",
+    family: str = "",
+) -> Callable[[Callable[P, R]], Formula[P, R]]:
     """Declare a formula.
 
     Parameters
     ----------
-    source: bibliography key with equation and page: ``"ergun1952, eq. 3, p. 90"``; several are joined by ``;``.
+    source: bibliography key with equation and page: ``"ergun1952, eq. 3, p. 90"``; several are joined by
+        ``;``.
     equation: LaTeX.
     fitted: ranges over which the source holds, by input, output or watched name, SI units.
     typical: ranges to draw ordinary values from, where the glossary's do not suit.
@@ -395,7 +481,15 @@ def formula(*, source: str, equation: str = "", fitted: Ranges | None = None, ty
     """
 
     def declare(function: Callable[P, R]) -> Formula[P, R]:
-        return Formula(function, source=source, equation=equation, fitted=fitted or {}, typical=typical or {},
-                       title=title, output=output, family=family)  # fmt: skip
+        return Formula(
+            function,
+            source=source,
+            equation=equation,
+            fitted=fitted or {},
+            typical=typical or {},
+            title=title,
+            output=output,
+            family=family,
+        )
 
     return declare

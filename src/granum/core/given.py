@@ -1,4 +1,6 @@
-"""What users and other programs pass for a number: told from what is none, whatever its type, in one sentence."""
+"""What users and other programs pass for a number: told from what is none, whatever its type, in one
+sentence.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ def shown(value: Any) -> str:
     if isinstance(value, str):
         return value if len(value) <= _LONGEST else value[: _LONGEST - 1] + "…"
     if isinstance(value, int) and not isinstance(value, bool) and abs(value) >= 10**_LONGEST:
-        return _("a whole number of {count} digits").format(count=int(value.bit_length() * math.log10(2.0)) + 1)
+        return _("a whole number of {count} digits").format(
+            count=int(value.bit_length() * math.log10(2.0)) + 1
+        )
     return _short.repr(value)
 
 
@@ -48,16 +52,22 @@ def is_array(value: Any) -> bool:
 
 
 def holds_objects(value: Any) -> bool:
-    """Whether an array has texts or Python objects for elements, to be read one by one as those of a list are."""
+    """Whether an array has texts or Python objects for elements, to be read one by one as those of a list
+    are.
+    """
     return isinstance(value, np.ndarray) and value.dtype.kind in "OU" and value.ndim > 0
 
 
 def number_or_array(value: Any, name: str, where: str, example: str) -> Any:
-    """A single value as float, an array of real numbers as it is (of JAX) or as NumPy floats; one clear error for all else."""
+    """A single value as float, an array of real numbers as it is (of JAX) or as NumPy floats; one clear error
+    for all else.
+    """
     try:
         found = _number_or_array(value)
     except OverflowError:
-        raise InputError(_("'{name}' is too large for a number{where}.").format(name=name, where=where), name=name) from None
+        raise InputError(
+            _("'{name}' is too large for a number{where}.").format(name=name, where=where), name=name
+        ) from None
     except InputError:
         raise
     except Exception:  # conversions that objects of other programs bring along raise whatever they like
@@ -73,13 +83,17 @@ def number_or_array(value: Any, name: str, where: str, example: str) -> Any:
         if math.isnan(found):
             raise not_a_number(name, where)
     elif found.size == 0:
-        raise InputError(_("'{name}' is empty{where}: give at least one value.").format(name=name, where=where), name=name)
+        raise InputError(
+            _("'{name}' is empty{where}: give at least one value.").format(name=name, where=where), name=name
+        )
     return found
 
 
 def not_a_number(name: str, where: str) -> InputError:
     """The error for a NaN where one value is due."""
-    return InputError(_("'{name}' is not a number (NaN){where}: give its value.").format(name=name, where=where), name=name)
+    return InputError(
+        _("'{name}' is not a number (NaN){where}: give its value.").format(name=name, where=where), name=name
+    )
 
 
 def _number_or_array(value: Any) -> Any:
@@ -90,7 +104,9 @@ def _number_or_array(value: Any) -> Any:
         return value if np.dtype(value.dtype).kind in "iuf" else None
     if not hasattr(value, "__array__"):
         return float(value) if hasattr(value, "__float__") else None
-    array = np.asarray(value.filled(np.nan) if isinstance(value, np.ma.MaskedArray) and value.dtype.kind == "f" else value)
+    array = np.asarray(
+        value.filled(np.nan) if isinstance(value, np.ma.MaskedArray) and value.dtype.kind == "f" else value
+    )
     if array.dtype.kind not in "iuf":
         return None
     return float(array) if array.ndim == 0 else array.astype(float, copy=False)
@@ -120,7 +136,14 @@ def truth(value: Any) -> bool | None:
     if isinstance(value, int) and value in (0, 1):
         return bool(value)
     if isinstance(value, str):
-        return {"true": True, "yes": True, "oui": True, "1": True, "false": False, "no": False, "non": False, "0": False}.get(
-            value.strip().lower()
-        )
+        return {
+            "true": True,
+            "yes": True,
+            "oui": True,
+            "1": True,
+            "false": False,
+            "no": False,
+            "non": False,
+            "0": False,
+        }.get(value.strip().lower())
     return None

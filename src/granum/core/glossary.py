@@ -54,7 +54,9 @@ def glossary() -> dict[str, Term]:
                 duplicates.append(f"{name} (again in {path.name})")
                 continue
             low, high = row["typical"]
-            terms[name] = Term(name, row["symbol"], row["en"], row["fr"], (float(low), float(high)), row.get("unit"))
+            terms[name] = Term(
+                name, row["symbol"], row["en"], row["fr"], (float(low), float(high)), row.get("unit")
+            )
     return terms
 
 
@@ -67,7 +69,9 @@ def term(name: str) -> Term:
 
 
 def quantity_in(name: str) -> str | None:
-    """The longest glossary word that a name starts with: ``drag_coefficient_allen`` → ``drag_coefficient``."""
+    """The longest glossary word that a name starts with: ``drag_coefficient_allen`` →
+    ``drag_coefficient``.
+    """
     words = name.split("_")
     for count in range(len(words), 0, -1):
         candidate = "_".join(words[:count])
@@ -78,12 +82,15 @@ def quantity_in(name: str) -> str | None:
 
 @cache
 def endings() -> dict[str, dict[str, Any]]:
-    """Authors by the words of keys, and qualifiers in both languages, read from ``granum/core/endings.toml``."""
+    """Authors by the words of keys, and qualifiers in both languages, read from
+    ``granum/core/endings.toml``.
+    """
     return tomllib.loads((files("granum") / "core" / "endings.toml").read_text(encoding="utf-8"))
 
 
 def ending(rest: str) -> str:
-    """What follows the glossary word in a name: words that have a translation, or the authors of a correlation and what qualifies it.
+    """What follows the glossary word in a name: words that have a translation, or the authors of a
+    correlation and what qualifies it.
 
     >>> ending("di_felice"), ending("retained_stairmand"), ending("turbulent")
     ('Di Felice', 'Stairmand, retained', 'turbulent')

@@ -1,4 +1,5 @@
-"""English and French. The English text is the key; French catalogs are the ``.po`` files of ``granum/locale/fr``.
+"""English and French. The English text is the key; French catalogs are the ``.po`` files of
+``granum/locale/fr``.
 
 >>> with language("fr"):
 ...     _("Did you mean '{close}'?")

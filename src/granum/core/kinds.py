@@ -1,8 +1,10 @@
-"""Kinds: what sort of quantity an argument is, its SI unit, its hard bounds and the units people write it in.
+"""Kinds: what sort of quantity an argument is, its SI unit, its hard bounds and the units people write it
+in.
 
-A kind is used as an annotation. ``def f(particle_diameter: Length) -> Velocity`` is all that a form, a converter or a
-bounds check needs to know. Tighter bounds for one argument: ``Annotated[Ratio, Within(1.0, 20.0)]``. A column or a
-vector: ``Annotated[Length, Series("classes")]``. A law passed as an argument: ``Annotated[Any, Law("drag_coefficient")]``.
+A kind is used as an annotation. ``def f(particle_diameter: Length) -> Velocity`` is all that a form, a
+converter or a bounds check needs to know. Tighter bounds for one argument: ``Annotated[Ratio, Within(1.0,
+20.0)]``. A column or a vector: ``Annotated[Length, Series("classes")]``. A law passed as an argument:
+``Annotated[Any, Law("drag_coefficient")]``.
 """
 
 from __future__ import annotations
@@ -165,11 +167,15 @@ Energy = Annotated[Any, _any("energy", "J", "kJ", "MJ", "kWh", "kcal")]
 Power = Annotated[Any, _any("power", "W", "kW", "MW", "kcal/hour")]
 SpecificEnergy = Annotated[Any, _any("energy per mass", "J/kg", "kJ/kg", "kWh/tonne", "kcal/kg")]
 SpecificPower = Annotated[Any, _nonnegative("power per mass", "W/kg", "kW/kg")]
-SpecificMoistureExtraction = Annotated[Any, _nonnegative("water removed per energy", "kg/J", "kg/kWh", "kg/MJ")]
+SpecificMoistureExtraction = Annotated[
+    Any, _nonnegative("water removed per energy", "kg/J", "kg/kWh", "kg/MJ")
+]
 HeatCapacity = Annotated[Any, _positive("specific heat capacity", "J/(kg*K)", "kJ/(kg*K)", "kcal/(kg*K)")]
 MolarEnergy = Annotated[Any, _any("energy per amount", "J/mol", "kJ/mol", "kcal/mol")]
 ThermalConductivity = Annotated[Any, _positive("thermal conductivity", "W/(m*K)", "W/(m*K)", "mW/(m*K)")]
-HeatTransferCoefficient = Annotated[Any, _positive("heat transfer coefficient", "W/(m^2*K)", "W/(m^2*K)", "kcal/(m^2*hour*K)")]
+HeatTransferCoefficient = Annotated[
+    Any, _positive("heat transfer coefficient", "W/(m^2*K)", "W/(m^2*K)", "kcal/(m^2*hour*K)")
+]
 HeatFlux = Annotated[Any, _any("heat flux", "W/m^2", "kW/m^2")]
 MassTransferCoefficient = Annotated[Any, _positive("mass transfer coefficient", "m/s", "mm/s")]
 Diffusivity = Annotated[Any, _positive("diffusivity", "m^2/s", "cm^2/s")]
@@ -184,22 +190,51 @@ MassPrice = Annotated[Any, _nonnegative("price per mass", "USD/kg", "USD/kg", "U
 # numbers
 Number = Annotated[Any, _any("number", "dimensionless", "dimensionless")]
 Ratio = Annotated[Any, _nonnegative("ratio", "dimensionless", "dimensionless", "percent")]
-Amount = Annotated[Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")]  # masses too: only their ratios count
+Amount = Annotated[
+    Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")
+]  # masses too: only their ratios count
 PositiveNumber = Annotated[Any, _positive("positive number", "dimensionless", "dimensionless")]
 Fraction = Annotated[Any, Kind("fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
 OpenFraction = Annotated[
-    Any, Kind("fraction strictly between 0 and 1", "dimensionless", 0.0, 1.0, True, True, ("percent", "dimensionless"))
+    Any,
+    Kind(
+        "fraction strictly between 0 and 1",
+        "dimensionless",
+        0.0,
+        1.0,
+        True,
+        True,
+        ("percent", "dimensionless"),
+    ),
 ]
-VolumeFraction = Annotated[Any, Kind("volume fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
-VoidFraction = Annotated[Any, Kind("void fraction", "dimensionless", 0.0, 1.0, True, True, ("dimensionless", "percent"))]
-MassFraction = Annotated[Any, Kind("mass fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless", "g/kg"))]
-MoleFraction = Annotated[Any, Kind("mole fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
+VolumeFraction = Annotated[
+    Any, Kind("volume fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))
+]
+VoidFraction = Annotated[
+    Any, Kind("void fraction", "dimensionless", 0.0, 1.0, True, True, ("dimensionless", "percent"))
+]
+MassFraction = Annotated[
+    Any, Kind("mass fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless", "g/kg"))
+]
+MoleFraction = Annotated[
+    Any, Kind("mole fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))
+]
 MassRatio = Annotated[Any, _nonnegative("mass ratio", "kg/kg", "g/kg", "percent", "g/g")]
 MoistureDryBasis = Annotated[Any, _nonnegative("moisture, dry basis", "kg/kg", "percent", "g/kg")]
-MoistureWetBasis = Annotated[Any, Kind("moisture, wet basis", "kg/kg", 0.0, 1.0, open_upper=True, display=("percent", "g/kg"))]
+MoistureWetBasis = Annotated[
+    Any, Kind("moisture, wet basis", "kg/kg", 0.0, 1.0, open_upper=True, display=("percent", "g/kg"))
+]
 HumidityRatio = Annotated[Any, _nonnegative("humidity ratio", "kg/kg", "g/kg")]
-RelativeHumidity = Annotated[Any, Kind("relative humidity", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
-WaterActivity = Annotated[Any, Kind("water activity", "dimensionless", 0.0, 1.0, display=("dimensionless", "percent"))]
-Sphericity = Annotated[Any, Kind("sphericity", "dimensionless", 0.0, 1.0, open_lower=True, display=("dimensionless",))]
+RelativeHumidity = Annotated[
+    Any, Kind("relative humidity", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))
+]
+WaterActivity = Annotated[
+    Any, Kind("water activity", "dimensionless", 0.0, 1.0, display=("dimensionless", "percent"))
+]
+Sphericity = Annotated[
+    Any, Kind("sphericity", "dimensionless", 0.0, 1.0, open_lower=True, display=("dimensionless",))
+]
 
-KINDS: dict[str, Kind] = {name: kind for name, annotation in list(globals().items()) if (kind := kind_of(annotation)) is not None}
+KINDS: dict[str, Kind] = {
+    name: kind for name, annotation in list(globals().items()) if (kind := kind_of(annotation)) is not None
+}

@@ -18,7 +18,9 @@ from granum.core.i18n import _
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
 class FormulaWith:
-    """A formula some of whose inputs are fixed, as a law: ``{law = "macdonald", inertial_constant = 4.0}``."""
+    """A formula some of whose inputs are fixed, as a law: ``{law = "macdonald", inertial_constant =
+    4.0}``.
+    """
 
     formula: Any = field(metadata={"static": True})
     words: tuple[tuple[str, Any], ...] = field(metadata={"static": True})
@@ -27,7 +29,9 @@ class FormulaWith:
 
     @staticmethod
     def of(formula: Any, options: Mapping[str, Any], where: str = "") -> FormulaWith:
-        """A formula with the options a user gave for it, converted and checked as inputs of the formula are."""
+        """A formula with the options a user gave for it, converted and checked as inputs of the formula
+        are.
+        """
         from granum.core.conversion import convert
 
         known = {p.name: p for p in formula.card.parameters}
@@ -36,7 +40,11 @@ class FormulaWith:
                 raise unknown_name(_("Option"), name, known, _("for {owner}").format(owner=formula.key))
         place = _(" for {owner}").format(owner=formula.key) + where
         found = {name: convert(value, known[name], place) for name, value in options.items()}
-        fixed = {name: value for name, value in found.items() if value is None or isinstance(value, (str, bool, int))}
+        fixed = {
+            name: value
+            for name, value in found.items()
+            if value is None or isinstance(value, (str, bool, int))
+        }
         numbers = {name: value for name, value in found.items() if name not in fixed}
         return FormulaWith(formula, tuple(fixed.items()), tuple(numbers), tuple(numbers.values()))
 
@@ -56,14 +64,19 @@ class FormulaWith:
         for name in options:
             if name in given:
                 raise InputError(
-                    _("'{name}' cannot be an option of the law {law} here: it is computed.").format(name=name, law=self.key), name=name
+                    _("'{name}' cannot be an option of the law {law} here: it is computed.").format(
+                        name=name, law=self.key
+                    ),
+                    name=name,
                 )
         return self.formula(*args, **kwargs, **options)
 
 
 @jax.tree_util.register_static
 class GivenLaw:
-    """A user's own function or object as a law; what goes wrong inside it is told as one message that names it."""
+    """A user's own function or object as a law; what goes wrong inside it is told as one message that names
+    it.
+    """
 
     def __init__(self, function: Any, name: str):
         self.function, self.name = function, name
@@ -86,7 +99,10 @@ class GivenLaw:
             raise
         except jax.errors.JAXTypeError as problem:  # NumPy, float(…) or 'if' on a traced number
             raise InputError(
-                _("The function given as '{name}' must be written with jax.numpy, without 'if' on its numbers.").format(name=self.name),
+                _(
+                    "The function given as '{name}' must be written with jax.numpy, without 'if' on its "
+                    "numbers."
+                ).format(name=self.name),
                 name=self.name,
             ) from problem
         except Exception as problem:
@@ -97,11 +113,14 @@ class GivenLaw:
                 name=self.name,
             ) from problem
         if not all(
-            isinstance(leaf, (int, float)) or getattr(getattr(leaf, "dtype", None), "kind", "") in ("i", "u", "f")
+            isinstance(leaf, (int, float))
+            or getattr(getattr(leaf, "dtype", None), "kind", "") in ("i", "u", "f")
             for leaf in jax.tree.leaves(found)
         ):
             raise InputError(
-                _("The function given as '{name}' gave {value}, which is not a number.").format(name=self.name, value=shown(found)),
+                _("The function given as '{name}' gave {value}, which is not a number.").format(
+                    name=self.name, value=shown(found)
+                ),
                 name=self.name,
             )
         return found
@@ -122,8 +141,14 @@ def _as_law(value: Any, family: str, name: str, where: str) -> Any:
     if declared is not None:
         if declared != family:
             raise InputError(
-                _("'{name}' takes a law of the family '{family}'{where}, and {law} is one of '{other}'.").format(
-                    name=name, family=family, where=where, law=value.card.key, other=declared or value.card.sort
+                _(
+                    "'{name}' takes a law of the family '{family}'{where}, and {law} is one of '{other}'."
+                ).format(
+                    name=name,
+                    family=family,
+                    where=where,
+                    law=value.card.key,
+                    other=declared or value.card.sort,
                 ),
                 name=name,
             )
@@ -132,17 +157,28 @@ def _as_law(value: Any, family: str, name: str, where: str) -> Any:
         return value  # a module written for the purpose, such as an equilibrium that hangs on nothing
     if isinstance(value, type) or not callable(value):
         raise _no_law(value, name, where)
-    missing = [ability for ability in registry.abilities(family) if not callable(getattr(value, ability, None))]
+    missing = [
+        ability for ability in registry.abilities(family) if not callable(getattr(value, ability, None))
+    ]
     if missing:
         raise InputError(
             _(
-                "The law given as '{name}'{where} is called only: one that also knows {missing} is needed. 'granum list {family}' shows such laws."
-            ).format(name=name, where=where, missing=", ".join(f".{ability}(…)" for ability in missing), family=family),
+                "The law given as '{name}'{where} is called only: one that also knows {missing} is "
+                "needed. 'granum list {family}' shows such laws."
+            ).format(
+                name=name,
+                where=where,
+                missing=", ".join(f".{ability}(…)" for ability in missing),
+                family=family,
+            ),
             name=name,
         )
     return GivenLaw(value, name) if jax.tree_util.all_leaves([value]) else value
 
 
 def _no_law(value: Any, name: str, where: str) -> InputError:
-    message = _("'{name}' = {value} is not a law{where}: give the name of one, a function, or a table such as {{law = \"…\", option = 1}}.")
+    message = _(
+        "'{name}' = {value} is not a law{where}: give the name of one, a function, or a table such as "
+        '{{law = "…", option = 1}}.'
+    )
     return InputError(message.format(name=name, value=shown(value), where=where), name=name)

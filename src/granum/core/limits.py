@@ -1,4 +1,6 @@
-"""``Limit``: a practical limit of a piece of equipment, declared on its class, so that it is known before anything is calculated."""
+"""``Limit``: a practical limit of a piece of equipment, declared on its class, so that it is known before
+anything is calculated.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +11,12 @@ from granum.core.i18n import _
 
 
 class Limit(NamedTuple):
-    """What is measured must lie between ``low`` and ``high``. ``name`` is an English phrase that has a French translation.
+    """What is measured must lie between ``low`` and ``high``. ``name`` is an English phrase that has a French
+    translation.
 
-    ``Limit("diameter", 0.0, 60.0, "m", "degremont2007")`` holds for every size and setting. An end may be the name of one of the
-    unit's own parameters: ``Limit("cake thickness", "discharge_thickness", math.inf, "m", "perry2008")``.
+    ``Limit("diameter", 0.0, 60.0, "m", "degremont2007")`` holds for every size and setting. An end may be the
+    name of one of the unit's own parameters: ``Limit("cake thickness", "discharge_thickness", math.inf, "m",
+    "perry2008")``.
     """
 
     name: str
@@ -23,5 +27,8 @@ class Limit(NamedTuple):
 
     def as_json(self) -> dict[str, Any]:
         """Stable plain data: an open end is None, an end given by a parameter its name."""
-        low, high = (end if isinstance(end, str) else float(end) if math.isfinite(end) else None for end in (self.low, self.high))
+        low, high = (
+            end if isinstance(end, str) else float(end) if math.isfinite(end) else None
+            for end in (self.low, self.high)
+        )
         return {"name": _(self.name), "low": low, "high": high, "unit": self.unit, "source": self.source}

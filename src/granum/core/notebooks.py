@@ -7,7 +7,9 @@ from typing import Any
 
 
 def shown(printer: str, thing: Any) -> str:
-    """HTML of what a function of the command line prints; ``printer`` is its ``module:name``, which the core itself does not know."""
+    """HTML of what a function of the command line prints; ``printer`` is its ``module:name``, which the core
+    itself does not know.
+    """
     module, _colon, name = printer.partition(":")
     html: str = import_module("granum.reports.terminal").as_html(getattr(import_module(module), name), thing)
     return html

@@ -57,7 +57,11 @@ class Parameter:
         """The temperature below which a number has forgotten its unit; None for other kinds."""
         if self.kind is None or self.kind.name != "temperature":
             return None
-        known = [COLDEST, *(self.fitted or ())[:1], *([self.default] if isinstance(self.default, float) else [])]
+        known = [
+            COLDEST,
+            *(self.fitted or ())[:1],
+            *([self.default] if isinstance(self.default, float) else []),
+        ]
         return min(known)
 
     @property
@@ -83,16 +87,22 @@ class Parameter:
         if self.kind is None:
             return ()
         found = self.term
-        fits = found is not None and found.unit is not None and units.same_dimension(found.unit, self.kind.unit)
+        fits = (
+            found is not None and found.unit is not None and units.same_dimension(found.unit, self.kind.unit)
+        )
         usual = (found.unit,) if found and found.unit and fits else ()
         return usual + tuple(u for u in self.kind.units if u not in usual)
 
     def display_unit(self, values: Any) -> str:
         """The unit in which SI values of this quantity are shown; empty for what is no quantity."""
-        return units.display_unit(values, self.kind, self.term.unit if self.term else None) if self.kind else ""
+        return (
+            units.display_unit(values, self.kind, self.term.unit if self.term else None) if self.kind else ""
+        )
 
     def ordinary(self) -> tuple[float, float]:
-        """The range tests and forms draw from: declared, else the glossary's, cut to the fitted range and the bounds."""
+        """The range tests and forms draw from: declared, else the glossary's, cut to the fitted range and the
+        bounds.
+        """
         low, high = self.typical or (self.term.typical if self.term else (0.1, 1.0))
         if self.fitted and not self.typical:
             low, high = max(low, self.fitted[0]), min(high, self.fitted[1])
@@ -103,7 +113,11 @@ class Parameter:
     def as_json(self) -> dict[str, Any]:
         """The declaration as plain data, for forms and documentation."""
         found = self.term
-        row: dict[str, Any] = {"name": self.name, "label": self.label, "symbol": found.symbol if found else ""}
+        row: dict[str, Any] = {
+            "name": self.name,
+            "label": self.label,
+            "symbol": found.symbol if found else "",
+        }
         if self.kind:
             row |= {
                 "kind": self.kind.name,
@@ -172,19 +186,30 @@ def parameter_of(name: str, annotation: Any, default: Any, **ranges: Any) -> Par
 
 
 def parameters_of(
-    function: Callable[..., Any], fitted: Mapping[str, tuple[float, float]], typical: Mapping[str, tuple[float, float]]
+    function: Callable[..., Any],
+    fitted: Mapping[str, tuple[float, float]],
+    typical: Mapping[str, tuple[float, float]],
 ) -> tuple[Parameter, ...]:
     """The parameters of a function, from its annotations and defaults."""
-    # The return annotation is left out: that of a chart names a Plotly type which only the type checker imports.
-    inputs = type("Inputs", (), {"__annotations__": {k: v for k, v in function.__annotations__.items() if k != "return"}})
+    # The return annotation is left out: that of a chart names a Plotly type which only the type checker
+    # imports.
+    inputs = type(
+        "Inputs",
+        (),
+        {"__annotations__": {k: v for k, v in function.__annotations__.items() if k != "return"}},
+    )
     hints = get_type_hints(inputs, globalns=inspect.unwrap(function).__globals__, include_extras=True)
     return tuple(
-        parameter_of(name, hints.get(name, Any), found.default, fitted=fitted.get(name), typical=typical.get(name))
+        parameter_of(
+            name, hints.get(name, Any), found.default, fitted=fitted.get(name), typical=typical.get(name)
+        )
         for name, found in inspect.signature(function).parameters.items()
     )
 
 
-def outputs_of(annotation: Any, name: str, fitted: Mapping[str, tuple[float, float]]) -> tuple[Parameter, ...]:
+def outputs_of(
+    annotation: Any, name: str, fitted: Mapping[str, tuple[float, float]]
+) -> tuple[Parameter, ...]:
     """The outputs a return annotation declares: one quantity, or the fields of a named tuple."""
     if isinstance(annotation, type) and issubclass(annotation, tuple) and hasattr(annotation, "_fields"):
         hints = get_type_hints(annotation, include_extras=True)

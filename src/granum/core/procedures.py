@@ -1,4 +1,6 @@
-"""``@procedure`` and ``@chart``: cards for plain Python functions, such as a selection guide or a Plotly figure."""
+"""``@procedure`` and ``@chart``: cards for plain Python functions, such as a selection guide or a Plotly
+figure.
+"""
 
 from __future__ import annotations
 
@@ -37,9 +39,20 @@ class Procedure(Generic[P, R]):
         """The declaration as data."""
         name = self.function.__name__
         chart = self._sort == "chart"
-        outputs = () if chart else outputs_of(get_type_hints(self.function, include_extras=True).get("return"), name, {})
-        return make_card(self.function, name, self._sort, parameters=parameters_of(self.function, {}, self._typical),
-                         outputs=outputs, source=self.source, title=self._title)  # fmt: skip
+        outputs = (
+            ()
+            if chart
+            else outputs_of(get_type_hints(self.function, include_extras=True).get("return"), name, {})
+        )
+        return make_card(
+            self.function,
+            name,
+            self._sort,
+            parameters=parameters_of(self.function, {}, self._typical),
+            outputs=outputs,
+            source=self.source,
+            title=self._title,
+        )
 
     @functools.cached_property
     def _binder(self) -> Binder:
@@ -71,17 +84,23 @@ class Procedure(Generic[P, R]):
         given, origins = self._binder.with_fluid(args, kwargs)
         inputs = self._binder.bind(args, given)
         left = self._binder.left_out(args, given)
-        return Result(self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left, origins=origins)
+        return Result(
+            self.card, inputs, self._run(inputs), np.zeros((), np.int32), defaults=left, origins=origins
+        )
 
 
 Procedure.__doc__ = CompletedDoc(Procedure.__doc__, of_instances=True)  # type: ignore[assignment]
 
 
-def procedure(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[P, R]], Procedure[P, R]]:
+def procedure(
+    *, source: str, title: str, typical: Ranges | None = None
+) -> Callable[[Callable[P, R]], Procedure[P, R]]:
     """Declare a function on concrete values whose result is data: a ranking, a table, a design."""
     return lambda function: Procedure(function, "procedure", source, title, typical or {})
 
 
-def chart(*, source: str, title: str, typical: Ranges | None = None) -> Callable[[Callable[P, R]], Procedure[P, R]]:
+def chart(
+    *, source: str, title: str, typical: Ranges | None = None
+) -> Callable[[Callable[P, R]], Procedure[P, R]]:
     """Declare a function that returns a Plotly figure made with ``granum.core.charts``."""
     return lambda function: Procedure(function, "chart", source, title, typical or {})

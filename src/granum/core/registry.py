@@ -1,4 +1,6 @@
-"""The registry: everything declared, by key. Declaring registers; looking up imports what is needed; nothing is listed by hand."""
+"""The registry: everything declared, by key. Declaring registers; looking up imports what is needed; nothing
+is listed by hand.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,23 @@ from granum.core.cards import domain_of
 from granum.core.errors import InputError, nearest, unknown_name
 from granum.core.i18n import _
 
-DOMAINS = ("materials", "particles", "porous", "humid_gas", "streams", "comminution", "settling", "cyclones",
-           "fluidization", "filtration", "centrifuges", "crystallization", "drying", "studies", "costs")  # fmt: skip
+DOMAINS = (
+    "materials",
+    "particles",
+    "porous",
+    "humid_gas",
+    "streams",
+    "comminution",
+    "settling",
+    "cyclones",
+    "fluidization",
+    "filtration",
+    "centrifuges",
+    "crystallization",
+    "drying",
+    "studies",
+    "costs",
+)
 _declared: dict[str, Any] = {}
 _families: dict[str, dict[str, Any]] = {}
 _loaded: set[str] = set()
@@ -23,7 +40,9 @@ _offered: dict[str, tuple[str, ...]] = {}
 
 
 def register(thing: Any, key: str, family: str) -> None:
-    """Called by the declaring decorators with key and family; the card itself is built when first asked for."""
+    """Called by the declaring decorators with key and family; the card itself is built when first asked
+    for.
+    """
     known = _declared.get(key)
     if known is not None and known.__module__ != thing.__module__:
         raise ValueError(f"'{key}' is declared in {known.__module__} and again in {thing.__module__}")
@@ -63,7 +82,10 @@ def find(key: str) -> Any:
     if nearest(key, everything()) is None:
         word = key.rpartition(".")[2] or key
         raise InputError(
-            _("There is no card '{key}'. 'granum list {word}' shows those that speak of it.").format(key=key, word=word), name=key
+            _("There is no card '{key}'. 'granum list {word}' shows those that speak of it.").format(
+                key=key, word=word
+            ),
+            name=key,
         )
     raise unknown_name(_("Card"), key, everything())
 
@@ -84,7 +106,8 @@ def _short_names(family_name: str) -> dict[str, Any]:
 
 
 def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
-    """A law of a family by key, by name or by the author's part of the name; modules are built with ``options``, formulas keep them.
+    """A law of a family by key, by name or by the author's part of the name; modules are built with
+    ``options``, formulas keep them.
 
     Domains are imported one after the other until the name is found, those already in use first.
     """
@@ -95,7 +118,10 @@ def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any]
         if found is not None:
             break
     if found is None:
-        names = {own.removeprefix(family_name).strip("_") or own for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))}
+        names = {
+            own.removeprefix(family_name).strip("_") or own
+            for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))
+        }
         raise unknown_name(_("Law"), name, names, where)
     if isinstance(found, type):
         return found(**(options or {}))
@@ -108,19 +134,25 @@ def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any]
 
 @cache
 def abilities(family_name: str) -> tuple[str, ...]:
-    """Methods besides the call that every declared law of a family has: what a law of one's own needs in order to stand in for them.
+    """Methods besides the call that every declared law of a family has: what a law of one's own needs in
+    order to stand in for them.
 
     What ``@law`` adds itself does not count.
     """
     members = family(family_name).values()
     shared = [
-        {n for n, thing in inspect.getmembers(m, callable) if not n.startswith("_")} if isinstance(m, type) else set() for m in members
+        {n for n, thing in inspect.getmembers(m, callable) if not n.startswith("_")}
+        if isinstance(m, type)
+        else set()
+        for m in members
     ]
     return tuple(sorted(set.intersection(*shared) - {"called", "evaluate"})) if shared else ()
 
 
 def public_names(domain: str) -> dict[str, Any]:
-    """What users see of a domain: what is declared there, its classes, and the functions it offers. Helpers are found in their modules."""
+    """What users see of a domain: what is declared there, its classes, and the functions it offers. Helpers
+    are found in their modules.
+    """
     load(domain)
     offered = _offered.get(domain, ())
     found: dict[str, Any] = {}
@@ -137,7 +169,9 @@ def public_names(domain: str) -> dict[str, Any]:
 
 
 def domain_names(package: str, *offered: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """``__getattr__`` and ``__dir__`` of a domain package: its declared things, classes and the functions it ``offered``, imported on first use."""
+    """``__getattr__`` and ``__dir__`` of a domain package: its declared things, classes and the functions it
+    ``offered``, imported on first use.
+    """
     domain = domain_of(package)
     _offered[domain] = offered
 

@@ -81,9 +81,15 @@ class Result:
 
     @property
     def ranking(self) -> tuple[list[Parameter], list[tuple[Any, ...]]] | None:
-        """Outputs that run side by side, such as names, marks and reasons of a choice, as rows; None when there are none."""
+        """Outputs that run side by side, such as names, marks and reasons of a choice, as rows; None when
+        there are none.
+        """
         columns = {p: list(value) for p in self.card.outputs if np.ndim(value := self.outputs[p.name]) == 1}
-        if len(columns) < 2 or len({len(found) for found in columns.values()}) > 1 or not any(p.kind is None for p in columns):
+        if (
+            len(columns) < 2
+            or len({len(found) for found in columns.values()}) > 1
+            or not any(p.kind is None for p in columns)
+        ):
             return None
         return list(columns), list(zip(*columns.values(), strict=True))
 
@@ -114,9 +120,15 @@ class Result:
         none = all(np.all(np.isnan(np.asarray(x, dtype=float))) for x in self.outputs.values())
         if none or np.all(self.flags & np.int32(OUTSIDE_DOMAIN)):
             ranked = sorted(self.notices, key=lambda n: n["flag"] != WORDS[OUTSIDE_DOMAIN])
-            cause = ranked[0]["message"] if ranked else _("{card} gave no finite value.").format(card=self.card.key)
+            cause = (
+                ranked[0]["message"]
+                if ranked
+                else _("{card} gave no finite value.").format(card=self.card.key)
+            )
             given = ", ".join(self._given())
-            raise ApplicabilityError(cause + (" " + _("Given: {given}. Change one of these.").format(given=given) if given else ""))
+            raise ApplicabilityError(
+                cause + (" " + _("Given: {given}. Change one of these.").format(given=given) if given else "")
+            )
         return self
 
     def _given(self) -> Iterator[str]:
@@ -130,7 +142,9 @@ class Result:
         """The bare value; raises when any element is impossible, not finite or not converged."""
         if np.any(self.flags & ~np.int32(1 | 16)):
             raise ApplicabilityError(
-                " ".join(n["message"] for n in self.notices if n["flag"] not in ("extrapolated", "limit active"))
+                " ".join(
+                    n["message"] for n in self.notices if n["flag"] not in ("extrapolated", "limit active")
+                )
                 or _("{card} gave no finite value.").format(card=self.card.key)
             )
         return self.value
@@ -138,9 +152,16 @@ class Result:
     def as_json(self) -> dict[str, Any]:
         """The stable ``calc`` shape; the rows of a ranking also one by one."""
         ranked = self.ranking
-        rows = {} if ranked is None else {
-            "rows": [{p.name: quantity_json(x, p) for p, x in zip(ranked[0], row, strict=True)} for row in ranked[1]]
-        }  # fmt: skip
+        rows = (
+            {}
+            if ranked is None
+            else {
+                "rows": [
+                    {p.name: quantity_json(x, p) for p, x in zip(ranked[0], row, strict=True)}
+                    for row in ranked[1]
+                ]
+            }
+        )
         return {
             "card": self.card.key,
             "inputs": {

@@ -21,9 +21,13 @@ def bibliography() -> dict[str, dict[str, str]]:
     entries: dict[str, dict[str, str]] = {}
     for path in sorted((files("granum") / "references").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".bib"):
-            library = parse_string(path.read_text(encoding="utf-8"), append_middleware=[LatexDecodingMiddleware()])
+            library = parse_string(
+                path.read_text(encoding="utf-8"), append_middleware=[LatexDecodingMiddleware()]
+            )
             if library.failed_blocks:
-                raise ValueError(f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}")
+                raise ValueError(
+                    f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}"
+                )
             for entry in library.entries:
                 if entry.key in entries:
                     duplicates.append(f"{entry.key} (again in {path.name})")
@@ -46,12 +50,28 @@ def cite(source: str) -> str:
         entry: dict[str, Any] | None = bibliography().get(key.strip())
         if entry is None:
             raise unknown_name("source", key.strip(), bibliography())
-        authors = entry.get("author", entry.get("organization", entry.get("editor", ""))).replace("\n", " ").replace(" and ", "; ")
+        authors = (
+            entry.get("author", entry.get("organization", entry.get("editor", "")))
+            .replace("\n", " ")
+            .replace(" and ", "; ")
+        )
         authors = authors.replace("{", "").replace("}", "")
-        host = entry.get("journal") or entry.get("booktitle") or entry.get("publisher") or entry.get("institution", "")
+        host = (
+            entry.get("journal")
+            or entry.get("booktitle")
+            or entry.get("publisher")
+            or entry.get("institution", "")
+        )
         title = entry.get("title", "").replace("{", "").replace("}", "")
         if entry.get("volume"):
-            host += f" {entry['volume']}" + (f", {entry['pages'].replace('--', '–')}" if entry.get("pages") else "")
-        bits = [f"{authors} ({entry.get('year', 's.d.')})", title, host, f"doi:{entry['doi']}" if entry.get("doi") else ""]
+            host += f" {entry['volume']}" + (
+                f", {entry['pages'].replace('--', '–')}" if entry.get("pages") else ""
+            )
+        bits = [
+            f"{authors} ({entry.get('year', 's.d.')})",
+            title,
+            host,
+            f"doi:{entry['doi']}" if entry.get("doi") else "",
+        ]
         written.append(". ".join(b for b in bits if b) + (f" – {place.strip()}" if place.strip() else ""))
     return " · ".join(written)

@@ -1,4 +1,6 @@
-"""Type stubs of the domains, whose names are found at run time: ``python -m granum.core.stubs`` writes them, a test compares them."""
+"""Type stubs of the domains, whose names are found at run time: ``python -m granum.core.stubs`` writes them,
+a test compares them.
+"""
 
 from __future__ import annotations
 

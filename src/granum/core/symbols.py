@@ -5,10 +5,37 @@ from __future__ import annotations
 import re
 
 _GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "epsilon": "ε", "eta": "η", "theta": "θ",
-    "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "varphi": "φ", "phi": "φ", "psi": "ψ",
-    "Psi": "Ψ", "omega": "ω", "Omega": "Ω", "kappa": "κ", "chi": "χ", "zeta": "ζ", "Gamma": "Γ", "Sigma": "Σ", "Phi": "Φ", "Lambda": "Λ",
-}  # fmt: skip
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "delta": "δ",
+    "Delta": "Δ",
+    "varepsilon": "ε",
+    "epsilon": "ε",
+    "eta": "η",
+    "theta": "θ",
+    "lambda": "λ",
+    "mu": "μ",
+    "nu": "ν",
+    "xi": "ξ",
+    "pi": "π",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "varphi": "φ",
+    "phi": "φ",
+    "psi": "ψ",
+    "Psi": "Ψ",
+    "omega": "ω",
+    "Omega": "Ω",
+    "kappa": "κ",
+    "chi": "χ",
+    "zeta": "ζ",
+    "Gamma": "Γ",
+    "Sigma": "Σ",
+    "Phi": "Φ",
+    "Lambda": "Λ",
+}
 
 
 def html_symbol(latex: str) -> str:

@@ -56,12 +56,48 @@ def _registry() -> Any:
     return ureg
 
 
-_SPELLINGS = {"°C": "degC", "℃": "degC", "°F": "degF", "°": "degree", "wt%": "%", "wt %": "%", "vol%": "%", "vol %": "%", "mol%": "%",
-              "mol %": "%", "%": "percent", "µ": "u", "μ": "u", "#": "1", "Ω": "ohm", "·": "*", "²": "^2", "³": "^3", "⁻¹": "^-1",
-              "in. H2O": "inH2O", "in H2O": "inH2O", "in WC": "inH2O", "mm H2O": "mmH2O", "mm WC": "mmH2O", "mm water": "mmH2O",
-              "in. Hg": "inHg", "in Hg": "inHg", "mm Hg": "mmHg", "US gal": "gallon", "US gpm": "gpm",
-              "short ton": "short_ton", "long ton": "long_ton", "metric ton": "tonne"}  # fmt: skip
-DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}  # read so only where a temperature is due
+_SPELLINGS = {
+    "°C": "degC",
+    "℃": "degC",
+    "°F": "degF",
+    "°": "degree",
+    "wt%": "%",
+    "wt %": "%",
+    "vol%": "%",
+    "vol %": "%",
+    "mol%": "%",
+    "mol %": "%",
+    "%": "percent",
+    "µ": "u",
+    "μ": "u",
+    "#": "1",
+    "Ω": "ohm",
+    "·": "*",
+    "²": "^2",
+    "³": "^3",
+    "⁻¹": "^-1",
+    "in. H2O": "inH2O",
+    "in H2O": "inH2O",
+    "in WC": "inH2O",
+    "mm H2O": "mmH2O",
+    "mm WC": "mmH2O",
+    "mm water": "mmH2O",
+    "in. Hg": "inHg",
+    "in Hg": "inHg",
+    "mm Hg": "mmHg",
+    "US gal": "gallon",
+    "US gpm": "gpm",
+    "short ton": "short_ton",
+    "long ton": "long_ton",
+    "metric ton": "tonne",
+}
+DEGREES = {
+    "C": "degC",
+    "F": "degF",
+    "R": "degR",
+    "deg C": "degC",
+    "deg F": "degF",
+}  # read so only where a temperature is due
 
 
 @cache
@@ -75,7 +111,9 @@ def parse_unit(text: str) -> Any:
     spelled = re.sub(r"\b(m?)(Pa|N)s\b", r"\1\2*s", spelled)  # mPas, Ns/m2
     # g/100 g of water, g per 100 g, g/(100 g)
     spelled = re.sub(
-        r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$", r"/\1*percent", spelled
+        r"\s*(?:/|\bper\b)\s*\(?\s*100\s*([A-Za-z]+)(?:\s+(?:of\s+)?(?:water|H2O|solvent|solution))?\s*\)?$",
+        r"/\1*percent",
+        spelled,
     )
     # kg/m3, cm2, m-1: a power written without its sign, after a letter and at the end of a unit name
     spelled = re.sub(r"(?<![\w])([A-Za-z]+)(-?[1-4])(?![\w])", r"\1^\2", spelled)
@@ -84,7 +122,8 @@ def parse_unit(text: str) -> Any:
     except Exception as problem:  # Pint raises many kinds: tokenizer, undefined, assertion, attribute
         if spelled in ("mesh", "mesh Tyler", "Tyler mesh", "mesh US"):
             raise UnitError(
-                _("A mesh number belongs to a sieve series; 'particles.aperture' turns it into an opening."), unit=text
+                _("A mesh number belongs to a sieve series; 'particles.aperture' turns it into an opening."),
+                unit=text,
             ) from problem
         raise UnitError(_("Unit '{unit}' is not known.").format(unit=text), unit=text) from problem
 

@@ -1,4 +1,6 @@
-"""Units at the edge: text and Pint quantities become SI floats on entry, SI floats become text on display. Uses Pint."""
+"""Units at the edge: text and Pint quantities become SI floats on entry, SI floats become text on display.
+Uses Pint.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +27,13 @@ def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     ureg = registry()
     if not fits(unit, kind_unit):
         above, _over, below = unit.partition("/")
-        # as older books write them: in kg/m s all behind the stroke is below it, F and C there are degrees; lb/ft2 and kg/cm2 of a pressure are forces
+        # as older books write them: in kg/m s all behind the stroke is below it, F and C there are degrees;
+        # lb/ft2 and kg/cm2 of a pressure are forces
         factors = re.split(r"[\s*.·/()-]+", re.sub("°|deg(?=[CF])", " ", below))
-        readings = (f"{above}/({'*'.join(DEGREES.get(f, f) for f in factors if f)})", re.sub(r"\b(lb|kg)\b", r"\1f", unit))
+        readings = (
+            f"{above}/({'*'.join(DEGREES.get(f, f) for f in factors if f)})",
+            re.sub(r"\b(lb|kg)\b", r"\1f", unit),
+        )
         meant = [text for text in readings if below and text != unit and fits(text, kind_unit)]
         if not meant:
             parse_unit(unit)  # says so where the unit itself is not known
@@ -46,9 +52,11 @@ def _angles(unit: str) -> bool:
 
 
 def _conversion(unit: str, kind: Kind) -> tuple[float, float]:
-    """(factor, offset) for a kind: differences of temperature and of pressure drop the zero of the scale (°F, barg).
+    """(factor, offset) for a kind: differences of temperature and of pressure drop the zero of the scale (°F,
+    barg).
 
-    A frequency given for a rotation counts turns (65 Hz, 1000 1/min), and so does a rotation given for a frequency (300 rpm).
+    A frequency given for a rotation counts turns (65 Hz, 1000 1/min), and so does a rotation given for a
+    frequency (300 rpm).
     """
     if kind.unit in ("K", "delta_degC"):
         unit = DEGREES.get(unit.strip(), unit)
@@ -79,7 +87,9 @@ def to_si(value: Any, unit: str, kind: Kind, name: str = "") -> Any:
     except UnitError as problem:
         if problem.message != "dimension":
             raise UnitError(
-                problem.message + " " + _("'{name}' takes {units}.").format(name=label, units=", ".join(kind.units)),
+                problem.message
+                + " "
+                + _("'{name}' takes {units}.").format(name=label, units=", ".join(kind.units)),
                 name=label,
                 allowed=list(kind.units),
             ) from None
@@ -124,10 +134,14 @@ def read_quantity(text: str, kind: Kind, name: str = "") -> float:
 
 
 def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:
-    """The SI value of a text, or the values of one that holds several: ``"60 85 um"``, ``"0,10,20degC"``, ``"[1; 2] bar"``."""
+    """The SI value of a text, or the values of one that holds several: ``"60 85 um"``, ``"0,10,20degC"``,
+    ``"[1; 2] bar"``.
+    """
     digits = apart(text)
     if digits:
-        raise _one_or_several(text, re.sub("[ ,]", "", digits), re.sub("[ ,]", "; ", digits), name or kind.name)
+        raise _one_or_several(
+            text, re.sub("[ ,]", "", digits), re.sub("[ ,]", "; ", digits), name or kind.name
+        )
     try:
         return read_quantity(text, kind, name)
     except InputError:
@@ -142,7 +156,9 @@ def read_values(text: str, kind: Kind, name: str = "") -> float | np.ndarray:
 
 def _one_or_several(text: str, one: str, more: str, name: str) -> InputError:
     """The error for a text that may be read in two ways."""
-    message = _("'{name}' = '{text}' may be one number or several: write '{one}' for one, '{more}' for several.")
+    message = _(
+        "'{name}' = '{text}' may be one number or several: write '{one}' for one, '{more}' for several."
+    )
     return InputError(message.format(name=name, text=shown(text), one=one, more=more), name=name)
 
 
@@ -156,16 +172,24 @@ def has_unit(text: str) -> bool:
 
 
 def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
-    """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value without a unit takes the next one's."""
+    """SI values of a list in one string: ``"2 4 8 um"``, ``"[1.5; 2.5] bar"`` or ``"2 mm, 850 um"``; a value
+    without a unit takes the next one's.
+    """
     if both := mixed(text):
         raise _one_or_several(text, *both, name or kind.name)
     cleaned = re.sub(r"[\[\];]", " ", tidy(text))
-    cleaned = re.sub(r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned)  # before a blank or after a unit the comma separates
+    cleaned = re.sub(
+        r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned
+    )  # before a blank or after a unit the comma separates
     numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
     if len(numbers) == 1 and re.fullmatch(r"[^,]*,\d[^,]*", numbers[0]):  # "0,5 mm"
-        raise _one_or_several(text, numbers[0].replace(",", "."), numbers[0].replace(",", "; "), name or kind.name)
+        raise _one_or_several(
+            text, numbers[0].replace(",", "."), numbers[0].replace(",", "; "), name or kind.name
+        )
     if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
-        cleaned = cleaned.replace(",", " ")  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
+        cleaned = cleaned.replace(
+            ",", " "
+        )  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
     values: list[float] = []
     units: list[str] = []
     for word in cleaned.split():
@@ -180,7 +204,8 @@ def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     if any(units) and not units[-1]:
         raise InputError(
             _(
-                "'{name}' = '{text}': some values have a unit and the last one has none. Write the unit once at the end, or after each value."
+                "'{name}' = '{text}': some values have a unit and the last one has none. Write the unit "
+                "once at the end, or after each value."
             ).format(name=name or kind.name, text=text),
             name=name or kind.name,
         )
@@ -197,14 +222,31 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
     return to_si(value.magnitude, format(value.units, "~"), kind, name)
 
 
-_PRETTY = {"um": "µm", "degC": "°C", "degF": "°F", "percent": "%", "dimensionless": "", "delta_degC": "K", "kelvin": "K",
-           "radian": "rad", "degree": "°", "hour": "h", "tonne": "t", "delta_degF": "°F", "inch": "in", "gallon": "gal", "short_ton": "short ton"}  # fmt: skip
+_PRETTY = {
+    "um": "µm",
+    "degC": "°C",
+    "degF": "°F",
+    "percent": "%",
+    "dimensionless": "",
+    "delta_degC": "K",
+    "kelvin": "K",
+    "radian": "rad",
+    "degree": "°",
+    "hour": "h",
+    "tonne": "t",
+    "delta_degF": "°F",
+    "inch": "in",
+    "gallon": "gal",
+    "short_ton": "short ton",
+}
 _FRENCH = {"day": "j", "year": "an", "rpm": "tr/min", "revolution": "tr"}
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def pretty_unit(unit: str) -> str:
-    """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``; in French ``tonne/day`` → ``t/j``."""
+    """A unit as people print it: ``um`` → ``µm``, ``kg/m^3`` → ``kg/m³``; in French ``tonne/day`` →
+    ``t/j``.
+    """
     from granum.core.i18n import current_language
 
     printed = _PRETTY | _FRENCH if current_language() == "fr" else _PRETTY
@@ -214,24 +256,60 @@ def pretty_unit(unit: str) -> str:
 
 
 CUSTOMARY = frozenset(
-    ("inch", "ft", "ft^2", "ft^3", "lb", "lb/hour", "gallon/min", "ft/s", "lb/ft^3", "psi", "mmHg", "degF", "kcal", "kcal/hour", "kcal/kg")
+    (
+        "inch",
+        "ft",
+        "ft^2",
+        "ft^3",
+        "lb",
+        "lb/hour",
+        "gallon/min",
+        "ft/s",
+        "lb/ft^3",
+        "psi",
+        "mmHg",
+        "degF",
+        "kcal",
+        "kcal/hour",
+        "kcal/kg",
+    )
 )
 """Units that people type and that are never chosen to print a value."""
 
 
 FIELD: dict[str, tuple[str, ...]] = {
-    "m": ("inch", "ft", "um"), "m^2": ("ft^2", "inch^2"), "m^3": ("gallon", "ft^3", "inch^3"), "kg": ("lb", "oz"), "kg/s": ("lb/hour", "short_ton/hour"),
-    "m^3/s": ("gallon/min", "ft^3/s"), "m/s": ("ft/s", "ft/min", "inch/s"), "kg/m^3": ("lb/ft^3",), "Pa": ("psi", "inH2O"),
-    "K": ("degF",), "J": ("Btu",), "W": ("hp", "Btu/hour"), "J/kg": ("Btu/lb",), "J/(kg*K)": ("Btu/(lb*delta_degF)",), "kg/(m^2*s)": ("lb/(ft^2*hour)",),
-    "W/(m^2*K)": ("Btu/(hour*ft^2*delta_degF)",), "W/(m*K)": ("Btu/(hour*ft*delta_degF)",), "N": ("lbf",), "Pa*s": ("cP",), "W/kg": ("hp/lb",),
-}  # fmt: skip
-"""Customary units of the United States by SI unit; particle sizes stay in micrometers, viscosities in centipoise."""
+    "m": ("inch", "ft", "um"),
+    "m^2": ("ft^2", "inch^2"),
+    "m^3": ("gallon", "ft^3", "inch^3"),
+    "kg": ("lb", "oz"),
+    "kg/s": ("lb/hour", "short_ton/hour"),
+    "m^3/s": ("gallon/min", "ft^3/s"),
+    "m/s": ("ft/s", "ft/min", "inch/s"),
+    "kg/m^3": ("lb/ft^3",),
+    "Pa": ("psi", "inH2O"),
+    "K": ("degF",),
+    "J": ("Btu",),
+    "W": ("hp", "Btu/hour"),
+    "J/kg": ("Btu/lb",),
+    "J/(kg*K)": ("Btu/(lb*delta_degF)",),
+    "kg/(m^2*s)": ("lb/(ft^2*hour)",),
+    "W/(m^2*K)": ("Btu/(hour*ft^2*delta_degF)",),
+    "W/(m*K)": ("Btu/(hour*ft*delta_degF)",),
+    "N": ("lbf",),
+    "Pa*s": ("cP",),
+    "W/kg": ("hp/lb",),
+}
+"""Customary units of the United States by SI unit; particle sizes stay in micrometers, viscosities in
+centipoise.
+"""
 SYSTEMS = ("si", "field")
 _system: ContextVar[str | None] = ContextVar("granum_units", default=None)
 
 
 def set_unit_system(code: str) -> None:
-    """Choose the units of displayed values for this context: ``si`` (with the usual multiples) or ``field`` (United States customary)."""
+    """Choose the units of displayed values for this context: ``si`` (with the usual multiples) or ``field``
+    (United States customary).
+    """
     if code not in SYSTEMS:
         raise ValueError(f"units '{code}' are not available; choose one of {', '.join(SYSTEMS)}")
     _system.set(code)
@@ -253,15 +331,19 @@ def field_units(kind: Kind) -> tuple[str, ...]:
 
 
 def best_unit(value: float, kind: Kind) -> str:
-    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred, then one below 1000.
+    """The display unit in which a value lies between 0.1 and 9999, the usual unit being preferred, then one
+    below 1000.
 
-    Customary units are offered for typing, and chosen for printing only when they are wanted (``set_unit_system``).
+    Customary units are offered for typing, and chosen for printing only when they are wanted
+    (``set_unit_system``).
     """
     units = list(field_units(kind)) or [u for u in kind.units if u not in CUSTOMARY] or list(kind.units)
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):  # from 1 m/s on nobody writes mm/s
+    if (
+        0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000)
+    ):  # from 1 m/s on nobody writes mm/s
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:
@@ -271,9 +353,11 @@ def best_unit(value: float, kind: Kind) -> str:
 
 
 def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
-    """The one unit in which a value, or a column of values, is shown everywhere: terminal, page, report, chart, study.
+    """The one unit in which a value, or a column of values, is shown everywhere: terminal, page, report,
+    chart, study.
 
-    The unit people usually write (a glossary entry names it) while the middle of the values suits it, else the best one.
+    The unit people usually write (a glossary entry names it) while the middle of the values suits it, else
+    the best one.
 
     >>> from granum.core.kinds import KINDS
     >>> display_unit([2e-6, 85e-6, 0.0], KINDS["Length"]), display_unit(0.4, KINDS["Length"], usual="cm")

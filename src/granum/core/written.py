@@ -1,4 +1,6 @@
-"""Numbers as people write them, read in one place: decimal comma, thousands apart, ``1/8``, the printed minus, ``1.07 × 10⁸``."""
+"""Numbers as people write them, read in one place: decimal comma, thousands apart, ``1/8``, the printed
+minus, ``1.07 × 10⁸``.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,17 @@ _GROUPED = r"[1-9]\d{0,2}(?: \d{3})+(?![\d/])"
 _BOTH = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.\d+|(?:\.\d{3})+,\d+)(?![\d.,])"  # 1,200.5 and 1.200,5
 _APART_IN_THREES = re.compile(rf"\s*([+-]?(?:{_GROUPED}|[1-9]\d{{0,2}}(?:,\d{{3}}){{2,}}(?![\d.,])))")
 _NUMBER = re.compile(
-    rf"\s*([+-]?(?:(?:\d+ )?\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*",
+    (
+        rf"\s*([+-]?(?:(?:\d+ "
+        rf")?\d+/[1-9]\d*(?![\d.,])|(?:{_BOTH}|{_GROUPED}(?:[.,]\d+)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?))\s*(.*?)\s*"
+    ),
     re.DOTALL | re.ASCII,
 )
 
 
 def tidy(text: str) -> str:
-    """Text with plain signs and spaces: thousands that a no-break or thin space sets apart are joined, powers of ten become ``e``.
+    """Text with plain signs and spaces: thousands that a no-break or thin space sets apart are joined, powers
+    of ten become ``e``.
 
     >>> tidy("−1\u202f200,5 kg"), tidy("1.07 × 10⁸ Pa")
     ('-1200,5 kg', '1.07e8 Pa')
@@ -44,7 +50,8 @@ def read_number(text: str) -> tuple[float, str] | None:
 
 
 def apart(text: str) -> str:
-    """The number of a text whose digits stand in threes apart, such as ``60 300`` or ``1,200,300``; empty where they do not.
+    """The number of a text whose digits stand in threes apart, such as ``60 300`` or ``1,200,300``; empty
+    where they do not.
 
     It may be thousands or two values: where several values may stand only its writer knows.
 

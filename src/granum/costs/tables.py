@@ -11,7 +11,9 @@ from granum.core.datasets import columns, dataset
 
 
 class Correlation(NamedTuple):
-    """Coefficients of a purchase correlation, its limits (SI) and the installed over the purchased cost (NaN: not tabulated)."""
+    """Coefficients of a purchase correlation, its limits (SI) and the installed over the purchased cost (NaN:
+    not tabulated).
+    """
 
     measure: str
     k1: float
@@ -25,7 +27,10 @@ class Correlation(NamedTuple):
 @cache
 def correlations() -> dict[str, Correlation]:
     """Purchase correlations by equipment."""
-    return {row["equipment"]: Correlation(*list(row.values())[1:]) for row in dataset("costs", "purchase_turton2018")}
+    return {
+        row["equipment"]: Correlation(*list(row.values())[1:])
+        for row in dataset("costs", "purchase_turton2018")
+    }
 
 
 def plant_cost_index() -> tuple[np.ndarray, np.ndarray]:

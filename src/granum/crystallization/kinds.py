@@ -7,22 +7,50 @@ from typing import Annotated, Any
 from granum.core.kinds import GrowthRate, Kind, MolarEnergy, PositiveNumber, Within
 
 PositiveTemperatureDifference = Annotated[
-    Any, Kind("positive temperature difference", "delta_degC", lower=0.0, open_lower=True, display=("kelvin", "delta_degF"))
+    Any,
+    Kind(
+        "positive temperature difference",
+        "delta_degC",
+        lower=0.0,
+        open_lower=True,
+        display=("kelvin", "delta_degF"),
+    ),
 ]
-SolubilitySlope = Annotated[Any, Kind("slope of a solubility", "1/kelvin", lower=0.0, open_lower=True, display=("1/kelvin",))]
+SolubilitySlope = Annotated[
+    Any, Kind("slope of a solubility", "1/kelvin", lower=0.0, open_lower=True, display=("1/kelvin",))
+]
 RateCoefficient = Annotated[
-    Any, Kind("growth rate at a driving force of one", "m/s", lower=0.0, display=("m/s", "um/s", "um/min", "mm/hour"))
+    Any,
+    Kind(
+        "growth rate at a driving force of one",
+        "m/s",
+        lower=0.0,
+        display=("m/s", "um/s", "um/min", "mm/hour"),
+    ),
 ]
 IntegrationCoefficient = Annotated[
-    Any, Kind("mass flux at a driving force of 1 kg/m³", "kg/(m^2*s)", lower=0.0, open_lower=True, display=("kg/(m^2*s)",))
+    Any,
+    Kind(
+        "mass flux at a driving force of 1 kg/m³",
+        "kg/(m^2*s)",
+        lower=0.0,
+        open_lower=True,
+        display=("kg/(m^2*s)",),
+    ),
 ]
-AgglomerationRate = Annotated[Any, Kind("collisions per pair and volume", "m^3/s", lower=0.0, display=("m^3/s", "cm^3/s"))]
+AgglomerationRate = Annotated[
+    Any, Kind("collisions per pair and volume", "m^3/s", lower=0.0, display=("m^3/s", "cm^3/s"))
+]
 AgglomerationRatePerVolumes = Annotated[
     Any, Kind("collisions per pair and product of volumes", "1/(m^3*s)", lower=0.0, display=("1/(m^3*s)",))
 ]
-SizeParameter = Annotated[Any, Kind("reciprocal length", "1/m", lower=0.0, open_lower=True, display=("1/mm", "1/m"))]
+SizeParameter = Annotated[
+    Any, Kind("reciprocal length", "1/m", lower=0.0, open_lower=True, display=("1/mm", "1/m"))
+]
 MolarEntropy = Annotated[Any, Kind("entropy per amount", "J/(mol*K)", display=("J/(mol*K)",))]
 ForwardGrowthRate = Annotated[GrowthRate, Within(0.0)]  # crystals that grow; laws may also dissolve
 SoluteShare = Annotated[PositiveNumber, Within(0.0, 1.0)]  # anhydrous solute in a crystal
 PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]
-ProductionRate = Annotated[Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))]
+ProductionRate = Annotated[
+    Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))
+]

@@ -1,4 +1,6 @@
-"""Recipes: the cooling program that keeps nucleation lowest, with exact gradients; the choice of a process."""
+"""Recipes: the cooling program that keeps nucleation lowest, with exact gradients; the choice of a
+process.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +56,14 @@ def _run(shares: Any, setting: tuple[Any, ...], steps: int) -> tuple[Any, Any, A
     model, seeds, ratio, hot, cold, duration = setting
     knots = jnp.linspace(0.0, duration, shares.shape[0] + 1)
     temperature = hot - (hot - cold) * jnp.concatenate([jnp.zeros(1), jnp.cumsum(shares)])
-    course = march(model, Programmed(TemperaturePoints(knots, temperature)), seeds, ratio, 1.0, jnp.linspace(0.0, duration, steps + 1))
+    course = march(
+        model,
+        Programmed(TemperaturePoints(knots, temperature)),
+        seeds,
+        ratio,
+        1.0,
+        jnp.linspace(0.0, duration, steps + 1),
+    )
     final = course.final
     low, high = final.low, final.high
     cubes = final.number * 0.25 * (low + high) * (low**2 + high**2)
@@ -63,7 +72,9 @@ def _run(shares: Any, setting: tuple[Any, ...], steps: int) -> tuple[Any, Any, A
 
 
 @procedure(
-    source="miller1994; chung1999; jones1974", title="Optimal cooling program of a seeded batch", typical={"duration": (3600.0, 7200.0)}
+    source="miller1994; chung1999; jones1974",
+    title="Optimal cooling program of a seeded batch",
+    typical={"duration": (3600.0, 7200.0)},
 )
 def optimal_cooling(
     solute_per_solvent: MassRatio,
@@ -83,26 +94,48 @@ def optimal_cooling(
     intervals: Annotated[int, Within(1, 200)] = 12,
     steps: Annotated[int, Within(2, 100_000)] = 200,
 ) -> CoolingRecipe:
-    """Cooling program, straight by pieces and never rising, that leaves the least mass grown from nuclei at given start and end.
+    """Cooling program, straight by pieces and never rising, that leaves the least mass grown from nuclei at
+    given start and end.
 
-    The final temperature fixes the yield; the supersaturation is kept below a maximum. Gradients of the whole simulation are exact
-    (SLSQP on the share of the temperature fall in each interval).
+    The final temperature fixes the yield; the supersaturation is kept below a maximum. Gradients of the whole
+    simulation are exact (SLSQP on the share of the temperature fall in each interval).
 
-    >>> recipe = optimal_cooling(solute_per_solvent=0.492990, solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    >>> recipe = optimal_cooling(
+    ...     solute_per_solvent=0.492990,
+    ...     solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
     ...     growth={"law": "power_law_growth", "growth_coefficient": 1.161167e-4, "growth_order": 1.32},
-    ...     nucleation={"law": "secondary_nucleation", "nucleation_coefficient": 2.1959e8, "nucleation_order": 1.78}, duration="80 min",
-    ...     temperature_start=305.15, temperature_end=301.15, crystal_density=2110, seed_mass_per_solvent=0.0005, seed_size="100 um",
-    ...     seed_width="20 um", intervals=4, steps=50)
+    ...     nucleation={
+    ...         "law": "secondary_nucleation",
+    ...         "nucleation_coefficient": 2.1959e8,
+    ...         "nucleation_order": 1.78,
+    ...     },
+    ...     duration="80 min",
+    ...     temperature_start=305.15,
+    ...     temperature_end=301.15,
+    ...     crystal_density=2110,
+    ...     seed_mass_per_solvent=0.0005,
+    ...     seed_size="100 um",
+    ...     seed_width="20 um",
+    ...     intervals=4,
+    ...     steps=50,
+    ... )
     >>> recipe.nuclei_mass_fraction < recipe.nuclei_mass_fraction_linear
     True
     """
     if temperature_end >= temperature_start:
-        raise InputError(_("Cooling ends at {end} K, above its start at {start} K.").format(end=temperature_end, start=temperature_start),
-                         name="temperature_end")  # fmt: skip
+        raise InputError(
+            _("Cooling ends at {end} K, above its start at {start} K.").format(
+                end=temperature_end, start=temperature_start
+            ),
+            name="temperature_end",
+        )
     crystal = Crystal(crystal_density, volume_shape_factor)
     model = Model(solubility, growth, nucleation, crystal, SuspensionVolume(liquid_density))
     seeds = narrow_seeds(seed_size, seed_width, seed_mass_per_solvent, crystal.mass_per_cube)
-    arrays = tuple(jnp.asarray(v, dtype=float) for v in (solute_per_solvent, temperature_start, temperature_end, duration))
+    arrays = tuple(
+        jnp.asarray(v, dtype=float)
+        for v in (solute_per_solvent, temperature_start, temperature_end, duration)
+    )
     setting = (model, seeds, *arrays)
 
     def figures(q: Any) -> Any:
@@ -122,20 +155,41 @@ def optimal_cooling(
     even = np.full(intervals, 1.0 / intervals)
     linear, at_linear, _size = _run(jnp.asarray(even), setting, steps)
     limit = float(relative_supersaturation_maximum)
-    rules: list[dict[str, Any]] = [{"type": "eq", "fun": lambda q: np.sum(q) - 1.0, "jac": lambda q: np.ones((1, intervals))}]
+    rules: list[dict[str, Any]] = [
+        {"type": "eq", "fun": lambda q: np.sum(q) - 1.0, "jac": lambda q: np.ones((1, intervals))}
+    ]
     if float(jnp.max(at_linear)) > 0.2 * limit:
-        rules.append({"type": "ineq", "fun": lambda q: 1.0 - both(q)[0][1:] / limit, "jac": lambda q: -both(q)[1][1:] / limit})
+        rules.append(
+            {
+                "type": "ineq",
+                "fun": lambda q: 1.0 - both(q)[0][1:] / limit,
+                "jac": lambda q: -both(q)[1][1:] / limit,
+            }
+        )
     size = max(float(linear), 1e-30)
     start = np.diff(np.linspace(0.0, 1.0, intervals + 1) ** 2.0)
-    found = minimize(lambda q: both(q)[0][0] / size, start, jac=lambda q: both(q)[1][0] / size, bounds=[(0.0, 1.0)] * intervals,
-                     constraints=rules, method="SLSQP", options={"maxiter": 200, "ftol": 1e-7})  # fmt: skip
+    found = minimize(
+        lambda q: both(q)[0][0] / size,
+        start,
+        jac=lambda q: both(q)[1][0] / size,
+        bounds=[(0.0, 1.0)] * intervals,
+        constraints=rules,
+        method="SLSQP",
+        options={"maxiter": 200, "ftol": 1e-7},
+    )
     if not found.success:
-        raise ConvergenceError(_("No cooling program was found: {reason}. Is the allowed supersaturation too low for the time?").format(
-            reason=found.message), last=found.x)  # fmt: skip
+        raise ConvergenceError(
+            _(
+                "No cooling program was found: {reason}. Is the allowed supersaturation too low for the time?"
+            ).format(reason=found.message),
+            last=found.x,
+        )
     shares = np.clip(found.x, 0.0, None) / np.sum(np.clip(found.x, 0.0, None))
     nuclei, S, mean = _run(jnp.asarray(shares), setting, steps)
     times = np.linspace(0.0, float(duration), intervals + 1)
-    temperature = temperature_start - (temperature_start - temperature_end) * np.concatenate([[0.0], np.cumsum(shares)])
+    temperature = temperature_start - (temperature_start - temperature_end) * np.concatenate(
+        [[0.0], np.cumsum(shares)]
+    )
     return CoolingRecipe(times, temperature, float(jnp.max(S)), float(nuclei), float(linear), float(mean))
 
 
@@ -152,7 +206,11 @@ TONNAGE_CONTINUOUS = 10_000.0 / 86_400.0  # kg/s: 10 t/d
 STEEP, FLAT = 0.01, 0.0015  # relative change of solubility per kelvin
 
 
-@procedure(source="mullin2001, ch. 8; garside1985", title="Choice of a crystallization process", typical={"crystal_flow": (0.01, 1.0)})
+@procedure(
+    source="mullin2001, ch. 8; garside1985",
+    title="Choice of a crystallization process",
+    typical={"crystal_flow": (0.01, 1.0)},
+)
 def choose(
     solubility: Annotated[Any, Law("solubility_law")],
     temperature_hot: Temperature,
@@ -163,19 +221,27 @@ def choose(
     heat_sensitive: bool = False,
     narrow_sizes: bool = False,
 ) -> Processes:
-    """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, with what speaks for and against each.
+    """Ways to crystallize by solubility slope, tonnage, fouling and quality, the best first, with what speaks
+    for and against each.
 
-    Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling; below about 10 t/d a batch, above it
-    continuous operation.
+    Steep solubility asks for cooling, a flat one for evaporation, one in between for vacuum cooling; below
+    about 10 t/d a batch, above it continuous operation.
 
-    >>> best = choose(solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}, temperature_hot="80 degC",
-    ...               temperature_cold="20 degC", crystal_flow="20 tonne/day")
+    >>> best = choose(
+    ...     solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    ...     temperature_hot="80 degC",
+    ...     temperature_cold="20 degC",
+    ...     crystal_flow="20 tonne/day",
+    ... )
     >>> best.crystallization_process[0]
     'cooling through a wall, continuous'
     """
     if temperature_hot <= temperature_cold:
         raise InputError(_("The hot temperature must be above the cold one."), name="temperature_hot")
-    hot, cold = float(np.asarray(solubility(temperature_hot))), float(np.asarray(solubility(temperature_cold)))
+    hot, cold = (
+        float(np.asarray(solubility(temperature_hot))),
+        float(np.asarray(solubility(temperature_cold))),
+    )
     crop = 1.0 - cold / hot
     slope = np.log(hot / cold) / (temperature_hot - temperature_cold)
     shown = _("Solubility {cold} → {hot} kg/kg: cooling alone gives {crop} %.").format(
@@ -183,34 +249,68 @@ def choose(
     )
     steep = float(np.clip((slope - FLAT) / (STEEP - FLAT), 0.0, 1.0))
     between = 1.0 - abs(2.0 * steep - 1.0)
-    tonnage = _("{rate} t/d against about 10 t/d, below which lines of continuous crystallizers clog.").format(
-        rate=format_number(crystal_flow * 86.4, 3)
-    )
+    tonnage = _(
+        "{rate} t/d against about 10 t/d, below which lines of continuous crystallizers clog."
+    ).format(rate=format_number(crystal_flow * 86.4, 3))
     large = crystal_flow >= TONNAGE_CONTINUOUS
     # each with its mark, what speaks for it and what against
     modes = [
-        (_("cooling through a wall"), 0.2 + 0.8 * steep - 0.35 * fouling,
-         [shown, _("Lowest energy: sensible heat only.")] if steep > 0.5 else [],
-         [_("The wall would foul: keep it within a few kelvin of the suspension.") if fouling else "",
-          "" if steep > 0.5 else f"{shown} {_('The yield is low for its energy.')}"]),
-        (_("vacuum (adiabatic) cooling"), 0.2 + 0.35 * steep + 0.4 * between + 0.3 * fouling + 0.1 * heat_sensitive,
-         [shown, _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else ""], []),
-        (_("evaporation"), 0.9 - 0.8 * steep - 0.15 * heat_sensitive, ["" if steep > 0.5 else shown],
-         [_("Needs the latent heat of all the solvent; under vacuum for what does not stand heat.")]),
-        (_("antisolvent"), (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive) * antisolvent_available,
-         [_("Works cold and gives high yields.")] if antisolvent_available else [],
-         [_("The solvents must be separated afterwards.") if antisolvent_available else _("No miscible antisolvent is available.")]),
-    ]  # fmt: skip
+        (
+            _("cooling through a wall"),
+            0.2 + 0.8 * steep - 0.35 * fouling,
+            [shown, _("Lowest energy: sensible heat only.")] if steep > 0.5 else [],
+            [
+                _("The wall would foul: keep it within a few kelvin of the suspension.") if fouling else "",
+                "" if steep > 0.5 else f"{shown} {_('The yield is low for its energy.')}",
+            ],
+        ),
+        (
+            _("vacuum (adiabatic) cooling"),
+            0.2 + 0.35 * steep + 0.4 * between + 0.3 * fouling + 0.1 * heat_sensitive,
+            [shown, _("The wall fouls: no cooled surface in a vacuum crystallizer.") if fouling else ""],
+            [],
+        ),
+        (
+            _("evaporation"),
+            0.9 - 0.8 * steep - 0.15 * heat_sensitive,
+            ["" if steep > 0.5 else shown],
+            [_("Needs the latent heat of all the solvent; under vacuum for what does not stand heat.")],
+        ),
+        (
+            _("antisolvent"),
+            (0.35 + 0.3 * (1 - steep) + 0.25 * heat_sensitive) * antisolvent_available,
+            [_("Works cold and gives high yields.")] if antisolvent_available else [],
+            [
+                _("The solvents must be separated afterwards.")
+                if antisolvent_available
+                else _("No miscible antisolvent is available.")
+            ],
+        ),
+    ]
     operations = [
         (_("continuous"), 0.9 if large else 0.25, [tonnage] if large else [], [] if large else [tonnage]),
-        (_("seeded batch"), 0.35 if large else 0.95,
-         ["" if large else tonnage, _("Seeding and programmed cooling control the size.") if narrow_sizes else ""], [tonnage] if large else []),
-        (_("fluidized bed (Oslo), classified product"), (0.95 if narrow_sizes else 0.5) * (1.0 if large else 0.3),
-         [_("Large and even crystals, growing without impellers.")] if narrow_sizes else [],
-         ["" if large else tonnage, "" if narrow_sizes else _("Dearer than a stirred vessel.")]),
-    ]  # fmt: skip
+        (
+            _("seeded batch"),
+            0.35 if large else 0.95,
+            [
+                "" if large else tonnage,
+                _("Seeding and programmed cooling control the size.") if narrow_sizes else "",
+            ],
+            [tonnage] if large else [],
+        ),
+        (
+            _("fluidized bed (Oslo), classified product"),
+            (0.95 if narrow_sizes else 0.5) * (1.0 if large else 0.3),
+            [_("Large and even crystals, growing without impellers.")] if narrow_sizes else [],
+            ["" if large else tonnage, "" if narrow_sizes else _("Dearer than a stirred vessel.")],
+        ),
+    ]
     rows = [
-        (f"{mode}, {how}", float(np.clip(a, 0.0, 1.0) * b), *(" ".join(filter(None, x + y)) for x, y in ((good, more), (bad, worse))))
+        (
+            f"{mode}, {how}",
+            float(np.clip(a, 0.0, 1.0) * b),
+            *(" ".join(filter(None, x + y)) for x, y in ((good, more), (bad, worse))),
+        )
         for mode, a, good, bad in modes
         for how, b, more, worse in operations
     ]

@@ -13,7 +13,9 @@ from granum.cyclones.geometry import StandardCyclone
 
 
 @chart(source="leith1973; cooper2011", title="Cyclone drawn to scale", typical={"diameter": (0.5, 2.0)})
-def cyclone_drawing(diameter: Length, cyclone_geometry: Annotated[Any, Law("cyclone_geometry")] = StandardCyclone()) -> Any:
+def cyclone_drawing(
+    diameter: Length, cyclone_geometry: Annotated[Any, Law("cyclone_geometry")] = StandardCyclone()
+) -> Any:
     """Elevation and plan of a gas cyclone to scale, with its dimensions in millimeters."""
     from granum.core.charts import ACCENT, GAS, INK, SOLID, add_label, figure
 
@@ -23,9 +25,14 @@ def cyclone_drawing(diameter: Length, cyclone_geometry: Annotated[Any, Law("cycl
     right, plan = 2.4 * D, -0.75 * D  # center of the plan, beside the elevation
 
     def path(x: Any, y: Any, color: str = INK, dash: str = "solid") -> None:
-        drawing.add_scatter(x=x, y=y, mode="lines", line={"color": color, "width": 1.6, "dash": dash}, hoverinfo="skip")
+        drawing.add_scatter(
+            x=x, y=y, mode="lines", line={"color": color, "width": 1.6, "dash": dash}, hoverinfo="skip"
+        )
 
-    path([-R, R, R, B / 2, B / 2, -B / 2, -B / 2, -R, -R], [0, 0, -h, -H, -H - 0.1 * D, -H - 0.1 * D, -H, -h, 0])
+    path(
+        [-R, R, R, B / 2, B / 2, -B / 2, -B / 2, -R, -R],
+        [0, 0, -h, -H, -H - 0.1 * D, -H - 0.1 * D, -H, -h, 0],
+    )
     path([-R, R], [-h, -h], dash="dot")
     for side in (-1.0, 1.0):
         path([side * De / 2] * 2, [out, 0], GAS)
@@ -41,11 +48,34 @@ def cyclone_drawing(diameter: Length, cyclone_geometry: Annotated[Any, Law("cycl
 
     def dimension(x0: float, y0: float, x1: float, y1: float, symbol: str, color: str = INK) -> None:
         value = f"{abs(x1 - x0) + abs(y1 - y0):.0f}"
-        drawing.add_annotation(x=x1, y=y1, ax=x0, ay=y0, xref="x", yref="y", axref="x", ayref="y", text="", showarrow=True,
-                               arrowhead=2, arrowside="end+start", arrowsize=0.8, arrowwidth=1, arrowcolor=color)  # fmt: skip
+        drawing.add_annotation(
+            x=x1,
+            y=y1,
+            ax=x0,
+            ay=y0,
+            xref="x",
+            yref="y",
+            axref="x",
+            ayref="y",
+            text="",
+            showarrow=True,
+            arrowhead=2,
+            arrowside="end+start",
+            arrowsize=0.8,
+            arrowwidth=1,
+            arrowcolor=color,
+        )
         upright, sign = x0 == x1, -1 if x0 < -R else 1
-        add_label(drawing, (x0 + x1) / 2, (y0 + y1) / 2, f"<i>{symbol}</i> {value}", color=color, xshift=4 * sign if upright else 0,
-                  xanchor="center" if not upright else "left" if sign > 0 else "right", yanchor="middle" if upright else "top" if symbol in "bB" else "bottom")  # fmt: skip
+        add_label(
+            drawing,
+            (x0 + x1) / 2,
+            (y0 + y1) / 2,
+            f"<i>{symbol}</i> {value}",
+            color=color,
+            xshift=4 * sign if upright else 0,
+            xanchor="center" if not upright else "left" if sign > 0 else "right",
+            yanchor="middle" if upright else "top" if symbol in "bB" else "bottom",
+        )
 
     dimension(-R, 0.25 * D - h, R, 0.25 * D - h, "D")
     dimension(-De / 2, out + 0.02 * D, De / 2, out + 0.02 * D, "D<sub>e</sub>", GAS)

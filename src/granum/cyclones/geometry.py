@@ -61,7 +61,9 @@ def misfits(cyclone: Dimensions) -> list[tuple[Any, Any, str, Any, str]]:
 
 
 def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a law written with one argument ``cyclone``, its ``Dimensions``, be declared and called with each length by its name."""
+    """Let a law written with one argument ``cyclone``, its ``Dimensions``, be declared and called with each
+    length by its name.
+    """
     hints = get_type_hints(function, include_extras=True)
     lengths = get_type_hints(Dimensions, include_extras=True)
     signature = inspect.signature(function)
@@ -85,7 +87,10 @@ def takes_lengths(function: Callable[..., Any]) -> Callable[..., Any]:
 @cache
 def standard_ratios() -> dict[str, tuple[float, ...]]:
     """Ratios of the standard designs by name."""
-    return {name: tuple(ratios) for name, *ratios in (row.values() for row in dataset("cyclones", "geometries_leith1973"))}
+    return {
+        name: tuple(ratios)
+        for name, *ratios in (row.values() for row in dataset("cyclones", "geometries_leith1973"))
+    }
 
 
 @law("cyclone_geometry", name="standard_cyclone", source="leith1973; cooper2011", title="Standard cyclone")
@@ -123,7 +128,9 @@ class FreeCyclone(eqx.Module):
         shape = self(1.0)
         if not all(isinstance(v, (int, float)) for v in shape):
             return
-        broken = [_(reason) for wrong, *_rest, reason in misfits(Dimensions(*map(np.float64, shape))) if wrong]
+        broken = [
+            _(reason) for wrong, *_rest, reason in misfits(Dimensions(*map(np.float64, shape))) if wrong
+        ]
         if shape.inlet_width > (1 - shape.outlet_diameter) / 2 + 1e-9:
             broken.append(_("The inlet must fit between wall and vortex finder."))
         if shape.inlet_height > shape.cylinder_height:
@@ -133,6 +140,13 @@ class FreeCyclone(eqx.Module):
 
     def __call__(self, diameter: Length) -> Dimensions:
         """Lengths for a body diameter."""
-        ratios: tuple[Any, ...] = (self.inlet_height_ratio, self.inlet_width_ratio, self.outlet_diameter_ratio, self.finder_length_ratio,
-                                   self.cylinder_height_ratio, self.height_ratio, self.dust_outlet_ratio)  # fmt: skip
+        ratios: tuple[Any, ...] = (
+            self.inlet_height_ratio,
+            self.inlet_width_ratio,
+            self.outlet_diameter_ratio,
+            self.finder_length_ratio,
+            self.cylinder_height_ratio,
+            self.height_ratio,
+            self.dust_outlet_ratio,
+        )
         return Dimensions(diameter, *(ratio * diameter for ratio in ratios))

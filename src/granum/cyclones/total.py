@@ -50,9 +50,16 @@ class CyclonePlant(NamedTuple):
     saltation_velocity: Speed
 
 
-@procedure(source="hoffmann2008; muschelknautz1972; stairmand1949", title="Cyclones for a total efficiency",
-           typical={"volume_flow": (2.0, 4.0), "pressure_drop": (1000.0, 1500.0), "removal_efficiency": (0.85, 0.9),
-                    "particle_density": (2000.0, 3000.0)})  # fmt: skip
+@procedure(
+    source="hoffmann2008; muschelknautz1972; stairmand1949",
+    title="Cyclones for a total efficiency",
+    typical={
+        "volume_flow": (2.0, 4.0),
+        "pressure_drop": (1000.0, 1500.0),
+        "removal_efficiency": (0.85, 0.9),
+        "particle_density": (2000.0, 3000.0),
+    },
+)
 def cyclone_for_efficiency(
     volume_flow: VolumeFlow,
     removal_efficiency: OpenFraction,
@@ -67,12 +74,14 @@ def cyclone_for_efficiency(
     cyclone_efficiency: Annotated[Any, Law("cyclone_efficiency")] = cyclone_efficiency_muschelknautz,
     inlet_heads: Annotated[Any, Law("inlet_heads")] = inlet_heads_stairmand,
 ) -> CyclonePlant:
-    """Diameter, number and pressure drop of equal cyclones that collect a wanted share of a dust, stage after stage.
+    """Diameter, number and pressure drop of equal cyclones that collect a wanted share of a dust, stage after
+    stage.
 
-    Give either the pressure drop of the whole series, and the number in parallel is found (a whole one, which costs the given
-    pressure drop and collects at least the wanted share), or the number in parallel, and the pressure drop is found that just collects
-    it. Every stage has the same cyclones; the dust that leaves one is the feed of the next. The dust is taken as thin, so that no
-    overload helps. The gas density is that at the inlet throughout.
+    Give either the pressure drop of the whole series, and the number in parallel is found (a whole one, which
+    costs the given pressure drop and collects at least the wanted share), or the number in parallel, and the
+    pressure drop is found that just collects it. Every stage has the same cyclones; the dust that leaves one
+    is the feed of the next. The dust is taken as thin, so that no overload helps. The gas density is that at
+    the inlet throughout.
 
     >>> from granum.particles.size_laws import RosinRammler
     >>> dust = RosinRammler(size_modulus="20 um", distribution_exponent=1.0)
@@ -82,9 +91,15 @@ def cyclone_for_efficiency(
     (0.9, True)
     """
     if (pressure_drop is None) == (parallel_number is None):
-        raise InputError(_("Give either 'pressure_drop' or 'parallel_number': the other one is found."), name="pressure_drop")
+        raise InputError(
+            _("Give either 'pressure_drop' or 'parallel_number': the other one is found."),
+            name="pressure_drop",
+        )
     if series_number < 1:
-        raise InputError(_("'series_number' must be at least 1; it is {value}.").format(value=series_number), name="series_number")
+        raise InputError(
+            _("'series_number' must be at least 1; it is {value}.").format(value=series_number),
+            name="series_number",
+        )
     middle = (np.arange(PARTS) + 0.5) / PARTS
     size = size_distribution.percentile(jnp.asarray(middle))
     area = cyclone_geometry(1.0).inlet_height * cyclone_geometry(1.0).inlet_width
@@ -92,7 +107,9 @@ def cyclone_for_efficiency(
 
     def stages(D: Any, flow: Any) -> Any:
         """Share of the dust left after each stage, the first entry before any."""
-        grade = cyclone_efficiency(size, flow, particle_density, fluid_density, dynamic_viscosity, *cyclone_geometry(D))
+        grade = cyclone_efficiency(
+            size, flow, particle_density, fluid_density, dynamic_viscosity, *cyclone_geometry(D)
+        )
         return jnp.stack([jnp.mean((1.0 - grade) ** k) for k in range(series_number + 1)])
 
     def diameter_at(flow_of: Any) -> float:
@@ -114,10 +131,13 @@ def cyclone_for_efficiency(
     if not (D > 0.0 and volume_flow / (v * area * D**2) < MOST):
         raise ApplicabilityError(
             _(
-                "No such cyclone of {low} to {high} m collects {share} % of this dust: allow more pressure drop, stages or other proportions."
+                "No such cyclone of {low} to {high} m collects {share} % of this dust: allow more "
+                "pressure drop, stages or other proportions."
             ).format(low=SMALLEST, high=LARGEST, share=format_number(100.0 * removal_efficiency))
         )
     left = np.asarray(stages(D, volume_flow / number))
-    salt = saltation_velocity_kalen_zenz(v, D, cyclone_geometry(D).inlet_width, particle_density, fluid_density, dynamic_viscosity)
+    salt = saltation_velocity_kalen_zenz(
+        v, D, cyclone_geometry(D).inlet_width, particle_density, fluid_density, dynamic_viscosity
+    )
     drop = series_number * heads * 0.5 * fluid_density * v**2
     return CyclonePlant(D, number, v, drop, float(1.0 - left[-1]), 1.0 - left[1:] / left[:-1], float(salt))

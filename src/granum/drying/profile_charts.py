@@ -1,4 +1,6 @@
-"""Charts of what happens inside a dryer: moisture and temperature along the way of the solid, or over time."""
+"""Charts of what happens inside a dryer: moisture and temperature along the way of the solid, or over
+time.
+"""
 
 from __future__ import annotations
 
@@ -21,10 +23,17 @@ def _drawn(x: Any, title: str, x_label: str) -> Any:
 
     drawing = figure(x_label, axis_title("temperature", "degC"), title=title)
     drawing.update_layout(
-        yaxis2={"overlaying": "y", "side": "right", "showgrid": False, "rangemode": "tozero",
-                "tickmode": "auto", "title": axis_title("moisture_dry_basis", "kg/kg")},
-        legend={"orientation": "h", "y": -0.22, "x": 0.0}, margin={"r": 75, "b": 110},
-    )  # fmt: skip
+        yaxis2={
+            "overlaying": "y",
+            "side": "right",
+            "showgrid": False,
+            "rangemode": "tozero",
+            "tickmode": "auto",
+            "title": axis_title("moisture_dry_basis", "kg/kg"),
+        },
+        legend={"orientation": "h", "y": -0.22, "x": 0.0},
+        margin={"r": 75, "b": 110},
+    )
     drawing.update_xaxes(range=[float(np.min(x)), float(np.max(x))])
     return drawing
 
@@ -36,7 +45,9 @@ def drying_profile_chart(
     temperature: Annotated[Temperature, Series("points")],
     temperature_gas: Annotated[Temperature, Series("points")],
 ) -> Any:
-    """Moisture of the solid, and temperatures of solid and gas, along the way of the solid through a dryer from 0 to 1."""
+    """Moisture of the solid, and temperatures of solid and gas, along the way of the solid through a dryer
+    from 0 to 1.
+    """
     from granum.core.charts import GAS, LIQUID, SOLID, add_line, axis_title
 
     x = np.asarray(place)
@@ -48,7 +59,8 @@ def drying_profile_chart(
 
 
 def profile_chart(dryer: Any, feed: Stream, gas: Stream, time: Any = None) -> Any:
-    """The profile of a dryer in steady state: means over the classes of solid, with the driest and the wettest of them where they differ.
+    """The profile of a dryer in steady state: means over the classes of solid, with the driest and the
+    wettest of them where they differ.
 
     ``time``: residence time, to draw over it instead of the place.
     """
@@ -70,8 +82,12 @@ def drawn_profile(found: Profile, time: Any = None) -> Any:
     some = np.flatnonzero(shares > 1e-6)
     last = X[:, some]
     if np.ptp(last, axis=1).max() > 1e-3 * last.max():
-        add_line(drawing, x, last.max(axis=1), _("wettest part"), color=LIQUID, dash="dot", width=1, yaxis="y2")
-        add_line(drawing, x, last.min(axis=1), _("driest part"), color=LIQUID, dash="dashdot", width=1, yaxis="y2")
+        add_line(
+            drawing, x, last.max(axis=1), _("wettest part"), color=LIQUID, dash="dot", width=1, yaxis="y2"
+        )
+        add_line(
+            drawing, x, last.min(axis=1), _("driest part"), color=LIQUID, dash="dashdot", width=1, yaxis="y2"
+        )
     return drawing
 
 

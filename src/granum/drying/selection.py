@@ -12,11 +12,21 @@ from granum.core.constants import ZERO_CELSIUS
 from granum.core.datasets import dataset
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Fraction, Mass, MassFlow, MoistureDryBasis, Series, SpecificEnergy, Temperature, Time
+from granum.core.kinds import (
+    Fraction,
+    Mass,
+    MassFlow,
+    MoistureDryBasis,
+    Series,
+    SpecificEnergy,
+    Temperature,
+    Time,
+)
 from granum.core.units import format_number
 
 DECADE = log(10.0)
-# Flash and spray dryers keep the product hot for seconds only: it may see some 20 K more than in a dryer of minutes or hours.
+# Flash and spray dryers keep the product hot for seconds only: it may see some 20 K more than in a dryer of
+# minutes or hours.
 BRIEF, ALLOWANCE = 60.0, 20.0
 TOLERANT = ZERO_CELSIUS + 50.0  # from which on a product can be dried in warm air
 
@@ -50,13 +60,15 @@ def choose(
     hazard: Literal["none", "dust", "solvent", "toxic"] = "none",
     fragile: bool = False,
 ) -> Dryers:
-    """Dryers ranked for a product by its form, moisture, heat sensitivity, feed, hazard and drying time, with what speaks for and against each.
+    """Dryers ranked for a product by its form, moisture, heat sensitivity, feed, hazard and drying time, with
+    what speaks for and against each.
 
-    The suitability is 1 where every figure lies in the range in which a dryer is commonly used; it falls by a factor e for each decade
-    outside, and is zero for a form of product that the dryer cannot take. Forms it takes only after preparation, and costs out of proportion,
-    count against it too. ``temperature_limit`` is the highest temperature the product
-    bears, ``residence_time`` the time it needs (known from a drying curve). The sizes come from common capacities (the course notes'
-    tables IV.1 to IV.22): use the list to decide what to test.
+    The suitability is 1 where every figure lies in the range in which a dryer is commonly used; it falls by a
+    factor e for each decade outside, and is zero for a form of product that the dryer cannot take. Forms it
+    takes only after preparation, and costs out of proportion, count against it too. ``temperature_limit`` is
+    the highest temperature the product bears, ``residence_time`` the time it needs (known from a drying
+    curve). The sizes come from common capacities (the course notes' tables IV.1 to IV.22): use the list to
+    decide what to test.
 
     >>> choose("liquid", "5 t/h", 1.0, 0.03, temperature_limit="80 degC").dryer[0]
     'spray dryer'
@@ -84,7 +96,9 @@ def choose(
             why.append(_("needs it preformed, granulated or mixed with dry product first"))
         off = _beyond(mass_flow, d["flow_low"], d["flow_high"])
         if off > 0:
-            missing += off / (3.0 if mass_flow > d["flow_high"] else 1.0)  # several machines side by side are possible
+            missing += off / (
+                3.0 if mass_flow > d["flow_high"] else 1.0
+            )  # several machines side by side are possible
             why.append(_("feed outside {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
         else:
             good.append(_("made for {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
@@ -92,7 +106,11 @@ def choose(
             seen = d["product_low"] - (ALLOWANCE if d["residence_high"] <= BRIEF else 0.0)
             if seen > limit:
                 missing += DECADE * (seen - limit) / 10.0
-                why.append(_("heats the product to {value} °C at least").format(value=format_number(d["product_low"] - ZERO_CELSIUS, 3)))
+                why.append(
+                    _("heats the product to {value} °C at least").format(
+                        value=format_number(d["product_low"] - ZERO_CELSIUS, 3)
+                    )
+                )
             else:
                 good.append(_("cool enough for the product"))
         if d["gas_low"] < ZERO_CELSIUS and (limit is None or limit > TOLERANT):
@@ -101,8 +119,12 @@ def choose(
         if residence_time is not None:
             off = _beyond(residence_time, d["residence_low"], d["residence_high"])
             if off > 0:
-                missing += off * (1.5 if residence_time > d["residence_high"] else 0.3)  # too long a stay is merely wasteful
-                why.append(_("keeps the product {low} to {high} min").format(**_span(d, "residence", 1.0 / 60.0)))
+                missing += off * (
+                    1.5 if residence_time > d["residence_high"] else 0.3
+                )  # too long a stay is merely wasteful
+                why.append(
+                    _("keeps the product {low} to {high} min").format(**_span(d, "residence", 1.0 / 60.0))
+                )
             else:
                 good.append(_("time enough to dry"))
         worry = _hazard(hazard, d)
@@ -153,7 +175,9 @@ def _size(water: float, d: dict[str, Any]) -> str:
     if d["capacity_per"] == "whole":
         return _("machines: {count}").format(count=format_number(max(1.0, np.ceil(low)), 3))
     unit = {"m3": "m³", "m2": "m²"}[d["capacity_per"]]
-    return _("{low} to {high} {unit}").format(low=format_number(low, 2), high=format_number(high, 2), unit=unit)
+    return _("{low} to {high} {unit}").format(
+        low=format_number(low, 2), high=format_number(high, 2), unit=unit
+    )
 
 
 class WaterRemoval(NamedTuple):
@@ -174,15 +198,22 @@ def water_removal_choice(
     moisture_dry_basis_pressed: MoistureDryBasis = 1.5,
     energy_per_water: SpecificEnergy = 4.5e6,
     desiccant: Literal[
-        "calcium chloride", "magnesium sulfate", "sodium sulfate", "calcium sulfate", "silica gel", "molecular sieve"
+        "calcium chloride",
+        "magnesium sulfate",
+        "sodium sulfate",
+        "calcium sulfate",
+        "silica gel",
+        "molecular sieve",
     ] = "calcium chloride",
 ) -> WaterRemoval:
-    """Mechanical dewatering first, then heat, weighed against heat alone and against a desiccant that has to be regenerated.
+    """Mechanical dewatering first, then heat, weighed against heat alone and against a desiccant that has to
+    be regenerated.
 
-    Pressing, spinning and draining take free water only, at 2 to 35 kWh per tonne (the course notes, U V.8.5), down to
-    ``moisture_dry_basis_pressed``: 1.5 kg/kg (60 % of the wet mass) unless a test says better. ``energy_per_water`` is that of the heat
-    dryer. A desiccant takes its load of water and must be regenerated: that costs the water's evaporation again, its binding and the
-    losses of its own dryer, here the heat dryer's.
+    Pressing, spinning and draining take free water only, at 2 to 35 kWh per tonne (the course notes, U
+    V.8.5), down to ``moisture_dry_basis_pressed``: 1.5 kg/kg (60 % of the wet mass) unless a test says
+    better. ``energy_per_water`` is that of the heat dryer. A desiccant takes its load of water and must be
+    regenerated: that costs the water's evaporation again, its binding and the losses of its own dryer, here
+    the heat dryer's.
 
     >>> ways = water_removal_choice(1000.0, 4.0, 0.1)
     >>> [round(float(x), 1) for x in ways.mass_water]
@@ -203,7 +234,12 @@ def water_removal_choice(
     agent = next(d for d in dataset("drying", "desiccants") if d["name"] == desiccant)
     mass = whole / agent["water_per_desiccant"]
     together = (pressed * mechanical + heated * energy_per_water) / whole
-    names: Any = (_("pressing or spinning"), _("heat after pressing"), _("heat alone"), _("desiccant: {name}").format(name=_(desiccant)))
+    names: Any = (
+        _("pressing or spinning"),
+        _("heat after pressing"),
+        _("heat alone"),
+        _("desiccant: {name}").format(name=_(desiccant)),
+    )
     good: Any = (
         _("2 to 35 kWh per tonne of water"),
         _("both together {value} kJ per kg of water").format(value=format_number(together / 1e3, 3)),
@@ -214,7 +250,9 @@ def water_removal_choice(
         _("free water only: {share} % of the water").format(share=format_number(100 * pressed / whole, 3)),
         _("two machines"),
         _("all water evaporated"),
-        _("needs {mass} kg, regenerated at {temperature} °C; only down to a water activity of {activity}").format(
+        _(
+            "needs {mass} kg, regenerated at {temperature} °C; only down to a water activity of {activity}"
+        ).format(
             mass=format_number(mass, 3),
             temperature=format_number(agent["regeneration"] - ZERO_CELSIUS, 3),
             activity=format_number(agent["least_activity"], 2),

@@ -1,4 +1,6 @@
-"""Spread of a batch of vials in freeze drying: edge vials, and differences of heat transfer, resistance and fill."""
+"""Spread of a batch of vials in freeze drying: edge vials, and differences of heat transfer, resistance and
+fill.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ from granum.core.kinds import (
     Time,
     Volume,
     Within,
-)  # fmt: skip
+)
 from granum.drying.formulas.freeze_drying import primary_drying
 from granum.drying.kinds import (
     HeatTransferPerPressure,
@@ -69,13 +71,32 @@ def vial_spread(
     spread_fill: Fraction = 0.01,
     seed: Annotated[int, Within(0, 1_000_000)] = 0,
 ) -> VialSpread:
-    """Times at which a batch of vials is dry and how warm they get: edge vials see warm walls, the others differ at random.
+    """Times at which a batch of vials is dry and how warm they get: edge vials see warm walls, the others
+    differ at random.
 
-    Edge vials get ``edge_heat_ratio`` times the heat; heat transfer, resistance and fill of all scatter by relative standard deviations
-    (lognormal). Early and late are the 5th and 95th percentile; a batch is dry when its last vial is.
+    Edge vials get ``edge_heat_ratio`` times the heat; heat transfer, resistance and fill of all scatter by
+    relative standard deviations (lognormal). Early and late are the 5th and 95th percentile; a batch is dry
+    when its last vial is.
 
-    >>> batch = vial_spread("100 mtorr", "-10 degC", "3.8 cm^2", "3.14 cm^2", "2 mL", "0.05 g/mL", 11.5, 0.28, 6.7e4, 7.7e7, vial_count=200)
-    >>> bool(batch.drying_time_early < batch.drying_time_median < batch.drying_time_late <= batch.drying_time_last)
+    >>> batch = vial_spread(
+    ...     "100 mtorr",
+    ...     "-10 degC",
+    ...     "3.8 cm^2",
+    ...     "3.14 cm^2",
+    ...     "2 mL",
+    ...     "0.05 g/mL",
+    ...     11.5,
+    ...     0.28,
+    ...     6.7e4,
+    ...     7.7e7,
+    ...     vial_count=200,
+    ... )
+    >>> bool(
+    ...     batch.drying_time_early
+    ...     < batch.drying_time_median
+    ...     < batch.drying_time_late
+    ...     <= batch.drying_time_last
+    ... )
     True
     """
     draw = np.random.default_rng(seed)
@@ -85,21 +106,46 @@ def vial_spread(
         """Factors of mean one."""
         return np.exp(spread * draw.standard_normal(count) - 0.5 * spread**2)
 
-    heat = scatter(spread_heat_transfer) * np.where(np.arange(count) < round(edge_share * count), edge_heat_ratio, 1.0)
+    heat = scatter(spread_heat_transfer) * np.where(
+        np.arange(count) < round(edge_share * count), edge_heat_ratio, 1.0
+    )
     thick = scatter(spread_resistance)
     found = primary_drying(
-        pressure_chamber, temperature_shelf, area_vial, area_product, volume_fill * scatter(spread_fill), concentration,
-        vial_coefficient_contact * heat, vial_coefficient_gas * heat, vapor_resistance * thick, vapor_resistance_slope * thick,
-        vapor_resistance_saturation, vial_coefficient_saturation, temperature_shelf_start, ramp_rate,
-    )  # fmt: skip
+        pressure_chamber,
+        temperature_shelf,
+        area_vial,
+        area_product,
+        volume_fill * scatter(spread_fill),
+        concentration,
+        vial_coefficient_contact * heat,
+        vial_coefficient_gas * heat,
+        vapor_resistance * thick,
+        vapor_resistance_slope * thick,
+        vapor_resistance_saturation,
+        vial_coefficient_saturation,
+        temperature_shelf_start,
+        ramp_rate,
+    )
     times, warmest = np.asarray(found.drying_time), np.asarray(found.temperature_product)
     if not np.isfinite(times).all():
         raise ApplicabilityError(
-            _("Some vials never dry: at a shelf of {temperature} K ice has less vapor pressure than the chamber.").format(
-                temperature=f"{temperature_shelf:.1f}"
-            )
+            _(
+                "Some vials never dry: at a shelf of {temperature} K ice has less vapor pressure than "
+                "the chamber."
+            ).format(temperature=f"{temperature_shelf:.1f}")
         )
     early, median, late = np.percentile(times, (5, 50, 95))
     return VialSpread(
-        *map(float, (median, early, late, times.max(), np.median(warmest), warmest.max(), np.mean(warmest > temperature_limit)))
+        *map(
+            float,
+            (
+                median,
+                early,
+                late,
+                times.max(),
+                np.median(warmest),
+                warmest.max(),
+                np.mean(warmest > temperature_limit),
+            ),
+        )
     )

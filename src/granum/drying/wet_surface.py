@@ -19,13 +19,20 @@ def boiled(feed: Stream, moisture: Any, T_product: Any, T_vapor: Any, pressure: 
     rest = crystallized(feed, 1.0 - safe_divide(left, feed.liquid[0], 1.0))
     product = rest.replace(gas=nothing, temperature=jnp.asarray(T_product, dtype=float))
     gas = feed.gas.at[humid.vapor].add(feed.liquid[0] - left)
-    vapor = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=jnp.zeros_like(feed.liquid), gas=gas,
-                         temperature=jnp.asarray(T_vapor, dtype=float), pressure=jnp.asarray(pressure, dtype=float))  # fmt: skip
+    vapor = feed.replace(
+        solid=jnp.zeros_like(feed.solid),
+        liquid=jnp.zeros_like(feed.liquid),
+        gas=gas,
+        temperature=jnp.asarray(T_vapor, dtype=float),
+        pressure=jnp.asarray(pressure, dtype=float),
+    )
     return product, vapor
 
 
 def crystallized(wet: Stream, share: Any) -> Stream:
-    """Less a share of the liquid that evaporates (the first), with the same share of each solute on the solid of its own name, where there is one."""
+    """Less a share of the liquid that evaporates (the first), with the same share of each solute on the solid
+    of its own name, where there is one.
+    """
     m = wet.mixture
     solid, liquid = wet.solid, wet.liquid.at[0].multiply(1.0 - share)
     names = [species.name for species in m.solids]
@@ -33,6 +40,11 @@ def crystallized(wet: Stream, share: Any) -> Stream:
         if species.name in names:
             row = names.index(species.name)
             there = jnp.sum(solid[row])
-            spread = jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size)
-            solid, liquid = solid.at[row].add(wet.liquid[i] * share * spread), liquid.at[i].multiply(1.0 - share)
+            spread = jnp.where(
+                there > 0, solid[row] / jnp.where(there > 0, there, 1.0), 1.0 / solid[row].size
+            )
+            solid, liquid = (
+                solid.at[row].add(wet.liquid[i] * share * spread),
+                liquid.at[i].multiply(1.0 - share),
+            )
     return wet.replace(solid=solid, liquid=liquid)

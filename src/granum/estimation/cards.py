@@ -1,7 +1,11 @@
 """Fit any formula or law to measured columns: what the file and the given values do not hold is estimated.
 
->>> data = CardData.read("particles.terminal_velocity_stokes", "speeds.csv", estimate=["dynamic_viscosity"],
-...                      fixed={"particle_density": 2650.0, "fluid_density": 1000.0})  # doctest: +SKIP
+>>> data = CardData.read(
+...     "particles.terminal_velocity_stokes",
+...     "speeds.csv",
+...     estimate=["dynamic_viscosity"],
+...     fixed={"particle_density": 2650.0, "fluid_density": 1000.0},
+... )  # doctest: +SKIP
 >>> data.fit()["dynamic_viscosity"].interval_95  # doctest: +SKIP
 """
 
@@ -50,17 +54,26 @@ class CardData:
     starts: dict[str, tuple[float | None, Parameter]]
 
     @staticmethod
-    def read(thing: Any, source: Source, *, estimate: Sequence[str] | Mapping[str, Any] = (), fixed: Mapping[str, Any] | None = None,
-             output: str = "") -> CardData:  # fmt: skip
-        """The data of a file (CSV, TSV, XLSX) with units in its header; columns are named like the inputs and the result.
+    def read(
+        thing: Any,
+        source: Source,
+        *,
+        estimate: Sequence[str] | Mapping[str, Any] = (),
+        fixed: Mapping[str, Any] | None = None,
+        output: str = "",
+    ) -> CardData:
+        """The data of a file (CSV, TSV, XLSX) with units in its header; columns are named like the inputs and
+        the result.
 
-        ``estimate`` names the parameters to find, as a list or with first values (any unit). Of a law, all parameters that are not
-        given are found.
+        ``estimate`` names the parameters to find, as a list or with first values (any unit). Of a law, all
+        parameters that are not given are found.
         """
         thing = registry.find(thing) if isinstance(thing, str) else thing
         if thing.card.sort not in ("formula", "law"):
             raise InputError(
-                _("'{key}' is a {sort}: formulas, laws and lab tests can be fitted.").format(key=thing.card.key, sort=_(thing.card.sort))
+                _("'{key}' is a {sort}: formulas, laws and lab tests can be fitted.").format(
+                    key=thing.card.key, sort=_(thing.card.sort)
+                )
             )
         wanted = dict(estimate) if isinstance(estimate, Mapping) else dict.fromkeys(estimate)
         where = _("for {owner}").format(owner=thing.card.key)
@@ -70,7 +83,9 @@ class CardData:
                 raise unknown_name(_("Input"), name, inputs, where)
         known = {n: convert(v, inputs[n], " " + where) for n, v in (fixed or {}).items()}
         kept, found = held(source)
-        free = [p for n, p in inputs.items() if n in found and _numeric(p) and n not in wanted and n not in known]
+        free = [
+            p for n, p in inputs.items() if n in found and _numeric(p) and n not in wanted and n not in known
+        ]
         table = read_table(kept, [replace(p, series="points", default=REQUIRED) for p in (result, *free)])
         measured = table.pop(result.name)
         if thing.card.sort == "law":
@@ -78,22 +93,44 @@ class CardData:
             wanted |= {
                 n: None
                 for n, p in inputs.items()
-                if n in own and _numeric(p) and p.required and n not in known and n not in table and n not in wanted
+                if n in own
+                and _numeric(p)
+                and p.required
+                and n not in known
+                and n not in table
+                and n not in wanted
             }
         for name in wanted:
             if not _numeric(inputs[name]):
-                raise InputError(_("'{name}' cannot be estimated: it is no single number.").format(name=name), name=name)
-        missing = [n for n, p in inputs.items() if p.required and n not in known and n not in table and n not in wanted]
+                raise InputError(
+                    _("'{name}' cannot be estimated: it is no single number.").format(name=name), name=name
+                )
+        missing = [
+            n
+            for n, p in inputs.items()
+            if p.required and n not in known and n not in table and n not in wanted
+        ]
         if missing:
             raise InputError(
                 _(
-                    "{owner}: {names} are neither columns of the file ({columns}) nor given. Give them, or estimate them (--estimate {first})."
-                ).format(owner=thing.card.key, names=", ".join(f"'{n}'" for n in missing), columns=", ".join(found), first=missing[0]),
+                    "{owner}: {names} are neither columns of the file ({columns}) nor given. Give them, "
+                    "or estimate them (--estimate {first})."
+                ).format(
+                    owner=thing.card.key,
+                    names=", ".join(f"'{n}'" for n in missing),
+                    columns=", ".join(found),
+                    first=missing[0],
+                ),
                 missing=missing,
             )
         if not wanted:
-            raise InputError(_("There is nothing to estimate: name at least one parameter (--estimate NAME)."))
-        starts = {n: (None if v is None else float(convert(v, inputs[n], " " + where)), inputs[n]) for n, v in wanted.items()}
+            raise InputError(
+                _("There is nothing to estimate: name at least one parameter (--estimate NAME).")
+            )
+        starts = {
+            n: (None if v is None else float(convert(v, inputs[n], " " + where)), inputs[n])
+            for n, v in wanted.items()
+        }
         return CardData(thing, result, table, measured, known, starts)
 
     def model(self, parameters: Mapping[str, Any], columns: Mapping[str, Any]) -> Any:
@@ -105,14 +142,27 @@ class CardData:
     def fit(self, loss: Loss | None = None) -> Fit:
         """Estimate the parameters, from the best of many places within their ordinary ranges."""
         ranges = [_range(p) for _start, p in self.starts.values()]
-        cube = np.vstack([np.full((1, len(ranges)), 0.5), qmc.LatinHypercube(len(ranges), rng=np.random.default_rng(0)).random(TRIALS)])
+        cube = np.vstack(
+            [
+                np.full((1, len(ranges)), 0.5),
+                qmc.LatinHypercube(len(ranges), rng=np.random.default_rng(0)).random(TRIALS),
+            ]
+        )
         places = [
-            {n: given if given is not None else _at(r, u) for (n, (given, _p)), r, u in zip(self.starts.items(), ranges, row, strict=True)}
+            {
+                n: given if given is not None else _at(r, u)
+                for (n, (given, _p)), r, u in zip(self.starts.items(), ranges, row, strict=True)
+            }
             for row in cube
         ]
-        misses = [self._miss(place) for place in (places if any(g is None for g, _p in self.starts.values()) else places[:1])]
+        misses = [
+            self._miss(place)
+            for place in (places if any(g is None for g, _p in self.starts.values()) else places[:1])
+        ]
         if not np.isfinite(min(misses)):
-            raise InputError(_("The model has no finite value at the start values {start}.").format(start=places[0]))
+            raise InputError(
+                _("The model has no finite value at the start values {start}.").format(start=places[0])
+            )
         bounds = {n: (p.kind.lower, p.kind.upper) for n, (_g, p) in self.starts.items() if p.kind is not None}
         kinds = {n: Annotated[Any, p.kind] for n, (_g, p) in self.starts.items() if p.kind is not None}
         found = fit(
@@ -125,27 +175,48 @@ class CardData:
             loss=loss,
             card=self.thing.card.key,
         )
-        return replace(found, defaults=self.defaults(), ranges={n: (float(v.min()), float(v.max())) for n, v in self.columns.items()})
+        return replace(
+            found,
+            defaults=self.defaults(),
+            ranges={n: (float(v.min()), float(v.max())) for n, v in self.columns.items()},
+        )
 
     def defaults(self) -> dict[str, Any]:
-        """Inputs that were neither measured nor given nor estimated and stand at their defaults, as plain data."""
+        """Inputs that were neither measured nor given nor estimated and stand at their defaults, as plain
+        data.
+        """
         known = {*self.fixed, *self.columns, *self.starts}
-        left = {n: p.default for n, p in self.thing.card.inputs.items() if n not in known and not p.required and p.default is not None}
+        left = {
+            n: p.default
+            for n, p in self.thing.card.inputs.items()
+            if n not in known and not p.required and p.default is not None
+        }
         return {n: default_as_json(value) for n, value in left.items()}
 
     def next_measurement(self, found: Fit, steps: int = 41) -> dict[str, Any]:
-        """Where in the measured ranges one more measurement tells most, SI: ``{"at", "shrinkage", "standard_errors"}``."""
+        """Where in the measured ranges one more measurement tells most, SI: ``{"at", "shrinkage",
+        "standard_errors"}``.
+        """
         per = max(2, round((steps**2) ** (1 / max(len(self.columns), 1)))) if len(self.columns) > 2 else steps
         spans = [np.linspace(v.min(), v.max(), per) for v in self.columns.values()]
         grid = dict(zip(self.columns, (g.ravel() for g in np.meshgrid(*spans, indexing="ij")), strict=True))
         told = next_experiment(found, grid)
         inputs = self.thing.card.inputs
-        at = {n: {"value": float(g[told.best]), "unit": inputs[n].kind.unit if inputs[n].kind else ""} for n, g in grid.items()}  # type: ignore[union-attr]
-        return {"at": at, "shrinkage": float(told.shrinkage[told.best]), "standard_errors": told.standard_errors}
+        at = {
+            n: {"value": float(g[told.best]), "unit": inputs[n].kind.unit if inputs[n].kind else ""}
+            for n, g in grid.items()
+        }  # type: ignore[union-attr]
+        return {
+            "at": at,
+            "shrinkage": float(told.shrinkage[told.best]),
+            "standard_errors": told.standard_errors,
+        }
 
     def _miss(self, place: Mapping[str, float]) -> float:
         with np.errstate(all="ignore"):
-            found = np.broadcast_to(np.asarray(self.model(place, self.columns), dtype=float), self.measured.shape)
+            found = np.broadcast_to(
+                np.asarray(self.model(place, self.columns), dtype=float), self.measured.shape
+            )
             miss = float(np.sum((found - self.measured) ** 2))
         return miss if np.isfinite(miss) else np.inf
 
@@ -170,7 +241,9 @@ class CardData:
             x, across = scaled(parameter, values)
             drawing = figure(across, upward, title=self.thing.card.title)
             unit = best_unit(float(np.median(np.abs(self.measured))), self.output.kind)  # type: ignore[arg-type]
-            low, high, middle = (np.asarray(from_si(v, unit, self.output.kind)) for v in (band.low, band.high, band.value))  # type: ignore[arg-type]
+            low, high, middle = (
+                np.asarray(from_si(v, unit, self.output.kind)) for v in (band.low, band.high, band.value)
+            )  # type: ignore[arg-type]
             along = np.linspace(x.min(), x.max(), 200)
             add_band(drawing, along, low, high, _("95 % band"))
             add_line(drawing, along, middle, _("model"))
@@ -187,7 +260,8 @@ class CardData:
 def fit_together(sets: Sequence[CardData], loss: Loss | None = None) -> Fit:
     """One fit of the same parameters to several data sets, each with its own columns and fixed values.
 
-    Each set is weighted by the scatter it shows when it is fitted alone, so that sets of different sizes and precision count as they deserve.
+    Each set is weighted by the scatter it shows when it is fitted alone, so that sets of different sizes and
+    precision count as they deserve.
     """
     if not sets or len({tuple(s.starts) for s in sets}) != 1:
         raise InputError(_("Data sets are fitted together when all of them estimate the same parameters."))
@@ -199,17 +273,31 @@ def fit_together(sets: Sequence[CardData], loss: Loss | None = None) -> Fit:
     start = {n: float(np.mean([f[n].value for f in alone])) for n in sets[0].starts}
     kinds = {n: Annotated[Any, p.kind] for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
     bounds = {n: (p.kind.lower, p.kind.upper) for n, (_g, p) in sets[0].starts.items() if p.kind is not None}
-    found = fit(lambda p, x: tuple(s.model(p, c) for s, c in zip(sets, x, strict=True)), start, tuple(s.columns for s in sets),
-               tuple(s.measured for s in sets), sigma=spreads, bounds=bounds, kinds=kinds, loss=loss, card=sets[0].thing.card.key)  # fmt: skip
+    found = fit(
+        lambda p, x: tuple(s.model(p, c) for s, c in zip(sets, x, strict=True)),
+        start,
+        tuple(s.columns for s in sets),
+        tuple(s.measured for s in sets),
+        sigma=spreads,
+        bounds=bounds,
+        kinds=kinds,
+        loss=loss,
+        card=sets[0].thing.card.key,
+    )
     ends = [f.ranges for f in alone]
-    ranges = {n: (min(e[n][0] for e in ends if n in e), max(e[n][1] for e in ends if n in e)) for n in {n for e in ends for n in e}}
+    ranges = {
+        n: (min(e[n][0] for e in ends if n in e), max(e[n][1] for e in ends if n in e))
+        for n in {n for e in ends for n in e}
+    }
     return replace(found, defaults={n: v for f in alone for n, v in f.defaults.items()}, ranges=ranges)
 
 
 def _result(thing: Any, output: str, where: str) -> Parameter:
     outputs = {p.name: p for p in thing.card.outputs if p.kind is not None and not p.series}
     if not outputs:
-        raise InputError(_("'{key}' gives no single number that could be measured.").format(key=thing.card.key))
+        raise InputError(
+            _("'{key}' gives no single number that could be measured.").format(key=thing.card.key)
+        )
     if output and output not in outputs:
         raise unknown_name(_("Result"), output, outputs, where)
     return outputs[output or next(iter(outputs))]

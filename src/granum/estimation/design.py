@@ -36,7 +36,8 @@ class NextExperiment(NamedTuple):
 def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> NextExperiment:
     """Rank candidate conditions for the next measurement of a fitted model.
 
-    The gain of a measurement with derivatives j and deviation σ is log(1 + jᵀ C j / σ²) in the logarithm of the determinant of the information.
+    The gain of a measurement with derivatives j and deviation σ is log(1 + jᵀ C j / σ²) in the logarithm of
+    the determinant of the information.
 
     Parameters
     ----------
@@ -46,7 +47,12 @@ def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> Ne
     jacobian = _jacobian(fit.problem.model, fit.values, candidates)
     covariance = fit.covariance
     if not np.all(np.isfinite(covariance)):
-        raise InputError(_("The parameters are not determined at all by the data so far; plan a set of experiments instead."))
+        raise InputError(
+            _(
+                "The parameters are not determined at all by the data so far; plan a set of experiments "
+                "instead."
+            )
+        )
     spread = fit.statistics["residual_standard_deviation"] if sigma is None else sigma
     reached = jacobian @ covariance
     gain = np.einsum("ij,ij->i", reached, jacobian) / spread**2
@@ -56,16 +62,23 @@ def next_experiment(fit: Fit, candidates: Any, sigma: float | None = None) -> Ne
     return NextExperiment(best, 1.0 / np.sqrt(1.0 + gain), errors)
 
 
-def optimal_design(model: Callable[[dict[str, Any], Any], Any], parameters: Mapping[str, float], candidates: Any, count: int) -> np.ndarray:
-    """Indices of ``count`` candidates (repeats allowed) that together determine the parameters best: D-optimal, by exchange (Fedorov 1972).
+def optimal_design(
+    model: Callable[[dict[str, Any], Any], Any], parameters: Mapping[str, float], candidates: Any, count: int
+) -> np.ndarray:
+    """Indices of ``count`` candidates (repeats allowed) that together determine the parameters best:
+    D-optimal, by exchange (Fedorov 1972).
 
     Locally optimal: for the values of the parameters given.
     """
     jacobian = _jacobian(model, parameters, candidates)
-    jacobian = jacobian / np.where(np.linalg.norm(jacobian, axis=0) > 0, np.linalg.norm(jacobian, axis=0), 1.0)
+    jacobian = jacobian / np.where(
+        np.linalg.norm(jacobian, axis=0) > 0, np.linalg.norm(jacobian, axis=0), 1.0
+    )
     if count < jacobian.shape[1]:
         raise InputError(
-            _("{count} experiments cannot determine {parameters} parameters.").format(count=count, parameters=jacobian.shape[1])
+            _("{count} experiments cannot determine {parameters} parameters.").format(
+                count=count, parameters=jacobian.shape[1]
+            )
         )
     ridge = 1e-9 * np.eye(jacobian.shape[1])
     chosen: list[int] = []
@@ -86,12 +99,18 @@ def optimal_design(model: Callable[[dict[str, Any], Any], Any], parameters: Mapp
         if best[1] < 0:
             break
         _gain, place, new = best
-        information = information + np.outer(jacobian[new], jacobian[new]) - np.outer(jacobian[chosen[place]], jacobian[chosen[place]])
+        information = (
+            information
+            + np.outer(jacobian[new], jacobian[new])
+            - np.outer(jacobian[chosen[place]], jacobian[chosen[place]])
+        )
         chosen[place] = new
     return np.sort(np.array(chosen))
 
 
-def _jacobian(model: Callable[[dict[str, Any], Any], Any], parameters: Mapping[str, float], x: Any) -> np.ndarray:
+def _jacobian(
+    model: Callable[[dict[str, Any], Any], Any], parameters: Mapping[str, float], x: Any
+) -> np.ndarray:
     names = list(parameters)
 
     def flat(vector: Any) -> Any:

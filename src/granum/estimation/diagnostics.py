@@ -1,9 +1,11 @@
-"""Which points a fit should not be believed with, and whether it shows anything at all: leverage, influence, stray points, F test.
+"""Which points a fit should not be believed with, and whether it shows anything at all: leverage, influence,
+stray points, F test.
 
-A stray point is one whose removal, alone or with one or two others, lowers the sum of squares by more than chance allows (mean-shift F test,
-Bonferroni over all sets of that size). Where to look is told by the linear algebra of the fit itself and by a robust fit beside it,
-so that one wild point neither hides another nor itself by pulling a curve along; what is reported was refitted without the points.
-Scatter may be constant or in proportion to what is measured: a point must be stray under both.
+A stray point is one whose removal, alone or with one or two others, lowers the sum of squares by more than
+chance allows (mean-shift F test, Bonferroni over all sets of that size). Where to look is told by the linear
+algebra of the fit itself and by a robust fit beside it, so that one wild point neither hides another nor
+itself by pulling a curve along; what is reported was refitted without the points. Scatter may be constant or
+in proportion to what is measured: a point must be stray under both.
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ ROUND_OFF = 1e-8
 SAME = 0.3
 """Part of the residuals by which two starts must differ to be tried both."""
 UNEVEN, LEAST_SET = 3.0, 5
-"""Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this takes."""
+"""Ratio of the scatter of joint data sets from which each is measured by its own, and the points that this
+takes.
+"""
 LITTLE, SCATTERED = 0.25, 0.15
 SMALL = 0.05
 """Part of the mean size of the data below which a reading's scatter no longer falls with it."""
@@ -47,7 +51,8 @@ class Influence(NamedTuple):
 
     Parameters
     ----------
-    leverage: diagonal of the hat matrix. studentized: residual over its standard deviation from a fit without the point (linearized).
+    leverage: diagonal of the hat matrix. studentized: residual over its standard deviation from a fit without
+        the point (linearized).
     dffits, cook: how far the point moves its own prediction, and all of them.
     """
 
@@ -64,10 +69,14 @@ class Diagnostics:
     Parameters
     ----------
     influence: leverage, studentized residual, DFFITS and Cook's distance of every point.
-    threshold: studentized residual beyond which a single point is stray (Student, Bonferroni over the points).
-    stray: indices of the stray points, and ``deviations``: their distance from the fit without them in its standard deviations.
-    without: parameters fitted without them, by name. robust: parameters of a robust fit (soft L1) to all points; both empty without stray points.
-    probability: of data at least so well described by the model if they did not depend on it (F test against their mean).
+    threshold: studentized residual beyond which a single point is stray (Student, Bonferroni over the
+        points).
+    stray: indices of the stray points, and ``deviations``: their distance from the fit without them in its
+        standard deviations.
+    without: parameters fitted without them, by name. robust: parameters of a robust fit (soft L1) to all
+        points; both empty without stray points.
+    probability: of data at least so well described by the model if they did not depend on it (F test against
+        their mean).
     """
 
     influence: Influence
@@ -81,11 +90,20 @@ class Diagnostics:
     def as_json(self) -> dict[str, Any]:
         """Plain data: the stray points with their figures, and both other fits."""
         rows = [
-            {"point": k + 1, "deviation": d, **{n: float(v[k]) for n, v in self.influence._asdict().items() if np.isfinite(v[k])}}
+            {
+                "point": k + 1,
+                "deviation": d,
+                **{n: float(v[k]) for n, v in self.influence._asdict().items() if np.isfinite(v[k])},
+            }
             for k, d in zip(self.stray, self.deviations, strict=True)
         ]
-        return {"threshold": _finite(self.threshold), "stray": rows, "without_stray": dict(self.without), "robust": dict(self.robust),
-                "probability_of_no_relation": _finite(self.probability)}  # fmt: skip
+        return {
+            "threshold": _finite(self.threshold),
+            "stray": rows,
+            "without_stray": dict(self.without),
+            "robust": dict(self.robust),
+            "probability_of_no_relation": _finite(self.probability),
+        }
 
 
 def diagnose(problem: Problem, q: np.ndarray, held: Collection[str]) -> Diagnostics:
@@ -106,16 +124,26 @@ def diagnose(problem: Problem, q: np.ndarray, held: Collection[str]) -> Diagnost
 
     n, p = residual.size, len(problem.names)
     threshold = float(stats.t.isf(ERROR / (2.0 * n), n - p - 1)) if n - p > 1 else np.nan
-    stray, deviations, at, robust = _stray(problem, q, residual, jacobian, floor) if n - p > 1 else ((), (), q, q)
+    stray, deviations, at, robust = (
+        _stray(problem, q, residual, jacobian, floor) if n - p > 1 else ((), (), q, q)
+    )
     found = dict(zip(problem.names, (at * problem.scale).tolist(), strict=True)) if stray else {}
     beside = dict(zip(problem.names, (robust * problem.scale).tolist(), strict=True)) if stray else {}
     return Diagnostics(
-        Influence(*map(spread_out, local)), threshold, tuple(int(place[k]) for k in stray), deviations, found, beside, chance,
-    )  # fmt: skip
+        Influence(*map(spread_out, local)),
+        threshold,
+        tuple(int(place[k]) for k in stray),
+        deviations,
+        found,
+        beside,
+        chance,
+    )
 
 
 def _evened(problem: Problem, q: np.ndarray) -> tuple[Problem, np.ndarray]:
-    """The problem with joint data sets brought to one scatter where theirs differ, solved again: what is far in one may be near in another."""
+    """The problem with joint data sets brought to one scatter where theirs differ, solved again: what is far
+    in one may be near in another.
+    """
     size, group = np.abs(problem.residual(q)), problem.group[problem.keep]
     sets, counts = np.unique(group, return_counts=True)
     if len(sets) < 2 or counts.min() < LEAST_SET:
@@ -131,9 +159,13 @@ def _evened(problem: Problem, q: np.ndarray) -> tuple[Problem, np.ndarray]:
 
 
 def _basis(jacobian: np.ndarray) -> np.ndarray:
-    """Orthonormal columns that span those of the Jacobian: their squares summed by row are the leverage, without the n x n hat matrix."""
+    """Orthonormal columns that span those of the Jacobian: their squares summed by row are the leverage,
+    without the n x n hat matrix.
+    """
     lengths = np.linalg.norm(jacobian, axis=0)
-    left, singular, _right = np.linalg.svd(jacobian / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
+    left, singular, _right = np.linalg.svd(
+        jacobian / np.where(lengths > 0, lengths, 1.0), full_matrices=False
+    )
     return left[:, singular > 1e-10 * max(singular[0], 1e-300)] if singular.size else left
 
 
@@ -146,12 +178,20 @@ def _influence(residual: np.ndarray, basis: np.ndarray, floor: float) -> Influen
     left = np.maximum(squares - residual**2 / room, 0.0) / max(n - p - 1, 1)
     studentized = residual / np.sqrt(np.maximum(left, floor**2) * room + 1e-300)
     pull = leverage / room
-    return Influence(leverage, -studentized, -studentized * np.sqrt(pull), residual**2 * pull / room / (max(p, 1) * variance + 1e-300))
+    return Influence(
+        leverage,
+        -studentized,
+        -studentized * np.sqrt(pull),
+        residual**2 * pull / room / (max(p, 1) * variance + 1e-300),
+    )
 
 
-def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.ndarray,
-           floor: float) -> tuple[tuple[int, ...], tuple[float, ...], np.ndarray, np.ndarray]:  # fmt: skip
-    """Stray points (indices among the kept), their deviations, the solution without them and the robust one."""
+def _stray(
+    problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.ndarray, floor: float
+) -> tuple[tuple[int, ...], tuple[float, ...], np.ndarray, np.ndarray]:
+    """Stray points (indices among the kept), their deviations, the solution without them and the robust
+    one.
+    """
     n, p = residual.size, len(problem.names)
     most = min(MOST, n - p - 1)
     robust = _robust(problem, q, floor)
@@ -177,16 +217,21 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
     tried = [refitted(key) for key, guess in sets.items() if guess < PROMISING]
     if not any(chance < ERROR for chance, _key, _at in tried):
         return nothing
-    if n <= ONE_BY_ONE:  # something is wrong: which point it is, no linear algebra about a spoiled solution may decide
+    if (
+        n <= ONE_BY_ONE
+    ):  # something is wrong: which point it is, no linear algebra about a spoiled solution may decide
         tried += [refitted((k,)) for k in range(n) if sets.get((k,), 1.0) >= PROMISING]
     _least, suspects, at = min(tried, key=lambda item: item[0])
     while suspects:
-        # of a set only those are stray that the others, refitted without the set, reject one by one, whatever the law of their scatter
+        # of a set only those are stray that the others, refitted without the set, reject one by one, whatever
+        # the law of their scatter
         deviations = _deviations(problem, at, suspects, floor)
         even = _in_proportion(problem, at)
         relative = _deviations(even, even.solve(at, without=suspects, search=JUDGING)[0], suspects, floor)
         limit = stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
-        far = tuple(k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit)
+        far = tuple(
+            k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit
+        )
         if far == suspects:
             return far, tuple(deviations), problem.solve(at, without=far)[0], robust
         suspects, at = far, _without(problem, (at, q, robust), far)
@@ -194,7 +239,9 @@ def _stray(problem: Problem, q: np.ndarray, residual: np.ndarray, jacobian: np.n
 
 
 def _in_proportion(problem: Problem, at: np.ndarray) -> Problem:
-    """The problem with scatter in proportion to the model (Carroll and Ruppert 1988): readings good to a percent look wild under one constant scatter."""
+    """The problem with scatter in proportion to the model (Carroll and Ruppert 1988): readings good to a
+    percent look wild under one constant scatter.
+    """
     size, group = np.abs(problem.prediction(at)), problem.group
     mean = np.sqrt(np.bincount(group, size**2) / np.maximum(np.bincount(group), 1))[group]
     return problem.variant(sigma=problem.sigma * np.maximum(size / np.where(mean > 0, mean, 1.0), SMALL))
@@ -213,8 +260,12 @@ def _robust(problem: Problem, q: np.ndarray, floor: float) -> np.ndarray:
     return q
 
 
-def _peeled(residual: np.ndarray, jacobian: np.ndarray, most: int, p: int, floor: float) -> dict[tuple[int, ...], float]:
-    """Sets of one, two … points, each the last one and the point that then stands out most, with their chance: all by linear algebra."""
+def _peeled(
+    residual: np.ndarray, jacobian: np.ndarray, most: int, p: int, floor: float
+) -> dict[tuple[int, ...], float]:
+    """Sets of one, two … points, each the last one and the point that then stands out most, with their
+    chance: all by linear algebra.
+    """
     n = residual.size
     rest, gone, found = np.arange(n), [], {}
     total = None
@@ -232,14 +283,22 @@ def _peeled(residual: np.ndarray, jacobian: np.ndarray, most: int, p: int, floor
     return found
 
 
-def _best_pair(residual: np.ndarray, jacobian: np.ndarray, p: int, floor: float) -> dict[tuple[int, ...], float]:
-    """The two points whose common removal lowers the sum of squares most; they may each look ordinary while the other is there."""
+def _best_pair(
+    residual: np.ndarray, jacobian: np.ndarray, p: int, floor: float
+) -> dict[tuple[int, ...], float]:
+    """The two points whose common removal lowers the sum of squares most; they may each look ordinary while
+    the other is there.
+    """
     basis = _basis(jacobian)
     left = residual - basis @ (basis.T @ residual)
     room = np.eye(residual.size) - basis @ basis.T
     own = np.diag(room)
     determinant = np.outer(own, own) - room**2
-    lowered = left[:, None] ** 2 * own[None, :] - 2.0 * np.outer(left, left) * room + left[None, :] ** 2 * own[:, None]
+    lowered = (
+        left[:, None] ** 2 * own[None, :]
+        - 2.0 * np.outer(left, left) * room
+        + left[None, :] ** 2 * own[:, None]
+    )
     usable = np.triu(determinant > 1e-9, 1)
     if not usable.any():
         return {}
@@ -250,7 +309,9 @@ def _best_pair(residual: np.ndarray, jacobian: np.ndarray, p: int, floor: float)
 
 
 def _chance(before: Any, after: Any, n: int, m: int, p: int, floor: float) -> float:
-    """Probability that leaving out the best m of n points lowers the sum of squares as much by chance (Bonferroni over all sets)."""
+    """Probability that leaving out the best m of n points lowers the sum of squares as much by chance
+    (Bonferroni over all sets).
+    """
     dof = n - m - p
     after = max(after, dof * floor**2, 1e-300)
     return float(min(comb(n, m) * stats.f.sf(max(before - after, 0.0) / m / (after / dof), m, dof), 1.0))
@@ -266,7 +327,9 @@ def _without(problem: Problem, starts: tuple[np.ndarray, ...], key: tuple[int, .
     apart: list[np.ndarray] = []
     for start in starts:
         here = problem.residual(start)
-        if all(np.linalg.norm(here - problem.residual(other)) > SAME * np.linalg.norm(here) for other in apart):
+        if all(
+            np.linalg.norm(here - problem.residual(other)) > SAME * np.linalg.norm(here) for other in apart
+        ):
             apart.append(start)
     return min((problem.solve(start, without=key, search=JUDGING)[0] for start in apart), key=squares)
 
@@ -279,11 +342,16 @@ def _deviations(problem: Problem, at: np.ndarray, key: tuple[int, ...], floor: f
     scaled = jacobian / np.where(lengths > 0, lengths, 1.0)
     inverse = np.linalg.pinv(scaled[rest].T @ scaled[rest], rcond=1e-12, hermitian=True)
     variance = max(float(residual[rest] @ residual[rest]) / max(rest.size - len(problem.names), 1), floor**2)
-    return [float(-residual[k] / np.sqrt(variance * (1.0 + scaled[k] @ inverse @ scaled[k]) + 1e-300)) for k in key]
+    return [
+        float(-residual[k] / np.sqrt(variance * (1.0 + scaled[k] @ inverse @ scaled[k]) + 1e-300))
+        for k in key
+    ]
 
 
 def _no_relation(problem: Problem, q: np.ndarray, residual: np.ndarray, count: int) -> float:
-    """Probability of so good a description by chance: F test of the model against the mean of each data set; NaN where it does not apply."""
+    """Probability of so good a description by chance: F test of the model against the mean of each data set;
+    NaN where it does not apply.
+    """
     spread, sets = problem.spread(problem.y), len(np.unique(problem.group[problem.keep]))
     squares, dof = float(residual @ residual), residual.size - count
     size = float(np.sum((problem.y / problem.sigma)[problem.keep] ** 2))
@@ -295,7 +363,9 @@ def _no_relation(problem: Problem, q: np.ndarray, residual: np.ndarray, count: i
         # a law with one constant, measured where it hardly varies: the points can only agree on the constant
         return 1.0 if squares / dof > SCATTERED**2 * size / residual.size else np.nan
     freedom = max(count - sets, 1)
-    return float(stats.f.sf(max(spread - squares, 0.0) / freedom / (max(squares, 1e-300) / dof), freedom, dof))
+    return float(
+        stats.f.sf(max(spread - squares, 0.0) / freedom / (max(squares, 1e-300) / dof), freedom, dof)
+    )
 
 
 def _finite(value: float) -> float | None:

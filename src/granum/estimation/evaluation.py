@@ -1,4 +1,6 @@
-"""The model of a fit with its slopes, compiled once: a search asks for both, one after the other, at the same point."""
+"""The model of a fit with its slopes, compiled once: a search asks for both, one after the other, at the same
+point.
+"""
 
 from __future__ import annotations
 
@@ -15,15 +17,19 @@ Model = Callable[[dict[str, Any], Any], Any]
 
 
 class Evaluated:
-    """Values of a model at all points, and their slopes, at scaled parameters; those of the last place are kept.
+    """Values of a model at all points, and their slopes, at scaled parameters; those of the last place are
+    kept.
 
-    A model that is a module, with its numbers as arrays, is compiled once for all data of one length; any other function for each fit.
+    A model that is a module, with its numbers as arrays, is compiled once for all data of one length; any
+    other function for each fit.
     """
 
     def __init__(self, model: Model, names: tuple[str, ...], scale: np.ndarray, x: Any):
         x = jax.tree.map(jax.numpy.asarray, x)
         self._function = (
-            _shared(model, names, scale, x) if isinstance(model, eqx.Module) else jax.jit(partial(_both, model, names, scale, x))
+            _shared(model, names, scale, x)
+            if isinstance(model, eqx.Module)
+            else jax.jit(partial(_both, model, names, scale, x))
         )
         self._place: bytes | None = None
         self._found: tuple[np.ndarray, np.ndarray] = (np.empty(0), np.empty((0, 0)))
@@ -49,5 +55,7 @@ def _both(model: Model, names: tuple[str, ...], scale: Any, x: Any, q: Any) -> t
 _both_for_all = eqx.filter_jit(_both)
 
 
-def _shared(model: Any, names: tuple[str, ...], scale: np.ndarray, x: Any) -> Callable[[Any], tuple[Any, Any]]:
+def _shared(
+    model: Any, names: tuple[str, ...], scale: np.ndarray, x: Any
+) -> Callable[[Any], tuple[Any, Any]]:
     return lambda q: _both_for_all(model, names, jax.numpy.asarray(scale), x, jax.numpy.asarray(q))

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 
 class Profile(NamedTuple):
-    """Values of one parameter, the F ratio of the refitted sum of squares, and the 95 % profile-likelihood interval."""
+    """Values of one parameter, the F ratio of the refitted sum of squares, and the 95 % profile-likelihood
+    interval.
+    """
 
     values: np.ndarray
     ratio: np.ndarray
@@ -25,7 +27,8 @@ class Profile(NamedTuple):
 
 
 def profile(fit: Fit, name: str, points: int = 21) -> Profile:
-    """Refit with one parameter held at values around its estimate; least squares only (Bates and Watts 1988, ch. 6).
+    """Refit with one parameter held at values around its estimate; least squares only (Bates and Watts 1988,
+    ch. 6).
 
     An end of the interval is a bound, or NaN, where the sum of squares never rises enough.
     """
@@ -38,7 +41,11 @@ def profile(fit: Fit, name: str, points: int = 21) -> Profile:
     best = np.array(list(fit.values.values())) / problem.scale
     least = float(np.sum(problem.residual(best) ** 2))
     critical = float(stats.f.ppf(0.95, 1, dof))
-    step = estimate.standard_error if np.isfinite(estimate.standard_error) else 0.1 * (abs(estimate.value) or 1.0)
+    step = (
+        estimate.standard_error
+        if np.isfinite(estimate.standard_error)
+        else 0.1 * (abs(estimate.value) or 1.0)
+    )
 
     def ratio(value: float) -> float:
         q, _out = problem.solve(best, fixed={name: value})
@@ -52,7 +59,11 @@ def profile(fit: Fit, name: str, points: int = 21) -> Profile:
             reach *= 1.6
             far = _inside(estimate.value + side * reach, bound, side)
         if ratio(far) >= critical:
-            ends.append(root_scalar(lambda v: ratio(float(v)) - critical, bracket=(estimate.value, far), xtol=1e-12 * step).root)
+            ends.append(
+                root_scalar(
+                    lambda v: ratio(float(v)) - critical, bracket=(estimate.value, far), xtol=1e-12 * step
+                ).root
+            )
         else:
             ends.append(float(bound) if far == bound else np.nan)
     low, high = ends
@@ -67,7 +78,9 @@ def _inside(value: float, bound: float, side: float) -> float:
 
 
 def bootstrap(fit: Fit, count: int = 500, seed: int = 0) -> Mapping[str, np.ndarray]:
-    """Parameters refitted to the model plus resampled residuals, widened to their unbiased size; one row a draw."""
+    """Parameters refitted to the model plus resampled residuals, widened to their unbiased size; one row a
+    draw.
+    """
     problem, rng = fit.problem, np.random.default_rng(seed)
     best = np.array(list(fit.values.values())) / problem.scale
     standard = -problem.residual(best)

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 class LabTest(eqx.Module):
     """A laboratory test: columns measured under conditions, from which parameters are estimated.
 
-    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``axes`` (kinds of what is fitted
-    against what, by glossary word, for the chart), and ``holds_for``: columns and conditions outside whose range the estimates are
-    extrapolated.
+    Class variables: ``estimates`` (kinds of the parameters by name), ``least_points``, ``axes`` (kinds of
+    what is fitted against what, by glossary word, for the chart), and ``holds_for``: columns and conditions
+    outside whose range the estimates are extrapolated.
     """
 
     card: ClassVar[Card]
@@ -37,7 +37,9 @@ class LabTest(eqx.Module):
     axes: ClassVar[Mapping[str, Any]]
     least_points: ClassVar[int] = 3
     holds_for: ClassVar[tuple[str, ...]] = ()
-    origins: tuple[tuple[str, str], ...] = eqx.field(default=(), init=False, static=True, repr=False, kw_only=True)
+    origins: tuple[tuple[str, str], ...] = eqx.field(
+        default=(), init=False, static=True, repr=False, kw_only=True
+    )
     """Conditions that a stated ``fluid`` gave, each with what it says of itself."""
 
     @classmethod
@@ -51,7 +53,11 @@ class LabTest(eqx.Module):
 
     def __check_init__(self) -> None:
         card = type(self).card
-        lengths = {p.name: len(value) for p in card.parameters if p.series and (value := getattr(self, p.name)) is not None}
+        lengths = {
+            p.name: len(value)
+            for p in card.parameters
+            if p.series and (value := getattr(self, p.name)) is not None
+        }
         if len(set(lengths.values())) > 1:
             shown = ", ".join(f"{name} ({count})" for name, count in lengths.items())
             raise InputError(_("The columns have unequal lengths: {columns}.").format(columns=shown))
@@ -64,20 +70,37 @@ class LabTest(eqx.Module):
         for name in lengths:
             values = np.asarray(getattr(self, name), dtype=float)
             if not np.all(np.isfinite(values)):
-                raise self.bad_row(name, ~np.isfinite(values), _("'{name}' must be a number in every row: row {number} has {value}."))
+                raise self.bad_row(
+                    name,
+                    ~np.isfinite(values),
+                    _("'{name}' must be a number in every row: row {number} has {value}."),
+                )
 
     @abc.abstractmethod
     def fit(self) -> Fit:
         """Estimate the parameters."""
 
-    def fitted(self, model: Callable[[dict[str, Any], Any], Any], start: Mapping[str, float], x: Any, y: Any, *,
-               kinds: Mapping[str, Any] | None = None, index: Any = None, **options: Any) -> Fit:  # fmt: skip
-        """``granum.estimation.fit`` with the card, the kinds, the rows and the defaults of this class filled in.
+    def fitted(
+        self,
+        model: Callable[[dict[str, Any], Any], Any],
+        start: Mapping[str, float],
+        x: Any,
+        y: Any,
+        *,
+        kinds: Mapping[str, Any] | None = None,
+        index: Any = None,
+        **options: Any,
+    ) -> Fit:
+        """``granum.estimation.fit`` with the card, the kinds, the rows and the defaults of this class filled
+        in.
 
-        ``index`` is the row of the data from which each point was computed, needed where some rows gave none or points are in another order.
+        ``index`` is the row of the data from which each point was computed, needed where some rows gave none
+        or points are in another order.
         """
         kinds = {**self.estimates, **(kinds or {})}
-        found = fit(model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options)
+        found = fit(
+            model, start, x, y, card=type(self).card.key, kinds=kinds, rows=self.rows(x, y, index), **options
+        )
         return replace(found, defaults=self.defaults(), ranges=self.ranges(), origins=self.stated())
 
     def judged(self, found: Fit, trials: int) -> Fit:
@@ -85,12 +108,20 @@ class LabTest(eqx.Module):
         return judge(found, self.rows(found.problem.x, found.problem.y), trials)
 
     def rows(self, x: Any, y: Any, index: Any = None) -> Rows:
-        """The rows of the data behind the points of a fit: as given, or one for one where nothing speaks against it."""
-        columns = [(p, np.asarray(value)) for p in type(self).card.parameters if p.series and (value := getattr(self, p.name)) is not None]
+        """The rows of the data behind the points of a fit: as given, or one for one where nothing speaks
+        against it.
+        """
+        columns = [
+            (p, np.asarray(value))
+            for p in type(self).card.parameters
+            if p.series and (value := getattr(self, p.name)) is not None
+        ]
         count, points = len(columns[0][1]), sum(np.size(part) for part in jax.tree.leaves(y))
         if index is not None:
             return Rows(columns, np.resize(np.asarray(index), points))
-        if points % count or (np.size(x) == count and not any(_same_order(np.ravel(x), values) for _p, values in columns)):
+        if points % count or (
+            np.size(x) == count and not any(_same_order(np.ravel(x), values) for _p, values in columns)
+        ):
             return Rows()
         return Rows(columns, np.arange(points) % count)
 
@@ -110,7 +141,11 @@ class LabTest(eqx.Module):
 
     def ranges(self) -> dict[str, tuple[float, float]]:
         """What the estimates hold for: lowest and highest value of the columns and conditions that matter."""
-        given = {n: np.asarray(value, dtype=float) for n in self.holds_for if (value := getattr(self, n)) is not None}
+        given = {
+            n: np.asarray(value, dtype=float)
+            for n in self.holds_for
+            if (value := getattr(self, n)) is not None
+        }
         return {n: (float(values.min()), float(values.max())) for n, values in given.items()}
 
     def note(self, word: str, message: str, name: str = "") -> dict[str, Any]:
@@ -121,7 +156,9 @@ class LabTest(eqx.Module):
         """The error of the first bad row of a column; the sentence has room for its name, row and value."""
         at = int(np.argmax(bad))
         value = float(np.asarray(getattr(self, name), dtype=float)[at])
-        return InputError(sentence.format(name=name, number=at + 1, value=f"{value:g}"), name=name, row=at + 1)
+        return InputError(
+            sentence.format(name=name, number=at + 1, value=f"{value:g}"), name=name, row=at + 1
+        )
 
     def above_zero(self, *names: str) -> None:
         """Raise one clear error when a column holds a zero or less: it enters a logarithm or a quotient."""
@@ -129,7 +166,12 @@ class LabTest(eqx.Module):
             bad = np.asarray(getattr(self, name), dtype=float) <= 0.0
             if bad.any():
                 raise self.bad_row(
-                    name, bad, _("'{name}' must be greater than zero in every row: row {number} has {value}; leave such rows out.")
+                    name,
+                    bad,
+                    _(
+                        "'{name}' must be greater than zero in every row: row {number} has {value}; "
+                        "leave such rows out."
+                    ),
                 )
 
     def increasing(self, name: str, *, strictly: bool = True) -> None:
@@ -140,9 +182,9 @@ class LabTest(eqx.Module):
         if bad.any():
             at = int(np.argmax(bad))
             raise InputError(
-                _("'{name}' must increase from point to point: point {number} has {value} after {before}.").format(
-                    name=name, number=at + 2, value=f"{values[at + 1]:g}", before=f"{values[at]:g}"
-                ),
+                _(
+                    "'{name}' must increase from point to point: point {number} has {value} after {before}."
+                ).format(name=name, number=at + 2, value=f"{values[at + 1]:g}", before=f"{values[at]:g}"),
                 name=name,
             )
 

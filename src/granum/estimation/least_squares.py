@@ -60,7 +60,9 @@ class Problem:
         return self._evaluated(q)[1][self.keep] / self.sigma[self.keep][:, None]
 
     def variant(self, **changes: np.ndarray) -> Problem:
-        """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled again."""
+        """The same model with other data ``y`` or standard deviations ``sigma``; nothing is compiled
+        again.
+        """
         other = replace(self, **changes)
         other.__dict__["_evaluated"] = self._evaluated
         return other
@@ -72,12 +74,22 @@ class Problem:
         means = np.bincount(group, weight * kept) / np.where(sums > 0, sums, 1.0)
         return float(np.sum(weight * (kept - means[group]) ** 2))
 
-    def solve(self, q: np.ndarray, *, y: np.ndarray | None = None, fixed: Mapping[str, float] | None = None, width: float | None = None,
-              loss: Loss | None = None, without: Sequence[int] = (), search: Search = EXACT) -> tuple[np.ndarray, Any]:  # fmt: skip
+    def solve(
+        self,
+        q: np.ndarray,
+        *,
+        y: np.ndarray | None = None,
+        fixed: Mapping[str, float] | None = None,
+        width: float | None = None,
+        loss: Loss | None = None,
+        without: Sequence[int] = (),
+        search: Search = EXACT,
+    ) -> tuple[np.ndarray, Any]:
         """Scaled solution and SciPy's outcome, some parameters held, some of the kept points left out.
 
-        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain squares). ``search``: when to stop,
-        early where the start is near the solution and the answer only judges a point.
+        ``width`` is the scale of a robust loss, that of the problem unless another is given (None: plain
+        squares). ``search``: when to stop, early where the start is near the solution and the answer only
+        judges a point.
         """
         held = fixed or {}
         loss = loss or self.loss
@@ -100,14 +112,23 @@ class Problem:
             found = weight[:, None] * self.jacobian(whole(part))[:, free]
             if not np.all(np.isfinite(found)):
                 last = {n: float(v) for n, v in zip(self.names, whole(part) * self.scale, strict=True)}
-                raise ConvergenceError(_("The fit came to values at which the model has no slope: {last}.").format(last=last), last=last)
+                raise ConvergenceError(
+                    _("The fit came to values at which the model has no slope: {last}.").format(last=last),
+                    last=last,
+                )
             return found
 
-        with np.errstate(all="ignore"):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
+        with np.errstate(
+            all="ignore"
+        ):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
             outcome = least_squares(
-                lambda part: weight * self.residual(whole(part), y), np.clip(q, low, high)[free], jac=slopes,  # type: ignore[arg-type]
-                bounds=(low[free], high[free]), **search._asdict(), **robust,
-            )  # fmt: skip
+                lambda part: weight * self.residual(whole(part), y),
+                np.clip(q, low, high)[free],
+                jac=slopes,  # type: ignore[arg-type]
+                bounds=(low[free], high[free]),
+                **search._asdict(),
+                **robust,
+            )
         return whole(outcome.x), outcome
 
 
@@ -135,25 +156,34 @@ def fit(
     ----------
     start: first values by name; their size is the scale of each parameter unless ``scale`` gives it.
     x, y: data; ``y`` (and what the model returns) may be a tuple of arrays, one for each joint data set.
-    sigma: standard deviation of y, one number, an array or a tuple like y: weights the points and makes joint data sets
-        comparable. Its overall size is estimated, not believed.
+    sigma: standard deviation of y, one number, an array or a tuple like y: weights the points and makes joint
+        data sets comparable. Its overall size is estimated, not believed.
     keep: True for the points to use, in the order of the ravelled y.
-    bounds: lowest and highest value by name; a parameter that ends on its bound is flagged and gets no interval.
+    bounds: lowest and highest value by name; a parameter that ends on its bound is flagged and gets no
+        interval.
     loss: ``LeastSquares()``, ``Huber()`` or ``SoftL1()``.
     kinds: kinds of parameters and derived quantities by name, for their units.
     derived: function of the parameters whose results get intervals too.
     rows: the rows of the data behind the points, to name a stray one.
-    judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the best needs it (``judge``).
+    judged: whether to look for stray points and for a relation; of many models fitted to be ranked only the
+        best needs it (``judge``).
     """
     names = tuple(start)
     measured = np.asarray(ravel_pytree(jax.tree.map(lambda v: jnp.asarray(v, dtype=float), y))[0])
     problem = Problem(
-        model=model, x=x, y=measured, sigma=_spread(sigma, y), names=names, loss=loss or LeastSquares(),
+        model=model,
+        x=x,
+        y=measured,
+        sigma=_spread(sigma, y),
+        names=names,
+        loss=loss or LeastSquares(),
         keep=np.ones(measured.shape, bool) if keep is None else np.asarray(ravel_pytree(keep)[0], bool),
         scale=np.array([abs((scale or {}).get(n, 0.0) or start[n]) or 1.0 for n in names]),
-        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names}, derived=derived, group=_groups(y),
+        bounds={n: (bounds or {}).get(n, (-np.inf, np.inf)) for n in names},
+        derived=derived,
+        group=_groups(y),
         kinds=kinds or {},
-    )  # fmt: skip
+    )
     first = np.array([start[n] for n in names]) / problem.scale
     _check(problem, first)
     q, width, held = _settle(problem, first)
@@ -162,7 +192,9 @@ def fit(
 
 
 def judge(found: Fit, rows: Rows, trials: int = 1) -> Fit:
-    """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among which it was chosen."""
+    """A fit with its diagnostics, and in its flags what they mean; ``trials`` is the number of models among
+    which it was chosen.
+    """
     problem = found.problem
     diagnostics = diagnose(problem, np.array(list(found.values.values())) / problem.scale, found.held)
     flags = stray_note(diagnostics, found, rows) + no_relation_note(found, diagnostics.probability, trials)
@@ -199,8 +231,12 @@ def _check(problem: Problem, first: np.ndarray) -> None:
         )
     for name, (low, high) in problem.bounds.items():
         if not low < high:
-            raise InputError(_("The points leave no room for '{name}', which would lie between {low} and {high}.").format(
-                name=name, low=f"{low:g}", high=f"{high:g}"), name=name)  # fmt: skip
+            raise InputError(
+                _("The points leave no room for '{name}', which would lie between {low} and {high}.").format(
+                    name=name, low=f"{low:g}", high=f"{high:g}"
+                ),
+                name=name,
+            )
     if not np.all(np.isfinite(problem.y)):
         raise InputError(_("The data contain values that are not finite numbers."))
     if not (np.all(np.isfinite(first)) and np.all(np.isfinite(problem.residual(first)))):
@@ -217,7 +253,11 @@ def _settle(problem: Problem, q: np.ndarray) -> tuple[np.ndarray, float | None, 
         reached = {}
         for name, value, size in zip(problem.names, q, problem.scale, strict=True):
             for bound in problem.bounds[name]:
-                if name not in held and np.isfinite(bound) and abs(value - bound / size) <= 1e-7 * max(1.0, abs(bound / size)):
+                if (
+                    name not in held
+                    and np.isfinite(bound)
+                    and abs(value - bound / size) <= 1e-7 * max(1.0, abs(bound / size))
+                ):
                     reached[name] = bound
         if not reached or len(held) + len(reached) >= len(problem.names):
             return q, width, held | reached
@@ -238,12 +278,20 @@ def _solve(problem: Problem, q: np.ndarray, held: Mapping[str, float]) -> tuple[
             q, outcome = problem.solve(q, fixed=held, width=width)
     if outcome is None or not outcome.success:
         last = {n: float(v) for n, v in zip(problem.names, q * problem.scale, strict=True)}
-        raise ConvergenceError(_("The fit did not converge; last values {last}.").format(last=last), last=last)
+        raise ConvergenceError(
+            _("The fit did not converge; last values {last}.").format(last=last), last=last
+        )
     return q, width
 
 
-def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mapping[str, float], card: str,
-              flags: list[dict[str, Any]]) -> Fit:  # fmt: skip
+def _conclude(
+    problem: Problem,
+    q: np.ndarray,
+    width: float | None,
+    held: Mapping[str, float],
+    card: str,
+    flags: list[dict[str, Any]],
+) -> Fit:
     names, scale, kinds = problem.names, problem.scale, problem.kinds
     values = {n: float(held.get(n, v)) for n, v in zip(names, q * scale, strict=True)}
     residual, jacobian = problem.residual(q), problem.jacobian(q)
@@ -254,11 +302,15 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
     _u, singular, rotation = np.linalg.svd(jacobian[:, free] / lengths[free], full_matrices=False)
     condition = float(singular[0] / singular[-1]) if singular.size and singular[-1] > 0 else np.inf
     squares = float(residual @ residual)
-    variance = squares / dof if width is None else _robust_variance(problem.loss, residual, width, int(free.sum()))
+    variance = (
+        squares / dof if width is None else _robust_variance(problem.loss, residual, width, int(free.sum()))
+    )
     covariance = np.zeros((len(names), len(names)))
     if condition < 1e12:
         inverse = (rotation.T / singular**2) @ rotation
-        covariance[np.ix_(free, free)] = variance * inverse * np.outer((scale / lengths)[free], (scale / lengths)[free])
+        covariance[np.ix_(free, free)] = (
+            variance * inverse * np.outer((scale / lengths)[free], (scale / lengths)[free])
+        )
     else:
         covariance[np.ix_(free, free)] = np.nan
     units = {n: kind.unit for n, annotation in kinds.items() if (kind := kind_of(annotation))}
@@ -266,7 +318,9 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
     parameters = {}
     for i, n in enumerate(names):
         error = np.nan if n in held else float(np.sqrt(covariance[i, i]))
-        parameters[n] = Estimate(values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error))
+        parameters[n] = Estimate(
+            values[n], units.get(n, ""), error, (values[n] - reach * error, values[n] + reach * error)
+        )
     whole = problem.prediction(q)
     spread = problem.spread(problem.y)
     count = int(free.sum()) + 1
@@ -283,7 +337,18 @@ def _conclude(problem: Problem, q: np.ndarray, width: float | None, held: Mappin
     }
     flags += parameter_notes(parameters, covariance, held, condition, problem, card)
     found = {} if problem.derived is None else derive(problem.derived, values, covariance, dof, units)
-    return Fit(card, parameters, covariance, problem.y - whole, problem.keep, statistics, found, flags, problem, tuple(held))
+    return Fit(
+        card,
+        parameters,
+        covariance,
+        problem.y - whole,
+        problem.keep,
+        statistics,
+        found,
+        flags,
+        problem,
+        tuple(held),
+    )
 
 
 def _robust_variance(loss: Loss, residual: np.ndarray, width: float, count: int) -> float:

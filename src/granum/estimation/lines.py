@@ -18,11 +18,23 @@ def straight_line(x: Any, y: Any) -> tuple[float, float]:
     """
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if not (np.all(np.isfinite(x)) and np.all(np.isfinite(y))):
-        raise InputError(_("The points give no finite numbers to fit: a zero or a negative value stands where none can."))
+        raise InputError(
+            _("The points give no finite numbers to fit: a zero or a negative value stands where none can.")
+        )
     across = x - x.mean() if x.size else x
     width = float(across @ across)
-    if x.size < 2 or not np.max(np.abs(across)) > 1e-12 * np.max(np.abs(x)) or not np.isfinite(width) or width <= 0.0:
-        raise InputError(_("All points lie at one place, so no line can be drawn through them: measure at different conditions."))
+    if (
+        x.size < 2
+        or not np.max(np.abs(across)) > 1e-12 * np.max(np.abs(x))
+        or not np.isfinite(width)
+        or width <= 0.0
+    ):
+        raise InputError(
+            _(
+                "All points lie at one place, so no line can be drawn through them: measure at "
+                "different conditions."
+            )
+        )
     slope = float(across @ y) / width
     return slope, float(y.mean() - slope * x.mean())
 
@@ -37,9 +49,10 @@ def polynomial(x: Any, y: Any, degree: int) -> list[float]:
     places = len(np.unique(np.asarray(x, dtype=float)))
     if places <= degree:
         raise InputError(
-            _("The points lie at {places} places; the curve needs at least {least}: measure at more conditions.").format(
-                places=places, least=degree + 1
-            )
+            _(
+                "The points lie at {places} places; the curve needs at least {least}: measure at more "
+                "conditions."
+            ).format(places=places, least=degree + 1)
         )
     found = np.polynomial.Polynomial.fit(x, y, degree).convert().coef
     return [*map(float, found), *[0.0] * (degree + 1 - len(found))]

@@ -1,4 +1,6 @@
-"""What a residual costs: squared, or growing only linearly beyond a threshold so that stray points lose their pull."""
+"""What a residual costs: squared, or growing only linearly beyond a threshold so that stray points lose their
+pull.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,8 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Loss(abc.ABC):
-    """A loss rho(z) of the squared residual z = (residual / (threshold · scale))², with its first two derivatives.
+    """A loss rho(z) of the squared residual z = (residual / (threshold · scale))², with its first two
+    derivatives.
 
     ``threshold`` is counted in robust standard deviations of the residuals; the scale is found with the fit.
     """
@@ -50,7 +53,13 @@ class Huber(Loss):
     def rho(self, z: np.ndarray) -> np.ndarray:
         beyond = z > 1.0
         root = np.sqrt(np.where(beyond, z, 1.0))
-        return np.stack([np.where(beyond, 2.0 * root - 1.0, z), np.where(beyond, 1.0 / root, 1.0), np.where(beyond, -0.5 / root**3, 0.0)])
+        return np.stack(
+            [
+                np.where(beyond, 2.0 * root - 1.0, z),
+                np.where(beyond, 1.0 / root, 1.0),
+                np.where(beyond, -0.5 / root**3, 0.0),
+            ]
+        )
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,6 @@
-"""What a fit gives: estimates with intervals, covariance, statistics, bands, samples, and the stable JSON shape."""
+"""What a fit gives: estimates with intervals, covariance, statistics, bands, samples, and the stable JSON
+shape.
+"""
 
 from __future__ import annotations
 
@@ -137,11 +139,17 @@ class Fit:
         self, function: Callable[[dict[str, Any]], Mapping[str, Any]], units: Mapping[str, str] | None = None
     ) -> dict[str, Estimate]:
         """Quantities computed from the parameters, with intervals by the delta method."""
-        return derive(function, self.values, self.covariance, self.statistics["degrees_of_freedom"], units or {})
+        return derive(
+            function, self.values, self.covariance, self.statistics["degrees_of_freedom"], units or {}
+        )
 
     def at_normal(self, normal: np.ndarray, shrink: np.ndarray) -> dict[str, np.ndarray]:
-        """Parameters for standard normal numbers (n, parameters) and the square root of chi² per degree of freedom (n,)."""
-        drawn = np.array(list(self.values.values())) + normal @ _square_root(self.covariance).T / shrink[:, None]
+        """Parameters for standard normal numbers (n, parameters) and the square root of chi² per degree of
+        freedom (n,).
+        """
+        drawn = (
+            np.array(list(self.values.values())) + normal @ _square_root(self.covariance).T / shrink[:, None]
+        )
         return dict(zip(self.values, drawn.T, strict=True))
 
     def derived_from(self, draws: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -157,17 +165,23 @@ class Fit:
         rng = np.random.default_rng(seed)
         center = np.array(list(self.values.values()))
         dof = self.statistics["degrees_of_freedom"]
-        low, high = (np.array(side) for side in zip(*(self.problem.bounds[n] for n in self.values), strict=True))
+        low, high = (
+            np.array(side) for side in zip(*(self.problem.bounds[n] for n in self.values), strict=True)
+        )
         kept = np.empty((0, len(center)))
         for _round in range(100):
             normal = rng.standard_normal((count, len(center)))
-            drawn = np.stack(list(self.at_normal(normal, np.sqrt(rng.chisquare(dof, count) / dof)).values()), axis=1)
+            drawn = np.stack(
+                list(self.at_normal(normal, np.sqrt(rng.chisquare(dof, count) / dof)).values()), axis=1
+            )
             kept = np.concatenate([kept, drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]])
             if len(kept) >= count:
                 break
         return dict(zip(self.values, kept[:count].T, strict=True))
 
-    def ellipse(self, one: str, other: str, level: float = 0.95, points: int = 100) -> tuple[np.ndarray, np.ndarray]:
+    def ellipse(
+        self, one: str, other: str, level: float = 0.95, points: int = 100
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Outline of the joint confidence region of two parameters (linear approximation, F distribution)."""
         names = list(self.parameters)
         for name in (one, other):
@@ -176,7 +190,11 @@ class Fit:
         pair = [names.index(one), names.index(other)]
         angle = np.linspace(0.0, 2.0 * np.pi, points)
         reach = np.sqrt(2.0 * stats.f.ppf(level, 2, self.statistics["degrees_of_freedom"]))
-        x, y = reach * _square_root(self.covariance[np.ix_(pair, pair)]) @ np.stack([np.cos(angle), np.sin(angle)])
+        x, y = (
+            reach
+            * _square_root(self.covariance[np.ix_(pair, pair)])
+            @ np.stack([np.cos(angle), np.sin(angle)])
+        )
         return self[one].value + x, self[other].value + y
 
     def profile(self, name: str, points: int = 21) -> Profile:
@@ -195,12 +213,20 @@ class Fit:
         return notebooks.shown("granum.reports.terminal:print_fit", self)
 
     def to_pandas(self) -> pd.DataFrame:
-        """Parameters and what follows from them, one a row: value in SI, unit, standard error, ends of the 95 % interval."""
+        """Parameters and what follows from them, one a row: value in SI, unit, standard error, ends of the
+        95 % interval.
+        """
         import pandas as pd
 
         groups = ((self.parameters, False), (self.derived, True))
-        rows = [(n, e.value, e.unit, e.standard_error, *e.interval_95, derived) for found, derived in groups for n, e in found.items()]
-        return pd.DataFrame(rows, columns=["name", "value", "unit", "standard_error", "low", "high", "derived"]).set_index("name")
+        rows = [
+            (n, e.value, e.unit, e.standard_error, *e.interval_95, derived)
+            for found, derived in groups
+            for n, e in found.items()
+        ]
+        return pd.DataFrame(
+            rows, columns=["name", "value", "unit", "standard_error", "low", "high", "derived"]
+        ).set_index("name")
 
     def as_json(self) -> dict[str, Any]:
         """The stable ``fit`` shape."""
@@ -213,24 +239,40 @@ class Fit:
             "diagnostics": self.diagnostics.as_json() if self.diagnostics else None,
             "defaults": dict(self.defaults),
             "ranges": {name: [_number(low), _number(high)] for name, (low, high) in self.ranges.items()},
-            "from": {name: {"value": _number(value), "origin": origin} for name, (value, origin) in self.origins.items()},
+            "from": {
+                name: {"value": _number(value), "origin": origin}
+                for name, (value, origin) in self.origins.items()
+            },
         }
 
 
-def derive(function: Callable[[dict[str, Any]], Mapping[str, Any]], values: Mapping[str, float], covariance: np.ndarray,
-           degrees_of_freedom: float, units: Mapping[str, str]) -> dict[str, Estimate]:  # fmt: skip
+def derive(
+    function: Callable[[dict[str, Any]], Mapping[str, Any]],
+    values: Mapping[str, float],
+    covariance: np.ndarray,
+    degrees_of_freedom: float,
+    units: Mapping[str, str],
+) -> dict[str, Estimate]:
     """Delta method: value, standard error and t-interval of any function of the parameters."""
     names = list(values)
     vector = jnp.array([values[n] for n in names])
 
-    slopes, out = _derived_for_all(function, tuple(names), vector) if isinstance(function, eqx.Module) else jax.jit(
-        partial(_derived, function, tuple(names)))(vector)  # fmt: skip
+    slopes, out = (
+        _derived_for_all(function, tuple(names), vector)
+        if isinstance(function, eqx.Module)
+        else jax.jit(partial(_derived, function, tuple(names)))(vector)
+    )
     reach = t_reach(0.95, degrees_of_freedom)
     found = {}
     for name, value in out.items():
         row = np.asarray(slopes[name])
         error = float(np.sqrt(max(row @ covariance @ row, 0.0)))
-        found[name] = Estimate(float(value), units.get(name, ""), error, (float(value) - reach * error, float(value) + reach * error))
+        found[name] = Estimate(
+            float(value),
+            units.get(name, ""),
+            error,
+            (float(value) - reach * error, float(value) + reach * error),
+        )
     return found
 
 

@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 
 class Search(NamedTuple):
-    """When a search ends: least relative change of the parameters and of the sum of squares, least slope, most evaluations."""
+    """When a search ends: least relative change of the parameters and of the sum of squares, least slope,
+    most evaluations.
+    """
 
     xtol: float
     ftol: float

@@ -1,4 +1,6 @@
-"""Data files: CSV, TSV, semicolons with decimal commas, or XLSX, whose header names columns with units in any order."""
+"""Data files: CSV, TSV, semicolons with decimal commas, or XLSX, whose header names columns with units in any
+order.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,20 @@ from granum.core.written import read_number
 
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:[\[(]\s*(.*?)\s*[\])]|\s/\s*(.+?))?\s*$")
 _IN_THREES = {",": re.compile(r"[+-]?[1-9]\d{0,2},\d{3}"), ".": re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}")}
-_DECIMAL = {",": re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?"), ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?")}
+_DECIMAL = {
+    ",": re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?"),
+    ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?"),
+}
 _WHOLE = re.compile(r"[+-]?[1-9]\d{0,2}")
-_SHEET_ERRORS = ("#N/A", "#DIV/0!", "#REF!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!")  # in a first cell: no comment, but no number
+_SHEET_ERRORS = (
+    "#N/A",
+    "#DIV/0!",
+    "#REF!",
+    "#VALUE!",
+    "#NUM!",
+    "#NAME?",
+    "#NULL!",
+)  # in a first cell: no comment, but no number
 MOST_ROWS = 20_000  # of a workbook, which is read cell by cell
 LARGEST_UNPACKED = 30_000_000  # bytes
 Row = tuple[int, list[Any]]
@@ -33,8 +46,8 @@ Source = str | Path | IO[Any]
 def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.ndarray]:
     """The columns of a data file as SI arrays by name; other columns of the file are ignored.
 
-    The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``. Lines that start
-    with ``#`` are comments. Missing optional columns are left out.
+    The header names each column and its unit: ``time [min]``, ``filtrate_volume (L)`` or ``time / s``. Lines
+    that start with ``#`` are comments. Missing optional columns are left out.
     """
     where = _(" in {file}").format(file=getattr(source, "name", source))
     rows = list(_rows(source, where))
@@ -50,14 +63,17 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
         if not name:
             continue
         if name in places:
-            raise InputError(_("Column '{name}' stands twice{where}.").format(name=name, where=where), name=name)
+            raise InputError(
+                _("Column '{name}' stands twice{where}.").format(name=name, where=where), name=name
+            )
         places[name], units[name] = place, unit
     named = 1 + max((place for place, cell in enumerate(header) if cell not in (None, "")), default=-1)
     for line, row in body:
         if any(cell not in (None, "") for cell in row[named:]):
             raise InputError(
                 _(
-                    "Line {line} has {count} cells, the header {expected}{where}: decimal commas need semicolons or tabs between the cells."
+                    "Line {line} has {count} cells, the header {expected}{where}: decimal commas need "
+                    "semicolons or tabs between the cells."
                 ).format(line=line, count=len(row), expected=named, where=where),
                 line=line,
             )
@@ -66,11 +82,19 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     asked = [places[p.name] for p in columns if p.name in places]
     texts = [row[k] for _line, row in body for k in asked if k < len(row) and isinstance(row[k], str)]
     marks = {mark for mark in ",." if any(_DECIMAL[mark].fullmatch(text) for text in texts)}
-    sure = {mark for mark in marks if any(_DECIMAL[mark].fullmatch(text) and not _IN_THREES[mark].fullmatch(text) for text in texts)}
+    sure = {
+        mark
+        for mark in marks
+        if any(_DECIMAL[mark].fullmatch(text) and not _IN_THREES[mark].fullmatch(text) for text in texts)
+    }
     for p in columns:
         if p.name not in places:
             close = nearest(p.name, places)
-            if p.required or (close and nearest(close, [p.name]) and close.replace("_", "")[:6] == p.name.replace("_", "")[:6]):
+            if p.required or (
+                close
+                and nearest(close, [p.name])
+                and close.replace("_", "")[:6] == p.name.replace("_", "")[:6]
+            ):
                 raise _no_column(p, places, close, where)
             continue
         place = places[p.name]
@@ -80,8 +104,11 @@ def read_table(source: Source, columns: Iterable[Parameter]) -> dict[str, np.nda
     return found
 
 
-def _no_thousands(p: Parameter, cells: list[tuple[int, Any]], marks: set[str], sure: set[str], where: str) -> None:
-    """Refuse a mark that may set thousands apart: other cells have the other mark, or whole numbers below a thousand stand beside.
+def _no_thousands(
+    p: Parameter, cells: list[tuple[int, Any]], marks: set[str], sure: set[str], where: str
+) -> None:
+    """Refuse a mark that may set thousands apart: other cells have the other mark, or whole numbers below a
+    thousand stand beside.
 
     ``marks`` are those of the table, ``sure`` those that are decimal marks somewhere in it and so everywhere.
     """
@@ -93,9 +120,10 @@ def _no_thousands(p: Parameter, cells: list[tuple[int, Any]], marks: set[str], s
         if other in marks or any(_WHOLE.fullmatch(cell) for _line, cell in written):
             line, cell = doubtful[0]
             raise InputError(
-                _("Line {line}, column '{name}': '{text}' may be thousands or decimals{where}: write the thousands without a mark.").format(
-                    line=line, name=p.name, text=cell, where=where
-                ),
+                _(
+                    "Line {line}, column '{name}': '{text}' may be thousands or decimals{where}: write "
+                    "the thousands without a mark."
+                ).format(line=line, name=p.name, text=cell, where=where),
                 name=p.name,
                 line=line,
             )
@@ -118,11 +146,19 @@ def held(source: Source) -> tuple[Held, tuple[str, ...]]:
 
 
 def as_csv(source: Source) -> str:
-    """A data file as comma-separated text with decimal points, whatever it was; as it is written where a mark may set thousands apart."""
+    """A data file as comma-separated text with decimal points, whatever it was; as it is written where a mark
+    may set thousands apart.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    rows = [cells for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source)))]
-    doubtful = any(isinstance(cell, str) and any(of.fullmatch(cell) for of in _IN_THREES.values()) for cells in rows for cell in cells)
+    rows = [
+        cells for _line, cells in _rows(source, _(" in {file}").format(file=getattr(source, "name", source)))
+    ]
+    doubtful = any(
+        isinstance(cell, str) and any(of.fullmatch(cell) for of in _IN_THREES.values())
+        for cells in rows
+        for cell in cells
+    )
     for cells in rows:
         writer.writerow(["" if cell is None else cell if doubtful else _with_point(cell) for cell in cells])
     return text.getvalue()
@@ -141,9 +177,13 @@ def _heading(cell: str) -> tuple[str, str | None]:
 
 def _no_column(p: Parameter, places: Iterable[str], close: str | None, where: str) -> InputError:
     example = f"{p.name} [{p.units[0]}]" if p.units else p.name
-    message = _("There is no column '{example}' ({label}){where}.").format(example=example, label=p.label, where=where)
+    message = _("There is no column '{example}' ({label}){where}.").format(
+        example=example, label=p.label, where=where
+    )
     if close:
-        message += " " + _("Column '{close}' looks like it: rename it to '{name}'.").format(close=close, name=p.name)
+        message += " " + _("Column '{close}' looks like it: rename it to '{name}'.").format(
+            close=close, name=p.name
+        )
     else:
         message += " " + _("Columns found: {names}.").format(names=", ".join(n for n in places if n) or "—")
     return InputError(message, name=p.name, did_you_mean=close)
@@ -216,7 +256,9 @@ def _rows(source: Source, where: str) -> Iterable[Row]:
         try:
             cells = [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
         except csv.Error as problem:  # a cell longer than a page, a lone quote
-            raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
+            raise InputError(
+                _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)
+            ) from None
         if any(cells):
             yield i, cells
 
@@ -240,7 +282,9 @@ def _bytes(source: Source, where: str) -> bytes:
             message += " " + _("Did you mean '{close}'?").format(close=path.parent / close)
         raise InputError(message, name=str(source), did_you_mean=close) from None
     except OSError as problem:
-        raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)) from None
+        raise InputError(
+            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)
+        ) from None
 
 
 def _not_swollen(raw: bytes, where: str) -> None:
@@ -250,9 +294,10 @@ def _not_swollen(raw: bytes, where: str) -> None:
     with ZipFile(io.BytesIO(raw)) as packed:
         if sum(part.file_size for part in packed.infolist()) > LARGEST_UNPACKED:
             raise InputError(
-                _("The workbook is larger than {count} MB when unpacked{where}: save the columns it needs as CSV.").format(
-                    count=LARGEST_UNPACKED // 1_000_000, where=where
-                )
+                _(
+                    "The workbook is larger than {count} MB when unpacked{where}: save the columns it "
+                    "needs as CSV."
+                ).format(count=LARGEST_UNPACKED // 1_000_000, where=where)
             )
 
 
@@ -266,14 +311,27 @@ def _sheet(raw: bytes, where: str) -> Iterable[Row]:
         _not_swollen(raw, where)
         sheet = openpyxl.load_workbook(io.BytesIO(raw), read_only=True, data_only=True).worksheets[0]
         rows = list(islice(sheet.iter_rows(values_only=True), MOST_ROWS + 1))
-    except (BadZipFile, zlib.error, EOFError, OSError, KeyError, IndexError, ValueError, TypeError, AttributeError, SyntaxError) as problem:
+    except (
+        BadZipFile,
+        zlib.error,
+        EOFError,
+        OSError,
+        KeyError,
+        IndexError,
+        ValueError,
+        TypeError,
+        AttributeError,
+        SyntaxError,
+    ) as problem:
         # what openpyxl raises on files that are no workbooks; broken XML is a SyntaxError
-        raise InputError(_("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)) from None
+        raise InputError(
+            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem)
+        ) from None
     if len(rows) > MOST_ROWS:
         raise InputError(
-            _("The workbook has more than {count} rows{where}: save it as CSV, or keep what the test needs.").format(
-                count=MOST_ROWS, where=where
-            )
+            _(
+                "The workbook has more than {count} rows{where}: save it as CSV, or keep what the test needs."
+            ).format(count=MOST_ROWS, where=where)
         )
     for i, cells in enumerate(rows, 1):
         if any(cell is not None for cell in cells) and not _comment(str(cells[0])):

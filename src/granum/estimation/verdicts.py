@@ -1,4 +1,6 @@
-"""What a fit says about itself in words: stray points, parameters that the data do not determine, data that show no relation."""
+"""What a fit says about itself in words: stray points, parameters that the data do not determine, data that
+show no relation.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +21,13 @@ if TYPE_CHECKING:
     from granum.estimation.results import Estimate, Fit
 
 COLLINEAR = 100.0
-"""Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and Welsch 1980)."""
+"""Condition of the Jacobian with columns of unit length; 30 to 100 is strong collinearity (Belsley, Kuh and
+Welsch 1980).
+"""
 LEAST_CHANCE, CHANCE = 1e-3, {1: 0.02, 2: 0.005}
-"""Probability by chance above which data show no relation; with one or two points to spare not even a good line reaches one in a thousand."""
+"""Probability by chance above which data show no relation; with one or two points to spare not even a good
+line reaches one in a thousand.
+"""
 LEAST_SHARE = 0.5
 """Part of the scatter that a law must explain to be called a relation."""
 LEAST_EFFECT = 0.005
@@ -36,7 +42,8 @@ def note(word: str, message: str, card: str, name: str = "") -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of the data, so that a point can be named: ``index`` is the row of each point, ``columns`` what was measured.
+    """The rows of the data, so that a point can be named: ``index`` is the row of each point, ``columns``
+    what was measured.
 
     A point of no row has the index -1 and is called ``elsewhere``.
     """
@@ -80,17 +87,28 @@ def stray_note(found: Diagnostics, fit: Fit, rows: Rows, least: float = LEAST_EF
 
     effects = "; ".join(
         _("{label} would be {new} instead of {old} ({change} %)").format(
-            label=parameters[n].label, new=text(n, found.without[n]), old=text(n, values[n]), change=_signed(100.0 * change[n])
+            label=parameters[n].label,
+            new=text(n, found.without[n]),
+            old=text(n, values[n]),
+            change=_signed(100.0 * change[n]),
         )
         for n in told
     )
-    robust = "; ".join(f"{parameters[n].label} = {text(n, found.robust[n])}" for n in told if n in found.robust)
+    robust = "; ".join(
+        f"{parameters[n].label} = {text(n, found.robust[n])}" for n in told if n in found.robust
+    )
     names = " · ".join(rows.name(k) for k in found.stray)
     far = ", ".join(format_number(abs(d), 2) for d in found.deviations)
     if len(found.stray) == 1:
-        sentence = _("{points} does not fit with the others: it lies {far} standard deviations off. Without it {effects}.")
+        sentence = _(
+            "{points} does not fit with the others: it lies {far} standard deviations off. Without it "
+            "{effects}."
+        )
     else:
-        sentence = _("{points} do not fit with the others: they lie {far} standard deviations off. Without them {effects}.")
+        sentence = _(
+            "{points} do not fit with the others: they lie {far} standard deviations off. Without them "
+            "{effects}."
+        )
     sentence = sentence.format(points=names, far=far, effects=effects)
     if robust:
         sentence += " " + _("A robust fit to all points gives {robust}.").format(robust=robust)
@@ -107,20 +125,32 @@ def _signed(percent: float) -> str:
 
 
 def no_relation_note(fit: Fit, probability: float, trials: int = 1) -> list[dict[str, Any]]:
-    """Whether the data show the fitted relation at all; ``trials`` is the number of models from which this was chosen."""
+    """Whether the data show the fitted relation at all; ``trials`` is the number of models from which this
+    was chosen.
+    """
     r_squared, chance = fit.statistics["r_squared"], min(trials * probability, 1.0)
     allowed = CHANCE.get(int(fit.statistics["degrees_of_freedom"]), LEAST_CHANCE)
     if not np.isfinite(probability) or (chance <= allowed and not r_squared < LEAST_SHARE):
         return []
     sentence = _(
-        "These points hardly show the fitted relation: it explains {share} % of their scatter, and points without any relation do as well "
+        "These points hardly show the fitted relation: it explains {share} % of their scatter, and "
+        "points without any relation do as well "
         "in {chance} % of cases. Do not use the estimates without more or better data."
-    ).format(share=format_number(100.0 * r_squared if r_squared > 0.0 else 0.0, 2), chance=format_number(100.0 * chance, 2))
+    ).format(
+        share=format_number(100.0 * r_squared if r_squared > 0.0 else 0.0, 2),
+        chance=format_number(100.0 * chance, 2),
+    )
     return [note("no relation", sentence, fit.card)]
 
 
-def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, held: Mapping[str, float], condition: float,
-                    problem: Problem, card: str) -> list[dict[str, Any]]:  # fmt: skip
+def parameter_notes(
+    estimates: Mapping[str, Estimate],
+    covariance: np.ndarray,
+    held: Mapping[str, float],
+    condition: float,
+    problem: Problem,
+    card: str,
+) -> list[dict[str, Any]]:
     """Parameters at a bound, hardly told apart, or no different from zero."""
     found = []
     for name, bound in held.items():
@@ -132,7 +162,9 @@ def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, h
         found.append(
             note(
                 "at bound",
-                sentence.format(name=name, value=_shown(bound, Parameter(name, kind_of(problem.kinds.get(name))), bound)),
+                sentence.format(
+                    name=name, value=_shown(bound, Parameter(name, kind_of(problem.kinds.get(name))), bound)
+                ),
                 card,
                 name,
             )
@@ -140,14 +172,20 @@ def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, h
     if condition >= COLLINEAR:
         deviation = np.sqrt(np.diag(covariance))
         with np.errstate(invalid="ignore", divide="ignore"):
-            correlation = np.abs(np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation)))
+            correlation = np.abs(
+                np.nan_to_num(covariance / np.outer(deviation, deviation)) - np.eye(len(deviation))
+            )
         i, j = np.unravel_index(int(np.argmax(correlation)), correlation.shape)
         names = list(estimates)
         found.append(
             note(
                 "poorly identified",
-                _("'{one}' and '{other}' can hardly be told apart by these data (condition {condition}).").format(
-                    one=names[i], other=names[j], condition=f"{condition:.0f}" if np.isfinite(condition) else "∞"
+                _(
+                    "'{one}' and '{other}' can hardly be told apart by these data (condition {condition})."
+                ).format(
+                    one=names[i],
+                    other=names[j],
+                    condition=f"{condition:.0f}" if np.isfinite(condition) else "∞",
                 ),
                 card,
                 names[i],
@@ -156,5 +194,12 @@ def parameter_notes(estimates: Mapping[str, Estimate], covariance: np.ndarray, h
     for name, estimate in estimates.items():
         low, high = estimate.interval_95
         if name not in held and low < 0.0 < high:
-            found.append(note("not significant", _("'{name}' does not differ from zero at 95 %.").format(name=name), card, name))
+            found.append(
+                note(
+                    "not significant",
+                    _("'{name}' does not differ from zero at 95 %.").format(name=name),
+                    card,
+                    name,
+                )
+            )
     return found

@@ -6,13 +6,19 @@ from typing import Annotated, Any
 
 from granum.core.kinds import Kind
 
-OVER_COMPRESSIBLE = "A compressibility above 1 means that more pressure gives less filtrate; tests seldom bear that out."
+OVER_COMPRESSIBLE = (
+    "A compressibility above 1 means that more pressure gives less filtrate; tests seldom bear that out."
+)
 
 TimePerVolume = Annotated[Any, Kind("time per volume", "s/m^3", display=("s/L", "s/mL", "min/m^3"))]
 TimePerVolumeSquared = Annotated[Any, Kind("time per volume squared", "s/m^6", display=("s/L^2",))]
-FittedMediumResistance = Annotated[Any, Kind("medium resistance", "1/m")]  # an intercept of readings, negative by their scatter
+FittedMediumResistance = Annotated[
+    Any, Kind("medium resistance", "1/m")
+]  # an intercept of readings, negative by their scatter
 FittedVolume = Annotated[Any, Kind("volume", "m^3", display=("L", "mL", "cm^3"))]
-RuthConstant = Annotated[Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))]
+RuthConstant = Annotated[
+    Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))
+]
 PressureTimePerVolume = Annotated[Any, Kind("pressure impulse per volume", "Pa*s/m^3", display=("bar*s/L",))]
 HeadLossPerDeposit = Annotated[Any, Kind("head loss per mass deposited per area", "m^3/kg", lower=0.0)]
 ResidualDrag = Annotated[Any, Kind("pressure drop per velocity", "Pa*s/m", lower=0.0, display=("Pa*min/m",))]

@@ -11,10 +11,19 @@ from granum.core import procedure
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.datasets import dataset
 from granum.core.i18n import _
-from granum.core.kinds import DensityDifference, DynamicViscosity, Fraction, Length, Series, VolumeFlow, VolumeFraction
+from granum.core.kinds import (
+    DensityDifference,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    Series,
+    VolumeFlow,
+    VolumeFraction,
+)
 from granum.core.units import format_number
 
-# Settling velocity, m/s, below which a machine of that effect cannot be made large enough: the flow over area of common machines.
+# Settling velocity, m/s, below which a machine of that effect cannot be made large enough: the flow over area
+# of common machines.
 LEAST_GRAVITY, LEAST_SPUN = 3e-5, 1e-4
 DECADE_OUT = log(10.0)
 
@@ -35,7 +44,10 @@ def _outside(value: float, low: float, high: float) -> float:
     return log(value / high) if value > high else 0.0
 
 
-@procedure(source="svarovsky2001, ch. 1; perry2008, § 18; wakeman2005; robatel1989", title="Choice of a solid–liquid separator")
+@procedure(
+    source="svarovsky2001, ch. 1; perry2008, § 18; wakeman2005; robatel1989",
+    title="Choice of a solid–liquid separator",
+)
 def separator_choice(
     particle_diameter: Length,
     density_difference: DensityDifference,
@@ -45,12 +57,15 @@ def separator_choice(
     dynamic_viscosity: DynamicViscosity = 1e-3,
     washing: bool = False,
 ) -> Separators:
-    """Settlers, centrifuges and filters ranked for a slurry by size, settling velocity, concentration, flow, dryness and washing.
+    """Settlers, centrifuges and filters ranked for a slurry by size, settling velocity, concentration, flow,
+    dryness and washing.
 
-    The suitability is 1 where every figure lies in the range the machine is commonly used for, and falls by a factor e for each decade
-    outside. The ranges are orders of magnitude: use the list to decide what to test.
+    The suitability is 1 where every figure lies in the range the machine is commonly used for, and falls by a
+    factor e for each decade outside. The ranges are orders of magnitude: use the list to decide what to test.
 
-    >>> separator_choice("300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True).separator[0]
+    >>> separator_choice(
+    ...     "300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True
+    ... ).separator[0]
     'pusher centrifuge'
     """
     falling = particle_diameter**2 * abs(density_difference) * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
@@ -59,14 +74,36 @@ def separator_choice(
         missing, good, why = 0.0, [], []
         # several machines side by side, or one at part load, are possible: flow counts a third
         for value, span, scale, weight, within, outside in (
-            (particle_diameter, "size", 1e6, 1.0, _("made for {low} to {high} µm"), _("particle size outside {low} to {high} µm")),
-            (volume_flow, "flow", 3600.0, 1.0 / 3.0, _("made for {low} to {high} m³/h"), _("flow outside {low} to {high} m³/h")),
-            (solids_volume_fraction, "solids", 100.0, 1.0, _("made for {low} to {high} % by volume"),
-             _("solids outside {low} to {high} % by volume")),
-        ):  # fmt: skip
+            (
+                particle_diameter,
+                "size",
+                1e6,
+                1.0,
+                _("made for {low} to {high} µm"),
+                _("particle size outside {low} to {high} µm"),
+            ),
+            (
+                volume_flow,
+                "flow",
+                3600.0,
+                1.0 / 3.0,
+                _("made for {low} to {high} m³/h"),
+                _("flow outside {low} to {high} m³/h"),
+            ),
+            (
+                solids_volume_fraction,
+                "solids",
+                100.0,
+                1.0,
+                _("made for {low} to {high} % by volume"),
+                _("solids outside {low} to {high} % by volume"),
+            ),
+        ):
             low, high = max(number[f"{span}_low"], 1e-7), number[f"{span}_high"]
             off = _outside(value, low, high)
-            told = (outside if off > 0 else within).format(low=format_number(low * scale, 3), high=format_number(high * scale, 3))
+            told = (outside if off > 0 else within).format(
+                low=format_number(low * scale, 3), high=format_number(high * scale, 3)
+            )
             (why if off > 0 else good).append(told)
             missing += max(off, 0.0) * weight
         if number["settles"]:
@@ -78,16 +115,32 @@ def separator_choice(
             else:
                 good.append(_("settles fast enough"))
         if number["liquid_left"] > liquid_left_wanted:
-            why.append(_("leaves more liquid ({value} % by volume)").format(value=format_number(100 * number["liquid_left"], 2)))
+            why.append(
+                _("leaves more liquid ({value} % by volume)").format(
+                    value=format_number(100 * number["liquid_left"], 2)
+                )
+            )
             missing += 2.0 * log(number["liquid_left"] / max(liquid_left_wanted, 0.01))
         elif liquid_left_wanted < 1.0:
-            good.append(_("leaves {value} % of liquid by volume").format(value=format_number(100 * number["liquid_left"], 2)))
+            good.append(
+                _("leaves {value} % of liquid by volume").format(
+                    value=format_number(100 * number["liquid_left"], 2)
+                )
+            )
         if washing and not number["washes"]:
             why.append(_("cannot wash"))
             missing += DECADE_OUT
         elif washing:
             good.append(_("washes the cake"))
-        rows.append((exp(-missing / DECADE_OUT), number["liquid_left"], number["name"], "; ".join(good), "; ".join(why)))
+        rows.append(
+            (
+                exp(-missing / DECADE_OUT),
+                number["liquid_left"],
+                number["name"],
+                "; ".join(good),
+                "; ".join(why),
+            )
+        )
     rows.sort(key=lambda row: (-row[0], row[1]))
     columns: Any = list(zip(*rows, strict=True))
     names: Any = tuple(map(_, columns[2]))
@@ -95,13 +148,22 @@ def separator_choice(
 
 
 # EN 1822: least efficiency at the most penetrating particle size
-CLASSES = (("U17", 0.99999995), ("U16", 0.9999995), ("U15", 0.999995), ("H14", 0.99995), ("H13", 0.9995), ("E12", 0.995), ("E11", 0.95),
-           ("E10", 0.85))  # fmt: skip
+CLASSES = (
+    ("U17", 0.99999995),
+    ("U16", 0.9999995),
+    ("U15", 0.999995),
+    ("H14", 0.99995),
+    ("H13", 0.9995),
+    ("E12", 0.995),
+    ("E11", 0.95),
+    ("E10", 0.85),
+)
 
 
 @procedure(source="en1822", title="Class of a high-efficiency air filter")
 def air_filter_class(filter_efficiency: Fraction) -> str:
-    """Class of an air filter by EN 1822 from its efficiency at the most penetrating particle size; coarse and fine filters have none.
+    """Class of an air filter by EN 1822 from its efficiency at the most penetrating particle size; coarse and
+    fine filters have none.
 
     >>> air_filter_class(filter_efficiency="99.97 %")
     'H13'

@@ -1,7 +1,8 @@
-"""Further particle axes, such as moisture or porosity, as the few distributions that feeds and holdups have over them.
+"""Further particle axes, such as moisture or porosity, as the few distributions that feeds and holdups have
+over them.
 
-Units leave an axis alone that they do not know, so that along it every stream is a sum of the distributions it was fed with. A line that
-carries the shares of these instead of all classes gives the same answer, sooner.
+Units leave an axis alone that they do not know, so that along it every stream is a sum of the distributions
+it was fed with. A line that carries the shares of these instead of all classes gives the same answer, sooner.
 """
 
 from __future__ import annotations
@@ -71,7 +72,9 @@ def gather_axes(line: Flowsheet, holdups: Mapping[str, Any] | None = None) -> Ga
         total = flat.sum(axis=1)
         return total, flat / np.where(total > 0, total, 1.0)[:, None]
 
-    given = [feed.solid for feed in line.feeds.values()] + [leaf for leaf in jax.tree.leaves(held) if is_solid(leaf)]
+    given = [feed.solid for feed in line.feeds.values()] + [
+        leaf for leaf in jax.tree.leaves(held) if is_solid(leaf)
+    ]
     left = np.concatenate([shares[total > 0] for total, shares in map(rows, given)])
     parts = [np.eye(classes)[0]]  # where units put what they hold at a start-up
     while len(parts) < classes and len(left := left[np.abs(left - parts[-1]).max(axis=1) > SAME]):
@@ -87,7 +90,13 @@ def gather_axes(line: Flowsheet, holdups: Mapping[str, Any] | None = None) -> Ga
         nearest = np.abs(shares[:, None] - basis).max(axis=2).argmin(axis=1)
         return (total[:, None] * np.eye(len(basis))[nearest]).reshape(*lead, len(basis))
 
-    feeds = {n: Stream(gathered(f.solid), f.liquid, f.gas, f.temperature, f.pressure, few) for n, f in line.feeds.items()}
+    feeds = {
+        n: Stream(gathered(f.solid), f.liquid, f.gas, f.temperature, f.pressure, few)
+        for n, f in line.feeds.items()
+    }
     links = {k.name: (k.origin, k.target) for k in line.links}
-    held = {n: jax.tree.map(lambda leaf: gathered(leaf) if is_solid(leaf) else leaf, state) for n, state in held.items()}
+    held = {
+        n: jax.tree.map(lambda leaf: gathered(leaf) if is_solid(leaf) else leaf, state)
+        for n, state in held.items()
+    }
     return Gathered(Flowsheet({n: line.units[n] for n in line.order}, feeds, links), held, basis, mixture)

@@ -35,7 +35,11 @@ def _flows(stream: Stream) -> dict[str, Any]:
 def _by_size(stream: Stream) -> np.ndarray:
     """Solid by species and size class, summed over further axes; leading axes are kept."""
     m = stream.mixture
-    return np.asarray(stream.solid).reshape(*np.shape(stream.temperature), len(m.solids), len(m.sizes), -1).sum(axis=-1)
+    return (
+        np.asarray(stream.solid)
+        .reshape(*np.shape(stream.temperature), len(m.solids), len(m.sizes), -1)
+        .sum(axis=-1)
+    )
 
 
 def stream_frame(streams: Mapping[str, Stream]) -> pd.DataFrame:
@@ -52,17 +56,29 @@ def stream_frame(streams: Mapping[str, Stream]) -> pd.DataFrame:
 
 
 def stream_dataset(streams: Mapping[str, Stream], times: Any = None) -> xr.Dataset:
-    """Mass flow by species, solid by species and size class, temperature and pressure of every stream, SI; along ``time`` where times are given."""
+    """Mass flow by species, solid by species and size class, temperature and pressure of every stream, SI;
+    along ``time`` where times are given.
+    """
     import xarray as xr
 
     lead = () if times is None else ("time",)
     mixture = next(iter(streams.values())).mixture
-    flows = {name: np.stack([_flows(s)[name] for s in streams.values()]) for name in _flows(next(iter(streams.values())))}
-    states = {w: np.stack([np.asarray(getattr(s, w), dtype=float) for s in streams.values()]) for w in ("temperature", "pressure")}
+    flows = {
+        name: np.stack([_flows(s)[name] for s in streams.values()])
+        for name in _flows(next(iter(streams.values())))
+    }
+    states = {
+        w: np.stack([np.asarray(getattr(s, w), dtype=float) for s in streams.values()])
+        for w in ("temperature", "pressure")
+    }
     made = xr.Dataset(
         {
             "mass_flow": (("species", "stream", *lead), np.stack(list(flows.values())), {"units": "kg/s"}),
-            "solid_by_size": (("stream", *lead, "solid", "size"), np.stack([_by_size(s) for s in streams.values()]), {"units": "kg/s"}),
+            "solid_by_size": (
+                ("stream", *lead, "solid", "size"),
+                np.stack([_by_size(s) for s in streams.values()]),
+                {"units": "kg/s"},
+            ),
             "temperature": (("stream", *lead), states["temperature"], {"units": "K"}),
             "pressure": (("stream", *lead), states["pressure"], {"units": "Pa"}),
         },
@@ -70,7 +86,11 @@ def stream_dataset(streams: Mapping[str, Stream], times: Any = None) -> xr.Datas
             "stream": list(streams),
             "species": list(flows),
             "solid": [species.name for species in mixture.solids],
-            "size": ("size", np.asarray(mixture.sizes), {"units": "m", "long_name": "middle of the size class"}),
+            "size": (
+                "size",
+                np.asarray(mixture.sizes),
+                {"units": "m", "long_name": "middle of the size class"},
+            ),
         },
     )
     return made if times is None else made.assign_coords(time=("time", np.asarray(times), {"units": "s"}))

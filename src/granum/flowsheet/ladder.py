@@ -33,11 +33,19 @@ RUNGS = 3
 
 
 def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designed:
-    """The line as the quick solver (0), the patient one (1) or Newton's method from where the quick one ends (2) leaves it. Pure, to be batched."""
+    """The line as the quick solver (0), the patient one (1) or Newton's method from where the quick one ends
+    (2) leaves it. Pure, to be batched.
+    """
     if rung < RUNGS - 1:
         return design(sheet, targets, sheets=True, **(PATIENT if rung else {}))
     left = design(sheet, targets).solution.streams
-    return design(sheet, targets, sheets=True, start={n: left[n] for block in sheet.blocks for n in block.tears}, **EXACT)
+    return design(
+        sheet,
+        targets,
+        sheets=True,
+        start={n: left[n] for block in sheet.blocks for n in block.tears},
+        **EXACT,
+    )
 
 
 def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
@@ -53,12 +61,16 @@ def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool) -> Tr
 
 
 @compiled
-def _patiently(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool, _torn: dict[str, Stream]) -> Tried:
+def _patiently(
+    sheet: Flowsheet, targets: tuple[Target, ...], watched: bool, _torn: dict[str, Stream]
+) -> Tried:
     return _measured(sheet, targets, watched=watched, **PATIENT)
 
 
 @compiled
-def _by_newton(sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, torn: dict[str, Stream]) -> Tried:
+def _by_newton(
+    sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, torn: dict[str, Stream]
+) -> Tried:
     return _measured(sheet, targets, start=torn, **EXACT)
 
 
@@ -68,11 +80,17 @@ def _figure(sheet: Flowsheet, path: str) -> tuple[Any, Any]:
     return figure(solution, path), solution.converged
 
 
-def climb(sheet: Flowsheet, targets: tuple[Target, ...] = (), watch: Watch | None = None) -> tuple[Tried, list[Fault]]:
-    """The line solved by the first solver whose result stands; where none does, the last iterate and what is wrong with it, the cause first."""
+def climb(
+    sheet: Flowsheet, targets: tuple[Target, ...] = (), watch: Watch | None = None
+) -> tuple[Tried, list[Fault]]:
+    """The line solved by the first solver whose result stands; where none does, the last iterate and what is
+    wrong with it, the cause first.
+    """
 
     def attempt(solver: Callable[..., Tried], *more: Any) -> tuple[Tried, list[Fault]]:
-        found = (watch.run if watch is not None else _at_once)(lambda: solver(as_arrays(sheet), targets, watch is not None, *more))
+        found = (watch.run if watch is not None else _at_once)(
+            lambda: solver(as_arrays(sheet), targets, watch is not None, *more)
+        )
         return found, wrongs(found, targets)
 
     found, wrong = attempt(_quickly)
@@ -100,7 +118,9 @@ def wrongs(found: Tried, targets: tuple[Target, ...]) -> list[Fault]:
     if not all(np.isfinite(float(v)) for v in designed.values.values()):
         return [Fault("target", "", "", "")]
     told = faults(designed.line, solution, found.findings)
-    if not bool(solution.converged):  # what hangs in the air balances nowhere: only what a unit says of itself may be a cause
+    if not bool(
+        solution.converged
+    ):  # what hangs in the air balances nowhere: only what a unit says of itself may be a cause
         return [fault for fault in told if fault.kind == "no value"] or [_open_loop(found)]
     if not bool(designed.converged):
         return [Fault("target", "", "", "")]
@@ -126,24 +146,42 @@ def _open_loop(found: Tried) -> Fault:
     worst = max(range(len(loops)), key=lambda i: float(solution.residual[i]))
     tear = line.link(loops[worst].tears[0])
     told = _(
-        "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual {residual}. Does the recycle have a way out, such as a purge?"
+        "The loop through stream '{stream}' (from unit '{unit}') did not converge: scaled residual "
+        "{residual}. Does the recycle have a way out, such as a purge?"
     )
     shown = format_number(float(solution.residual[worst]), 2)
-    return Fault("loop", tear.source_unit, tear.name, told.format(stream=tear.name, unit=tear.source_unit, residual=shown))
+    return Fault(
+        "loop",
+        tear.source_unit,
+        tear.name,
+        told.format(stream=tear.name, unit=tear.source_unit, residual=shown),
+    )
 
 
 def _stopped(watch: Watch) -> str:
     told = (
         _("Stopped after {passes} passes, scaled residual {residual}.")
         if watch.stopped
-        else _("Not solved within {seconds} s: {passes} passes, scaled residual {residual}. Give it more time, or make the line easier.")
+        else _(
+            "Not solved within {seconds} s: {passes} passes, scaled residual {residual}. Give it more "
+            "time, or make the line easier."
+        )
     )
-    return told.format(passes=watch.passes, residual=format_number(watch.residual, 2), seconds=format_number(watch.seconds or 0.0))
+    return told.format(
+        passes=watch.passes,
+        residual=format_number(watch.residual, 2),
+        seconds=format_number(watch.seconds or 0.0),
+    )
 
 
 def _reach(sheet: Flowsheet, target: Target) -> tuple[float, float]:
-    """What the result of a specification is at both ends of the varied parameter, the other specifications left out."""
-    ends = (_figure(as_arrays(sheet.with_values({target.vary: x})), target.so_that) for x in (target.lower, target.upper))
+    """What the result of a specification is at both ends of the varied parameter, the other specifications
+    left out.
+    """
+    ends = (
+        _figure(as_arrays(sheet.with_values({target.vary: x})), target.so_that)
+        for x in (target.lower, target.upper)
+    )
     low, high = (float(value) if bool(good) else float("nan") for value, good in ends)
     return low, high
 
@@ -153,11 +191,13 @@ def _unmet(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
         low, high = _reach(sheet, t)
         if np.isfinite(low) and np.isclose(low, high, rtol=1e-9):
             return _(
-                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI units). Vary another parameter."
+                "{result} does not depend on {vary}: it is {value} at both ends of the range (SI "
+                "units). Vary another parameter."
             ).format(result=t.so_that, vary=t.vary, value=f"{low:.6g}")
         if np.isfinite(low + high) and not min(low, high) <= t.equals <= max(low, high):
             return _(
-                "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at {upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
+                "{result} = {wanted} is out of reach: it is {low} at {vary} = {lower} and {high} at "
+                "{upper} (SI units). Widen the limits, ask for a value between, or vary another parameter."
             ).format(
                 result=t.so_that,
                 wanted=f"{t.equals:.6g}",
@@ -167,7 +207,10 @@ def _unmet(sheet: Flowsheet, targets: tuple[Target, ...]) -> str:
                 lower=f"{t.lower:.6g}",
                 upper=f"{t.upper:.6g}",
             )
-    wanted = "; ".join(f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets)
-    return _("No value of the varied parameters meets the specifications: {wanted}. Widen the limits or change the wanted value.").format(
-        wanted=wanted
+    wanted = "; ".join(
+        f"{t.so_that} = {t.equals:.6g} ({t.vary} {t.lower:.6g} … {t.upper:.6g})" for t in targets
     )
+    return _(
+        "No value of the varied parameters meets the specifications: {wanted}. Widen the limits or "
+        "change the wanted value."
+    ).format(wanted=wanted)

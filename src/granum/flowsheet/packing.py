@@ -1,7 +1,8 @@
 """Functions compiled for few calls: made ready fast rather than fast to run.
 
-Results come back as one vector (an output array each costs a kernel each), and the compiler is asked for plain code: a process line of
-ten units is ready in a third of the time and runs as fast, its arrays being small. For ensembles jit ``solve`` itself.
+Results come back as one vector (an output array each costs a kernel each), and the compiler is asked for
+plain code: a process line of ten units is ready in a third of the time and runs as fast, its arrays being
+small. For ensembles jit ``solve`` itself.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ _PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level"
 
 
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """``function`` compiled once per structure of its arguments: arrays may change, floats are part of it; results have NumPy arrays as leaves."""
+    """``function`` compiled once per structure of its arguments: arrays may change, floats are part of it;
+    results have NumPy arrays as leaves.
+    """
 
     def call(*arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
@@ -65,7 +68,9 @@ def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> 
             packed = np.asarray(quick(numbers))
         out, rest, kinds = shape
         parts = iter(np.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1]))
-        arrays = iter([part.reshape(size).astype(kind)[()] for part, (size, kind) in zip(parts, kinds, strict=True)])
+        arrays = iter(
+            [part.reshape(size).astype(kind)[()] for part, (size, kind) in zip(parts, kinds, strict=True)]
+        )
         return jax.tree.unflatten(out, [next(arrays) if leaf is None else leaf for leaf in rest])
 
     return call

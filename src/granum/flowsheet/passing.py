@@ -1,4 +1,6 @@
-"""One pass through the units of a line: what a steady solution, a run in time, a specification, a study and a note all read."""
+"""One pass through the units of a line: what a steady solution, a run in time, a specification, a study and a
+note all read.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ from granum.streams.units import Check, Operated
 
 
 class Made(NamedTuple):
-    """What a pass gives, by stream and by unit; only arrays and words that are part of its structure, so that loops may carry it."""
+    """What a pass gives, by stream and by unit; only arrays and words that are part of its structure, so that
+    loops may carry it.
+    """
 
     streams: dict[str, Stream]
     powers: dict[str, dict[str, Any]]
@@ -55,10 +59,14 @@ def known_or(stream: Stream, instead: Stream) -> Stream:
 
 
 def pass_through(
-    line: Flowsheet, block: Block, streams: Mapping[str, Stream], operate: Callable[[str, dict[str, Stream]], Operated] | None = None,
+    line: Flowsheet,
+    block: Block,
+    streams: Mapping[str, Stream],
+    operate: Callable[[str, dict[str, Stream]], Operated] | None = None,
     instead: Stream | None = None,
-) -> Made:  # fmt: skip
-    """One pass through the units of a block. Torn streams are read as given and made anew; ``instead`` goes on where a stream has no numbers.
+) -> Made:
+    """One pass through the units of a block. Torn streams are read as given and made anew; ``instead`` goes
+    on where a stream has no numbers.
 
     ``operate``: by name and inlets, where a unit is not asked for all it has to tell, or holds matter.
     """
@@ -68,13 +76,23 @@ def pass_through(
         thing, inlets = line.units[unit], line.inlets_of(unit, known)
         with named(unit), flags.collect():
             found = thing.operate(**inlets) if operate is None else operate(unit, inlets)
-        new = {k.name: getattr(found.outlets, k.origin.partition(".")[2]) for k in line.links if k.source_unit == unit}
+        new = {
+            k.name: getattr(found.outlets, k.origin.partition(".")[2])
+            for k in line.links
+            if k.source_unit == unit
+        }
         made.streams.update(new)
-        made.powers[unit] = {name: getattr(found.outlets, name) for name in thing.power_names() if hasattr(found.outlets, name)}
+        made.powers[unit] = {
+            name: getattr(found.outlets, name) for name in thing.power_names() if hasattr(found.outlets, name)
+        }
         made.records[unit] = found.records
         if found.figures is not None:
             made.sheets[unit] = (found.figures, found.checks)
-        known |= {name: s if instead is None else known_or(s, instead) for name, s in new.items() if name not in block.tears}
+        known |= {
+            name: s if instead is None else known_or(s, instead)
+            for name, s in new.items()
+            if name not in block.tears
+        }
     return jax.tree.map(jnp.asarray, made)
 
 

@@ -1,4 +1,6 @@
-"""The order of calculation: which units form a loop, which streams are torn. Depends on the connections only."""
+"""The order of calculation: which units form a loop, which streams are torn. Depends on the connections
+only.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,9 @@ import networkx as nx
 
 
 class Link(NamedTuple):
-    """A named stream. ``origin`` is ``unit.port`` or empty for a feed; ``target`` is ``unit.port`` or empty for a product."""
+    """A named stream. ``origin`` is ``unit.port`` or empty for a feed; ``target`` is ``unit.port`` or empty
+    for a product.
+    """
 
     name: str
     origin: str
@@ -39,8 +43,8 @@ class Block:
 def plan(units: tuple[str, ...], links: tuple[Link, ...]) -> tuple[Block, ...]:
     """Blocks in order of calculation.
 
-    Inside a loop the order with the fewest torn streams is taken among the declared order and depth-first orders from
-    each unit, the declared order winning ties so that the author of a case decides.
+    Inside a loop the order with the fewest torn streams is taken among the declared order and depth-first
+    orders from each unit, the declared order winning ties so that the author of a case decides.
     """
     graph = nx.MultiDiGraph()
     graph.add_nodes_from(units)
@@ -53,7 +57,11 @@ def plan(units: tuple[str, ...], links: tuple[Link, ...]) -> tuple[Block, ...]:
     blocks = []
     for group in nx.lexicographical_topological_sort(groups, key=first.__getitem__):
         members = sorted(groups.nodes[group]["members"], key=rank.__getitem__)
-        inner = [k for k in links if k.source_unit in members and k.target_unit in members and k.origin and k.target]
+        inner = [
+            k
+            for k in links
+            if k.source_unit in members and k.target_unit in members and k.origin and k.target
+        ]
         orders = [members] + [_depth_first(graph.subgraph(members), start) for start in members]
         order = min(orders, key=lambda o: len(_backward(o, inner)))
         blocks.append(Block(tuple(order), tuple(_backward(order, inner))))

@@ -1,4 +1,6 @@
-"""``Line``: a flowsheet with its specifications and what is told of it. ``Run``: the same, solved and audited."""
+"""``Line``: a flowsheet with its specifications and what is told of it. ``Run``: the same, solved and
+audited.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,9 @@ if TYPE_CHECKING:
 
 
 @compiled
-def _marched(sheet: Flowsheet, times: Any, profiles: tuple[Profile, ...], start: str | dict[str, str]) -> Course:
+def _marched(
+    sheet: Flowsheet, times: Any, profiles: tuple[Profile, ...], start: str | dict[str, str]
+) -> Course:
     return march(sheet, times, profiles, start=start)
 
 
@@ -59,7 +63,8 @@ class Line:
 
     Parameters
     ----------
-    title: for reports. sheet: units, feeds and links. targets: design specifications. movement: how it runs in time, if it does.
+    title: for reports. sheet: units, feeds and links. targets: design specifications. movement: how it runs
+        in time, if it does.
     text: the case file it came from. fits: parameter → the fit it was taken from and its name there.
     told: ``description``, ``project``, ``author`` and ``date`` for the report.
     """
@@ -73,44 +78,64 @@ class Line:
     told: Mapping[str, str] = field(default_factory=dict)
 
     def solve(self, watch: Watch | None = None) -> Run:
-        """Solve, check and audit. Raises ``ConvergenceError`` (``last`` keeps the last iterate) for whatever is not a solution.
+        """Solve, check and audit. Raises ``ConvergenceError`` (``last`` keeps the last iterate) for whatever
+        is not a solution.
 
         ``watch`` is told of each pass through a loop, and may limit the time or stop.
         """
         found, wrong = climb(self.sheet, self.targets, watch)
         designed = found.designed
-        run = Run(self, designed.line, designed.solution, found.findings, {k: float(v) for k, v in designed.values.items()})
+        run = Run(
+            self,
+            designed.line,
+            designed.solution,
+            found.findings,
+            {k: float(v) for k, v in designed.values.items()},
+        )
         if wrong:
             first, rest = wrong[0], wrong[1:]
             raise ConvergenceError(
-                first.message, last=run, unit=first.unit or None, stream=first.stream or None, kind=first.kind,
+                first.message,
+                last=run,
+                unit=first.unit or None,
+                stream=first.stream or None,
+                kind=first.kind,
                 also=[fault.message for fault in rest] or None,
-            )  # fmt: skip
+            )
         return run
 
     def march(self) -> Course:
         """The line in time. Raises where a loop does not converge at some instant."""
         if self.movement is None:
-            raise InputError(_("This line does not say how it runs in time: give its case a [dynamic] table, or it a 'movement'."))
+            raise InputError(
+                _(
+                    "This line does not say how it runs in time: give its case a [dynamic] table, or it "
+                    "a 'movement'."
+                )
+            )
         times, profiles, start = self.movement
         course = _marched(as_arrays(self.sheet), times, profiles, start)
         bad = np.flatnonzero(~np.asarray(course.converged))
         if bad.size:
             raise ConvergenceError(
-                _("A loop did not converge at {time} s ({count} of {all} times): take a smaller step.").format(
-                    time=f"{times[bad[0]]:.6g}", count=bad.size, all=len(times)
-                ),
+                _(
+                    "A loop did not converge at {time} s ({count} of {all} times): take a smaller step."
+                ).format(time=f"{times[bad[0]]:.6g}", count=bad.size, all=len(times)),
                 last=course,
             )
         wrong = fault_in_time(self.sheet, course.streams, times, course.records)
         if wrong is not None:
             at, fault = wrong
             told = _("At {time} s: {fault}").format(time=f"{at:.6g}", fault=fault.message)
-            raise ConvergenceError(told, last=course, unit=fault.unit or None, stream=fault.stream, kind=fault.kind)
+            raise ConvergenceError(
+                told, last=course, unit=fault.unit or None, stream=fault.stream, kind=fault.kind
+            )
         return course
 
     def with_values(self, **values: Any) -> Line:
-        """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``, SI."""
+        """The same line with other parameters: ``line.with_values(**{"crystallizer.temperature": 283.15})``,
+        SI.
+        """
         return replace(self, sheet=self.sheet.with_values(values))
 
 
@@ -175,11 +200,16 @@ class Run:
     @cached_property
     def units(self) -> dict[str, UnitReport]:
         """Every unit's figures and checks."""
-        return {name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name]) for name in self.sheet.order}
+        return {
+            name: UnitReport(name, self.sheet.units[name], *self.solution.sheets[name])
+            for name in self.sheet.order
+        }
 
     @cached_property
     def _written(self) -> dict[str, tuple[tuple[Result, ...], Operated]]:
-        """Each unit once more, with numbers in place of compiled code: what its formulas took and gave, and what is inside."""
+        """Each unit once more, with numbers in place of compiled code: what its formulas took and gave, and
+        what is inside.
+        """
         written = {}
         for name in self.sheet.order:
             inlets = jax.tree.map(jnp.asarray, self.sheet.inlets_of(name, self.streams))
@@ -198,7 +228,9 @@ class Run:
         return {
             f"{name} · {heading}": figure
             for name, (_steps, made) in self._written.items()
-            for heading, figure in self.sheet.units[name].charts(made, self.sheet.inlets_of(name, self.streams)).items()
+            for heading, figure in self.sheet.units[name]
+            .charts(made, self.sheet.inlets_of(name, self.streams))
+            .items()
         }
 
     @cached_property
@@ -208,12 +240,17 @@ class Run:
         return {
             "mass_closure": max(mass),
             "energy_closure": max(energy),
-            "units": {name: {"mass": m, "energy": e} for name, m, e in zip(self.sheet.order, mass, energy, strict=False)},
+            "units": {
+                name: {"mass": m, "energy": e}
+                for name, m, e in zip(self.sheet.order, mass, energy, strict=False)
+            },
         }
 
     @cached_property
     def flags(self) -> list[dict[str, Any]]:
-        """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's name."""
+        """What the formulas of each unit flagged, and the fits that it takes numbers from, with the unit's
+        name.
+        """
         return told(self.solution.records) + fit_notices(self.line.fits, self.sheet)
 
     @cached_property
@@ -245,7 +282,10 @@ class Run:
             "specifications": {name: plain(value) for name, value in self.found.items()},
             "audit": {
                 **{side: plain(self.audit[side]) for side in ("mass_closure", "energy_closure")},
-                "units": {unit: {side: plain(x) for side, x in row.items()} for unit, row in self.audit["units"].items()},
+                "units": {
+                    unit: {side: plain(x) for side, x in row.items()}
+                    for unit, row in self.audit["units"].items()
+                },
             },
             "converged": bool(self.solution.converged),
             "iterations": [int(n) for n in self.solution.steps],
@@ -257,14 +297,24 @@ class Run:
         return notebooks.shown("granum.reports.terminal:print_run", self)
 
     def to_pandas(self) -> pd.DataFrame:
-        """Every stream a row, SI: temperature, pressure, flow of every species (``solid.quartz``), median size."""
+        """Every stream a row, SI: temperature, pressure, flow of every species (``solid.quartz``), median
+        size.
+        """
         return stream_frame(self.streams)
 
     def to_xarray(self) -> xr.Dataset:
-        """Streams by species and size class, and the figures of the units (``unit.figure``), SI with their units as attributes."""
-        figures = {f"{name}.{p.name}": (p, value) for name, unit in self.units.items() for p, value in unit.figures()}
+        """Streams by species and size class, and the figures of the units (``unit.figure``), SI with their
+        units as attributes.
+        """
+        figures = {
+            f"{name}.{p.name}": (p, value) for name, unit in self.units.items() for p, value in unit.figures()
+        }
         return stream_dataset(self.streams).assign(
-            {name: ((), value, attributes(p)) for name, (p, value) in figures.items() if np.ndim(value) == 0 and value is not None}
+            {
+                name: ((), value, attributes(p))
+                for name, (p, value) in figures.items()
+                if np.ndim(value) == 0 and value is not None
+            }
         )
 
     def report(self, path: str | Path) -> None:
@@ -290,7 +340,12 @@ def course_json(course: Course) -> dict[str, Any]:
     return {
         "time": {"value": plain(course.times), "unit": "s"},
         "streams": {
-            name: {"solid": flow(s.solid), "liquid": flow(s.liquid), "gas": flow(s.gas), "temperature": plain(s.temperature)}
+            name: {
+                "solid": flow(s.solid),
+                "liquid": flow(s.liquid),
+                "gas": flow(s.gas),
+                "temperature": plain(s.temperature),
+            }
             for name, s in course.streams.items()
         },
         "units": {"flow": "kg/s", "temperature": "K"},
@@ -304,7 +359,9 @@ def stream_json(s: Stream) -> dict[str, Any]:
     m = s.mixture
 
     def named(phase: str, flows: Any) -> dict[str, float | None]:
-        return {species.name: plain(x) for species, x in zip(getattr(m, phase), np.asarray(flows), strict=True)}
+        return {
+            species.name: plain(x) for species, x in zip(getattr(m, phase), np.asarray(flows), strict=True)
+        }
 
     return {
         "mass_flow": {"value": plain(s.mass_flow), "unit": "kg/s"},
@@ -313,7 +370,11 @@ def stream_json(s: Stream) -> dict[str, Any]:
         "liquid": named("liquids", s.liquid),
         "gas": named("gases", s.gas),
         "solid": named("solids", s.solid_by_species),
-        "size": {"boundaries": list(m.size_edges), "mass_fractions": plain(s.size_fractions), "median": median_size(s)}
+        "size": {
+            "boundaries": list(m.size_edges),
+            "mass_fractions": plain(s.size_fractions),
+            "median": median_size(s),
+        }
         if m.solids
         else None,
     }

@@ -10,10 +10,17 @@ from granum.core.i18n import _
 
 # Figures or parameters that are phases of a cycle, in their order, with what a chart calls them.
 PHASES = {
-    "duration": "batch", "formation_time": "filling", "squeezing_time": "squeezing", "wash_time": "washing", "deliquoring_time": "draining",
-    "freezing_time": "freezing", "drying_time_primary": "primary drying", "drying_time_secondary": "secondary drying", "drying_time": "drying",
+    "duration": "batch",
+    "formation_time": "filling",
+    "squeezing_time": "squeezing",
+    "wash_time": "washing",
+    "deliquoring_time": "draining",
+    "freezing_time": "freezing",
+    "drying_time_primary": "primary drying",
+    "drying_time_secondary": "secondary drying",
+    "drying_time": "drying",
     "dead_time": "emptying and cleaning",
-}  # fmt: skip
+}
 MOST_CYCLES = 60
 
 
@@ -25,7 +32,9 @@ class Phase(NamedTuple):
 
 
 class Cycle(NamedTuple):
-    """The cycle of one batch unit: its phases and its length, s. ``use`` is the share of its capacity that the line needs, if it says so."""
+    """The cycle of one batch unit: its phases and its length, s. ``use`` is the share of its capacity that
+    the line needs, if it says so.
+    """
 
     phases: tuple[Phase, ...]
     length: float
@@ -33,12 +42,16 @@ class Cycle(NamedTuple):
 
 
 class Schedule(NamedTuple):
-    """Cycles by unit, in the order of the line. Units whose cycles differ need a tank between them that holds a batch."""
+    """Cycles by unit, in the order of the line. Units whose cycles differ need a tank between them that holds
+    a batch.
+    """
 
     cycles: dict[str, Cycle]
 
     def chart(self, span: float | None = None) -> Any:
-        """Gantt chart over a span (three of the longest cycles by default), each unit starting as the one before it ends its first."""
+        """Gantt chart over a span (three of the longest cycles by default), each unit starting as the one
+        before it ends its first.
+        """
         from granum.core.charts import figure
 
         longest = max((c.length for c in self.cycles.values()), default=1.0)
@@ -52,7 +65,9 @@ class Schedule(NamedTuple):
             for turn in range(min(math.ceil(span / cycle.length), MOST_CYCLES)):
                 at = start + turn * cycle.length
                 for phase in cycle.phases:
-                    for column, value in zip(bars[phase.name], (name, phase.duration / 3600.0, at / 3600.0), strict=True):
+                    for column, value in zip(
+                        bars[phase.name], (name, phase.duration / 3600.0, at / 3600.0), strict=True
+                    ):
                         column.append(value)
                     at += phase.duration
             start += cycle.length
@@ -63,7 +78,9 @@ class Schedule(NamedTuple):
 
 
 def schedule(units: Mapping[str, tuple[Any, Any]]) -> Schedule:
-    """The cycles of the units that have a dead time, from their parameters and figures: ``{name: (unit, figures)}``."""
+    """The cycles of the units that have a dead time, from their parameters and figures: ``{name: (unit,
+    figures)}``.
+    """
     cycles = {}
     for name, (unit, figures) in units.items():
         if not hasattr(unit, "dead_time"):

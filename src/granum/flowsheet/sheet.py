@@ -1,4 +1,6 @@
-"""``Flowsheet``: named units and the streams between them, checked for open ports before anything is computed."""
+"""``Flowsheet``: named units and the streams between them, checked for open ports before anything is
+computed.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,8 @@ if TYPE_CHECKING:
 
 
 class Flowsheet(eqx.Module):
-    """Named units, named feeds and the links between ports. A frozen pytree: replace a parameter with ``with_values``.
+    """Named units, named feeds and the links between ports. A frozen pytree: replace a parameter with
+    ``with_values``.
 
     Parameters
     ----------
@@ -35,18 +38,27 @@ class Flowsheet(eqx.Module):
     links: tuple[Link, ...] = eqx.field(static=True)
     order: tuple[str, ...] = eqx.field(static=True)
 
-    def __init__(self, units: Mapping[str, Unit], feeds: Mapping[str, Stream], links: Mapping[str, tuple[str, str]]):
+    def __init__(
+        self, units: Mapping[str, Unit], feeds: Mapping[str, Stream], links: Mapping[str, tuple[str, str]]
+    ):
         """``links`` maps a stream name to (origin, target), each ``unit.port``; a feed has origin ``""``.
 
-        A unit with one inlet (or one outlet) may be named without its port. Outlets that nothing takes become products
-        named ``unit.port``.
+        A unit with one inlet (or one outlet) may be named without its port. Outlets that nothing takes become
+        products named ``unit.port``.
         """
         self.units, self.feeds = dict(units), dict(feeds)
         self.order = tuple(units)  # dictionaries come out of compiled code sorted by key
-        named = [Link(name, self._outlet(name, origin), self._inlet(name, target)) for name, (origin, target) in links.items()]
+        named = [
+            Link(name, self._outlet(name, origin), self._inlet(name, target))
+            for name, (origin, target) in links.items()
+        ]
         taken = {k.origin for k in named}
         for unit, thing in self.units.items():
-            named += [Link(f"{unit}.{port}", f"{unit}.{port}", "") for port in thing.outlet_names() if f"{unit}.{port}" not in taken]
+            named += [
+                Link(f"{unit}.{port}", f"{unit}.{port}", "")
+                for port in thing.outlet_names()
+                if f"{unit}.{port}" not in taken
+            ]
         self.links = tuple(named)
         self._require_complete()
 
@@ -54,7 +66,10 @@ class Flowsheet(eqx.Module):
         unit, _dot, port = end.partition(".")
         if unit not in self.units:
             raise CaseError(
-                unknown_name(_("Unit"), unit, self.units, _("in stream '{stream}'").format(stream=stream)).message, stream=stream
+                unknown_name(
+                    _("Unit"), unit, self.units, _("in stream '{stream}'").format(stream=stream)
+                ).message,
+                stream=stream,
             )
         return unit, port
 
@@ -91,15 +106,20 @@ class Flowsheet(eqx.Module):
                 place = getattr(k, end)
                 if place and place in seen:
                     raise CaseError(
-                        _("Streams '{first}' and '{second}' are both connected to '{port}'; use a mixer or a splitter.").format(
-                            first=seen[place], second=k.name, port=place
-                        )
+                        _(
+                            "Streams '{first}' and '{second}' are both connected to '{port}'; use a "
+                            "mixer or a splitter."
+                        ).format(first=seen[place], second=k.name, port=place)
                     )
                 seen[place] = k.name
         names = [k.name for k in self.links]
         for k in self.links:
             if not k.origin and k.name not in self.feeds:
-                raise CaseError(_("Stream '{stream}' comes from nowhere: give it under [feeds] or an origin.").format(stream=k.name))
+                raise CaseError(
+                    _("Stream '{stream}' comes from nowhere: give it under [feeds] or an origin.").format(
+                        stream=k.name
+                    )
+                )
         for name in self.feeds:
             if name not in names:
                 raise CaseError(_("Feed '{feed}' goes nowhere: name the unit it enters.").format(feed=name))
@@ -108,16 +128,20 @@ class Flowsheet(eqx.Module):
             for port in thing.inlet_names() or ():
                 if f"{unit}.{port}" not in entered and port not in thing.optional_inlets():
                     raise CaseError(
-                        _("Inlet '{port}' of unit '{unit}' is open: connect a stream or a feed to it.").format(port=port, unit=unit),
+                        _(
+                            "Inlet '{port}' of unit '{unit}' is open: connect a stream or a feed to it."
+                        ).format(port=port, unit=unit),
                         unit=unit,
                         port=port,
                     )
 
     def solve(self, targets: tuple[Target, ...] = (), watch: Watch | None = None, title: str = "") -> Run:
-        """Solve, check and audit: figures, checks, flags, closures, note and report. Raises for whatever is not a solution, see ``Line.solve``.
+        """Solve, check and audit: figures, checks, flags, closures, note and report. Raises for whatever is
+        not a solution, see ``Line.solve``.
 
-        ``targets`` are design specifications; ``watch`` is told of each pass through a loop, and may limit the time or stop.
-        For a pure function of the parameters, to batch or to differentiate, see ``granum.flowsheet.solve``.
+        ``targets`` are design specifications; ``watch`` is told of each pass through a loop, and may limit
+        the time or stop. For a pure function of the parameters, to batch or to differentiate, see
+        ``granum.flowsheet.solve``.
         """
         from granum.flowsheet.run import Line
 
@@ -169,7 +193,9 @@ class Flowsheet(eqx.Module):
         return thing
 
     def with_values(self, values: Mapping[str, Any]) -> Flowsheet:
-        """The same line with other parameter values; keys are ``unit.parameter`` or ``feed.field``, values SI."""
+        """The same line with other parameter values; keys are ``unit.parameter`` or ``feed.field``, values
+        SI.
+        """
         line = self
         for path, value in values.items():
             keys = self.locate(path)

@@ -1,4 +1,6 @@
-"""Solving a line: units in order, loops by fixed point on the torn streams, exact derivatives through both."""
+"""Solving a line: units in order, loops by fixed point on the torn streams, exact derivatives through
+both.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +64,17 @@ def _unpack(vector: Any, mixture: Mixture, pressure: Any, scale: Any) -> Stream:
     return Stream(solid.reshape(shape), liquid, gas, vector[-1] * TEMPERATURE_SCALE, pressure, mixture)
 
 
-def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: dict[str, Stream], scale: Any, asked: Any, method: Anderson | Newton, max_steps: int, watched: bool) -> tuple[Made, Settled]:  # fmt: skip
+def _run_loop(
+    line: Flowsheet,
+    block: Block,
+    streams: dict[str, Stream],
+    guess: dict[str, Stream],
+    scale: Any,
+    asked: Any,
+    method: Anderson | Newton,
+    max_steps: int,
+    watched: bool,
+) -> tuple[Made, Settled]:
     """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
     # nothing flows from a unit that has no answer yet, such as a dryer whose gas is still to come round
     first = next(iter(line.feeds.values()))
@@ -71,7 +83,9 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
 
     def torn(vector: Any) -> dict[str, Stream]:
         rows = vector.reshape(len(block.tears), -1)
-        return {n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)}
+        return {
+            n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)
+        }
 
     def once(vector: Any) -> tuple[Any, Any]:
         made = pass_through(line, block, streams | torn(vector), asked, nothing)
@@ -83,13 +97,22 @@ def _run_loop(line: Flowsheet, block: Block, streams: dict[str, Stream], guess: 
         watch = reporter(block.tears[0]) if watched else None
         found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps, watch=watch)
     else:
-        root = fixed_point(lambda x, _args: once(x)[0], start, method=method, tolerance=TOLERANCE, max_steps=max_steps, scale=1.0)
+        root = fixed_point(
+            lambda x, _args: once(x)[0],
+            start,
+            method=method,
+            tolerance=TOLERANCE,
+            max_steps=max_steps,
+            scale=1.0,
+        )
         good = root.residual <= within_rounding(root.state, TOLERANCE)
         found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
     made = found.made
     known = {n: is_known(s) for n, s in made.streams.items()}
     at_rest = {n: where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
-    return made._replace(streams=made.streams | at_rest), found._replace(converged=found.converged & jnp.all(jnp.stack([*known.values()])))
+    return made._replace(streams=made.streams | at_rest), found._replace(
+        converged=found.converged & jnp.all(jnp.stack([*known.values()]))
+    )
 
 
 def solve(
@@ -108,8 +131,9 @@ def solve(
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
     sheets: also work out figures and checks: of every unit, of none, or of those named.
-    method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn numbers), which compiles longer and
-        solves some loops that do not contract. max_steps: most passes through a loop, or steps of Newton.
+    method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn
+        numbers), which compiles longer and solves some loops that do not contract. max_steps: most passes
+        through a loop, or steps of Newton.
     watched: whether Anderson's method tells the ``Watch`` of each pass and stops when that asks for it.
     """
     start = start or {}
@@ -127,7 +151,9 @@ def solve(
     for block in line.blocks:
         if block.tears:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
-            guess = {n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears}
+            guess = {
+                n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears
+            }
             made, found = _run_loop(line, block, streams, guess, scale, asked, method, max_steps, watched)
             converged = converged & found.converged
             steps.append(found.steps)
@@ -138,7 +164,9 @@ def solve(
         whole.powers.update(made.powers)
         whole.records.update(made.records)
         whole.sheets.update(made.sheets)
-    return Solution(streams, whole.powers, converged, tuple(steps), tuple(residual), whole.records, whole.sheets)
+    return Solution(
+        streams, whole.powers, converged, tuple(steps), tuple(residual), whole.records, whole.sheets
+    )
 
 
 solve_compiled = eqx.filter_jit(solve)
@@ -166,13 +194,21 @@ def closures(line: Flowsheet, solution: Solution) -> tuple[dict[str, Closure], C
 def stacked(line: Flowsheet, solution: Solution) -> Stream:
     """All streams as one, along a leading axis in the order of ``line.links``."""
     named = (solution.streams[k.name] for k in line.links)
-    return jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *named)
+    return jax.tree.map(
+        lambda *leaves: jnp.stack([jnp.asarray(leaf, dtype=float) for leaf in leaves]), *named
+    )
 
 
 def balances(line: Flowsheet, solution: Solution, streams: Stream) -> Closure:
     """Closure of each unit, then of the whole line."""
-    entering = np.array([[k.target_unit == unit for k in line.links] for unit in line.order] + [[not k.origin for k in line.links]])
-    leaving = np.array([[k.source_unit == unit for k in line.links] for unit in line.order] + [[not k.target for k in line.links]])
+    entering = np.array(
+        [[k.target_unit == unit for k in line.links] for unit in line.order]
+        + [[not k.origin for k in line.links]]
+    )
+    leaving = np.array(
+        [[k.source_unit == unit for k in line.links] for unit in line.order]
+        + [[not k.target for k in line.links]]
+    )
     powers = [sum(solution.powers[unit].values(), 0.0) for unit in line.order]
     powers = jnp.stack([jnp.asarray(p, dtype=float) for p in [*powers, sum(powers, 0.0)]])
     return _closures(streams, entering.astype(float), leaving.astype(float), powers)

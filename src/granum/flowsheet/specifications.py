@@ -12,7 +12,9 @@ from granum.numerics import find_root, solve_system
 
 
 class Target(NamedTuple):
-    """Vary ``vary`` (unit.parameter) between ``lower`` and ``upper`` so that ``so_that`` (unit.result) equals ``equals``, all SI."""
+    """Vary ``vary`` (unit.parameter) between ``lower`` and ``upper`` so that ``so_that`` (unit.result) equals
+    ``equals``, all SI.
+    """
 
     vary: str
     so_that: str
@@ -37,7 +39,8 @@ def figure(solution: Solution, path: str) -> Any:
 
 
 def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False, **how: Any) -> Designed:
-    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from mid-range.
+    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from
+    mid-range.
 
     ``how`` says how its loops are solved, as for ``solve``.
     """
@@ -50,7 +53,9 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
 
         def miss(x: Any) -> Any:
             changed = line.with_values({target.vary: x})
-            return (figure(solve(changed, sheets=asked, **how), target.so_that) - target.equals) / (abs(target.equals) or 1.0)
+            return (figure(solve(changed, sheets=asked, **how), target.so_that) - target.equals) / (
+                abs(target.equals) or 1.0
+            )
 
         root = find_root(miss, target.lower, target.upper)
         values, found = {target.vary: root.value}, root.converged
@@ -61,7 +66,9 @@ def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False
         def misses(x: Any, _args: Any) -> Any:
             changed = line.with_values({t.vary: low[i] + width[i] * x[i] for i, t in enumerate(targets)})
             solution = solve(changed, sheets=asked, **how)
-            return jnp.stack([(figure(solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets])
+            return jnp.stack(
+                [(figure(solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets]
+            )
 
         outcome = solve_system(misses, jnp.full((len(targets),), 0.5))
         inside = jnp.all((outcome.state >= 0) & (outcome.state <= 1))

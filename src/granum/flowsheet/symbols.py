@@ -1,4 +1,6 @@
-"""Equipment symbols in the manner of ISO 10628, drawn once in a 60 × 60 box and used in diagrams, lists and reports."""
+"""Equipment symbols in the manner of ISO 10628, drawn once in a 60 × 60 box and used in diagrams, lists and
+reports.
+"""
 
 from __future__ import annotations
 
@@ -10,34 +12,57 @@ SYMBOLS: dict[str, str] = {
     "splitter": '<path d="M52 10 L12 30 L52 50 z"/>',
     "heater": '<circle cx="30" cy="30" r="20"/><path d="M8 30 h14 l6 -10 l6 20 l6 -10 h12" fill="none"/>',
     "crystallizer": _VESSEL + '<path d="M30 4 v28 M20 32 l10 -5 l10 5 M20 32 l10 5 l10 -5" fill="none"/>',
-    "thickener": '<path d="M4 16 h52 v12 l-20 16 h-12 l-20 -16 z"/><path d="M30 10 v28 M14 30 l16 8 l16 -8" fill="none"/>',
-    "hydrocyclone": '<path d="M16 10 h28 v14 l-11 28 h-6 l-11 -28 z"/><path d="M30 4 v14 M4 14 h12" fill="none"/>',
+    "thickener": '<path d="M4 16 h52 v12 l-20 16 h-12 l-20 -16 z"/><path d="M30 10 v28 M14 30 l16 8 l16 -8" fill="none"/>',  # noqa: E501
+    "hydrocyclone": '<path d="M16 10 h28 v14 l-11 28 h-6 l-11 -28 z"/><path d="M30 4 v14 M4 14 h12" fill="none"/>',  # noqa: E501
     "cyclone": '<path d="M16 10 h28 v16 l-10 26 h-8 l-10 -26 z"/><path d="M30 4 v14 M4 14 h12" fill="none"/>',
     "filter": _BOX + '<path d="M4 50 L56 10" fill="none" stroke-dasharray="4 3"/>',
-    "drum_filter": '<circle cx="30" cy="28" r="22"/><circle cx="30" cy="28" r="17" fill="none" stroke-dasharray="4 3"/>'
-                   '<path d="M4 44 a28 16 0 0 0 52 0" fill="none"/>',
-    "centrifuge": '<path d="M10 12 h40 v36 h-40 z"/><path d="M18 20 v20 h24 v-20" fill="none" stroke-dasharray="4 3"/><path d="M30 40 v14" fill="none"/>',
-    "dryer": '<rect x="2" y="16" width="56" height="28" rx="3"/><path d="M14 36 q4 -5 0 -10 M30 36 q4 -5 0 -10 M46 36 q4 -5 0 -10" fill="none"/>',
+    "drum_filter": '<circle cx="30" cy="28" r="22"/><circle cx="30" cy="28" r="17" fill="none" stroke-dasharray="4 3"/>'  # noqa: E501
+    '<path d="M4 44 a28 16 0 0 0 52 0" fill="none"/>',
+    "centrifuge": '<path d="M10 12 h40 v36 h-40 z"/><path d="M18 20 v20 h24 v-20" fill="none" stroke-dasharray="4 3"/><path d="M30 40 v14" fill="none"/>',  # noqa: E501
+    "dryer": '<rect x="2" y="16" width="56" height="28" rx="3"/><path d="M14 36 q4 -5 0 -10 M30 36 q4 -5 0 -10 M46 36 q4 -5 0 -10" fill="none"/>',  # noqa: E501
     "screen": _BOX + '<path d="M4 18 L56 42" fill="none" stroke-dasharray="5 3"/>',
-    "mill": '<circle cx="30" cy="30" r="21"/><circle cx="22" cy="38" r="4"/><circle cx="31" cy="42" r="4"/><circle cx="39" cy="37" r="4"/>',
+    "mill": '<circle cx="30" cy="30" r="21"/><circle cx="22" cy="38" r="4"/><circle cx="31" cy="42" r="4"/><circle cx="39" cy="37" r="4"/>',  # noqa: E501
     "crusher": '<path d="M6 10 h48 l-14 40 h-20 z"/><path d="M24 12 l6 34 l6 -34" fill="none"/>',
-    "settler": '<path d="M4 16 h52 v22 l-10 10 h-42 z"/><path d="M4 22 h52" fill="none" stroke-dasharray="3 3"/>',
-    "fluidized_bed": '<path d="M14 8 h32 v44 h-32 z"/><path d="M14 40 h32" fill="none" stroke-dasharray="3 2"/>'
-                     '<circle cx="24" cy="30" r="2"/><circle cx="33" cy="24" r="2"/><circle cx="37" cy="33" r="2"/>',
+    "settler": '<path d="M4 16 h52 v22 l-10 10 h-42 z"/><path d="M4 22 h52" fill="none" stroke-dasharray="3 3"/>',  # noqa: E501
+    "fluidized_bed": '<path d="M14 8 h32 v44 h-32 z"/><path d="M14 40 h32" fill="none" stroke-dasharray="3 2"/>'  # noqa: E501
+    '<circle cx="24" cy="30" r="2"/><circle cx="33" cy="24" r="2"/><circle cx="37" cy="33" r="2"/>',
     "fan": '<circle cx="30" cy="30" r="20"/><path d="M16 16 L48 24 M16 44 L48 36" fill="none"/>',
-}  # fmt: skip
+}
 
 # which words of a model name lead to which symbol; the first that fits wins
 _WORDS = (
-    ("hydrocyclone", "hydrocyclone"), ("cyclone", "cyclone"), ("msmpr", "crystallizer"), ("crystalli", "crystallizer"), ("drum_filter", "drum_filter"),
-    ("press", "filter"), ("filter", "filter"), ("nutsche", "filter"), ("thickener", "thickener"), ("clarifier", "thickener"), ("settler", "settler"),
-    ("separator", "settler"), ("lamella", "settler"), ("centrifuge", "centrifuge"), ("decanter", "centrifuge"), ("dryer", "dryer"), ("oven", "dryer"), ("screen", "screen"),
-    ("crusher", "crusher"), ("mill", "mill"), ("bed", "fluidized_bed"), ("heater", "heater"), ("cooler", "heater"), ("fan", "fan"), ("mixer", "mixer"),
+    ("hydrocyclone", "hydrocyclone"),
+    ("cyclone", "cyclone"),
+    ("msmpr", "crystallizer"),
+    ("crystalli", "crystallizer"),
+    ("drum_filter", "drum_filter"),
+    ("press", "filter"),
+    ("filter", "filter"),
+    ("nutsche", "filter"),
+    ("thickener", "thickener"),
+    ("clarifier", "thickener"),
+    ("settler", "settler"),
+    ("separator", "settler"),
+    ("lamella", "settler"),
+    ("centrifuge", "centrifuge"),
+    ("decanter", "centrifuge"),
+    ("dryer", "dryer"),
+    ("oven", "dryer"),
+    ("screen", "screen"),
+    ("crusher", "crusher"),
+    ("mill", "mill"),
+    ("bed", "fluidized_bed"),
+    ("heater", "heater"),
+    ("cooler", "heater"),
+    ("fan", "fan"),
+    ("mixer", "mixer"),
     ("splitter", "splitter"),
-)  # fmt: skip
+)
 
 
 def symbol_of(model: str) -> str:
-    """The inner SVG of the symbol for a model key such as ``filtration.drum_filter``; a plain box when none fits."""
+    """The inner SVG of the symbol for a model key such as ``filtration.drum_filter``; a plain box when none
+    fits.
+    """
     name = model.rpartition(".")[2]
     return next((SYMBOLS[symbol] for word, symbol in _WORDS if word in name), _BOX)

@@ -1,4 +1,6 @@
-"""Watching a line being solved: how far each loop is, a limit of time, and a way to stop that keeps the last iterate."""
+"""Watching a line being solved: how far each loop is, a limit of time, and a way to stop that keeps the last
+iterate.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ _one_at_a_time = threading.Lock()
 
 
 class Watch:
-    """Told of every pass through a loop while a line is being solved; asks the solver to stop when told to, or when time is up.
+    """Told of every pass through a loop while a line is being solved; asks the solver to stop when told to,
+    or when time is up.
 
     Parameters
     ----------
@@ -84,7 +87,9 @@ class Watch:
 
 @contextmanager
 def watched_by(watch: Watch) -> Iterator[None]:
-    """While open, loops compiled with ``reporter`` tell ``watch``. Compiled code knows no caller, so there is one at a time in a process."""
+    """While open, loops compiled with ``reporter`` tell ``watch``. Compiled code knows no caller, so there is
+    one at a time in a process.
+    """
     global _watch
     with _one_at_a_time:
         _watch = watch
@@ -100,4 +105,6 @@ def reporter(loop: str) -> Callable[[Any, Any], Any]:
     def seen(number: Any, residual: Any) -> np.ndarray:
         return np.asarray(_watch is not None and _watch.seen(loop, int(number), float(residual)))
 
-    return lambda number, residual: jax.pure_callback(seen, jax.ShapeDtypeStruct((), jnp.bool_), number, residual, vmap_method="sequential")
+    return lambda number, residual: jax.pure_callback(
+        seen, jax.ShapeDtypeStruct((), jnp.bool_), number, residual, vmap_method="sequential"
+    )

@@ -10,7 +10,17 @@ from granum.core import chart, procedure
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Density, DynamicViscosity, Length, PositiveNumber, PressureDrop, Series, Speed, Sphericity, VoidFraction
+from granum.core.kinds import (
+    Density,
+    DynamicViscosity,
+    Length,
+    PositiveNumber,
+    PressureDrop,
+    Series,
+    Speed,
+    Sphericity,
+    VoidFraction,
+)
 from granum.fluidization.formulas.minimum_beds import minimum_fluidization_velocity_ergun
 from granum.fluidization.formulas.regimes import grace_coordinates
 from granum.fluidization.ranking import denser, fluidization_regime, geldart_group
@@ -29,7 +39,9 @@ class PressureVelocity(NamedTuple):
     terminal_velocity: Speed
 
 
-@procedure(source="kunii1991, ch. 3; ergun1952", title="Pressure drop of a bed against velocity, with hysteresis")
+@procedure(
+    source="kunii1991, ch. 3; ergun1952", title="Pressure drop of a bed against velocity, with hysteresis"
+)
 def pressure_velocity(
     height: Length,
     particle_diameter: Length,
@@ -43,9 +55,10 @@ def pressure_velocity(
 ) -> PressureVelocity:
     """Pressure drop of a bed as the velocity rises to transport and falls back.
 
-    Rising, the densely packed bed follows Ergun's line, sticks up to the overshoot times its weight, and falls to the weight. Falling, it
-    settles at the looser void fraction of minimum fluidization and follows the flatter line. Above the terminal velocity it empties:
-    the curve ends there. Height is that of the dense bed.
+    Rising, the densely packed bed follows Ergun's line, sticks up to the overshoot times its weight, and
+    falls to the weight. Falling, it settles at the looser void fraction of minimum fluidization and follows
+    the flatter line. Above the terminal velocity it empties: the curve ends there. Height is that of the
+    dense bed.
 
     >>> curve = pressure_velocity(0.5, "200 um", 2600, 1.2, 1.8e-5)
     >>> round(curve.plateau_pressure_drop / (0.5 * 0.6 * 2598.8 * 9.80665), 6)
@@ -54,9 +67,10 @@ def pressure_velocity(
     denser(particle_density, fluid_density)
     if void_fraction < void_fraction_settled:
         raise InputError(
-            _("'void_fraction' at minimum fluidization ({loose}) must not be below that of the settled bed ({dense}).").format(
-                loose=f"{void_fraction:g}", dense=f"{void_fraction_settled:g}"
-            ),
+            _(
+                "'void_fraction' at minimum fluidization ({loose}) must not be below that of the "
+                "settled bed ({dense})."
+            ).format(loose=f"{void_fraction:g}", dense=f"{void_fraction_settled:g}"),
             name="void_fraction",
         )
     solid = height * (1.0 - void_fraction_settled)
@@ -65,10 +79,19 @@ def pressure_velocity(
         particle_diameter, particle_density, fluid_density, dynamic_viscosity, void_fraction, sphericity
     )
     end = terminal_velocity(particle_diameter, particle_density, fluid_density, dynamic_viscosity)
-    U = np.unique(np.concatenate([np.linspace(0.02 * first, 2.0 * first, 120), np.geomspace(2.0 * first, max(end, 2.1 * first), 40)]))
+    U = np.unique(
+        np.concatenate(
+            [
+                np.linspace(0.02 * first, 2.0 * first, 120),
+                np.geomspace(2.0 * first, max(end, 2.1 * first), 40),
+            ]
+        )
+    )
 
     def fixed(e: float) -> Any:
-        gradient = pressure_gradient_ergun(U, particle_diameter, e, fluid_density, dynamic_viscosity, sphericity)
+        gradient = pressure_gradient_ergun(
+            U, particle_diameter, e, fluid_density, dynamic_viscosity, sphericity
+        )
         return np.asarray(gradient) * solid / (1.0 - e)
 
     dense = fixed(void_fraction_settled)
@@ -88,17 +111,47 @@ def pressure_velocity_chart(
     sphericity: Sphericity = 1.0,
     overshoot: PositiveNumber = 1.1,
 ) -> Any:
-    """Pressure drop against velocity, rising and falling, with the point of minimum fluidization and the terminal velocity."""
+    """Pressure drop against velocity, rising and falling, with the point of minimum fluidization and the
+    terminal velocity.
+    """
     from granum.core.charts import ACCENT, CAUTION, OUT, SOLID, add_line, add_points, axis_title, figure
 
-    curve = pressure_velocity(height, particle_diameter, particle_density, fluid_density, dynamic_viscosity, void_fraction,
-                              void_fraction_settled, sphericity, overshoot)  # fmt: skip
-    drawing = figure(axis_title("superficial_velocity", "m/s"), axis_title("pressure_drop", "kPa"), x_log=True,
-                     title=_("Pressure drop against velocity"))  # fmt: skip
-    add_line(drawing, curve.superficial_velocity, curve.pressure_drop_rising / 1e3, _("rising velocity"), color=SOLID)
-    add_line(drawing, curve.superficial_velocity, curve.pressure_drop_falling / 1e3, _("falling velocity"), color=ACCENT, dash="dash")
+    curve = pressure_velocity(
+        height,
+        particle_diameter,
+        particle_density,
+        fluid_density,
+        dynamic_viscosity,
+        void_fraction,
+        void_fraction_settled,
+        sphericity,
+        overshoot,
+    )
+    drawing = figure(
+        axis_title("superficial_velocity", "m/s"),
+        axis_title("pressure_drop", "kPa"),
+        x_log=True,
+        title=_("Pressure drop against velocity"),
+    )
+    add_line(
+        drawing,
+        curve.superficial_velocity,
+        curve.pressure_drop_rising / 1e3,
+        _("rising velocity"),
+        color=SOLID,
+    )
+    add_line(
+        drawing,
+        curve.superficial_velocity,
+        curve.pressure_drop_falling / 1e3,
+        _("falling velocity"),
+        color=ACCENT,
+        dash="dash",
+    )
     top = curve.plateau_pressure_drop / 1e3
-    add_points(drawing, [curve.minimum_fluidization_velocity], [top], _("minimum fluidization"), color=CAUTION)
+    add_points(
+        drawing, [curve.minimum_fluidization_velocity], [top], _("minimum fluidization"), color=CAUTION
+    )
     add_points(drawing, [curve.terminal_velocity], [top], _("transport"), color=OUT)
     drawing.update_yaxes(rangemode="tozero")
     return drawing
@@ -110,19 +163,36 @@ def geldart_chart(particle_diameter: Length, particle_density: Density, fluid_de
     from granum.core.charts import INK, OUT, SOLID, add_label, add_line, add_points, axis_title, figure
 
     heavy = np.geomspace(100.0, 1e4, 30)
-    borders = np.array([geldart_group(1e-4, h + fluid_density, fluid_density).border_size for h in heavy]) * 1e6
-    drawing = figure(axis_title("particle_diameter", "um"), axis_title("density_difference", "kg/m^3", _("density difference")), x_log=True,
-                     y_log=True, title=_("Geldart's groups"))  # fmt: skip
+    borders = (
+        np.array([geldart_group(1e-4, h + fluid_density, fluid_density).border_size for h in heavy]) * 1e6
+    )
+    drawing = figure(
+        axis_title("particle_diameter", "um"),
+        axis_title("density_difference", "kg/m^3", _("density difference")),
+        x_log=True,
+        y_log=True,
+        title=_("Geldart's groups"),
+    )
     for column, name in enumerate(("C–A", "A–B", "B–D")):
         add_line(drawing, borders[:, column], heavy, name, color=SOLID)
     for x, name in ((8.0, "C"), (50.0, "A"), (250.0, "B"), (2500.0, "D")):
         add_label(drawing, x, 2000.0, f"<b>{name}</b>", color=INK)
-    add_points(drawing, [particle_diameter * 1e6], [particle_density - fluid_density], _("operating point"), color=OUT)
+    add_points(
+        drawing,
+        [particle_diameter * 1e6],
+        [particle_density - fluid_density],
+        _("operating point"),
+        color=OUT,
+    )
     drawing.update_xaxes(range=[0.5, 4.0])
     return drawing
 
 
-@chart(source="grace1986; bi1995; wen1966", title="Grace's map of regimes", typical={"superficial_velocity": (0.05, 3.0)})
+@chart(
+    source="grace1986; bi1995; wen1966",
+    title="Grace's map of regimes",
+    typical={"superficial_velocity": (0.05, 3.0)},
+)
 def grace_chart(
     superficial_velocity: Speed,
     particle_diameter: Length,
@@ -130,20 +200,33 @@ def grace_chart(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> Any:
-    """Grace's map with minimum fluidization, onset of turbulence and of entrainment, terminal velocity, and the operating point."""
+    """Grace's map with minimum fluidization, onset of turbulence and of entrainment, terminal velocity, and
+    the operating point.
+    """
     from granum.core.charts import CAUTION, INK, LIQUID, OUT, SOLID, add_line, add_points, axis_title, figure
 
     size = np.geomspace(0.7, 200.0, 80)
     Ar = size**3
     still = np.sqrt(33.7**2 + 0.0408 * Ar) - 33.7
-    fall = np.asarray(terminal_velocity(size * (1e-10 / 9.80665) ** (1.0 / 3.0), 2.0, 1.0, 1e-5)) / (1e-5 * 9.80665) ** (1.0 / 3.0)
-    drawing = figure(axis_title("dimensionless_diameter"), axis_title("dimensionless_velocity"), x_log=True, y_log=True,
-                     title=_("Grace's map of regimes"))  # fmt: skip
+    fall = np.asarray(terminal_velocity(size * (1e-10 / 9.80665) ** (1.0 / 3.0), 2.0, 1.0, 1e-5)) / (
+        1e-5 * 9.80665
+    ) ** (1.0 / 3.0)
+    drawing = figure(
+        axis_title("dimensionless_diameter"),
+        axis_title("dimensionless_velocity"),
+        x_log=True,
+        y_log=True,
+        title=_("Grace's map of regimes"),
+    )
     add_line(drawing, size, still / size, _("minimum fluidization"), color=LIQUID)
     add_line(drawing, size, 1.24 * Ar**0.45 / size, _("turbulent bed"), color=CAUTION)
     add_line(drawing, size, 1.53 * Ar**0.5 / size, _("fast fluidization or transport"), color=SOLID)
     add_line(drawing, size, fall, _("terminal velocity"), color=INK, dash="dash")
-    at = grace_coordinates(superficial_velocity, particle_diameter, particle_density, fluid_density, dynamic_viscosity)
-    regime = fluidization_regime(superficial_velocity, particle_diameter, particle_density, fluid_density, dynamic_viscosity, 10.0).regime
+    at = grace_coordinates(
+        superficial_velocity, particle_diameter, particle_density, fluid_density, dynamic_viscosity
+    )
+    regime = fluidization_regime(
+        superficial_velocity, particle_diameter, particle_density, fluid_density, dynamic_viscosity, 10.0
+    ).regime
     add_points(drawing, [at.dimensionless_diameter], [at.dimensionless_velocity], regime, color=OUT)
     return drawing

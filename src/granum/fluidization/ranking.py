@@ -1,4 +1,6 @@
-"""Correlations side by side: spread of minimum fluidization, disengaging height and entrainment. Geldart's groups and the regime."""
+"""Correlations side by side: spread of minimum fluidization, disengaging height and entrainment. Geldart's
+groups and the regime.
+"""
 
 from __future__ import annotations
 
@@ -36,9 +38,10 @@ def denser(particle_density: float, fluid_density: float) -> None:
     """One clear error for particles that float."""
     if particle_density <= fluid_density:
         raise ApplicabilityError(
-            _("Particles of {particle} kg/m³ cannot be fluidized upwards by a fluid of {fluid} kg/m³: they must be denser.").format(
-                particle=format_number(particle_density), fluid=format_number(fluid_density)
-            )
+            _(
+                "Particles of {particle} kg/m³ cannot be fluidized upwards by a fluid of {fluid} kg/m³: "
+                "they must be denser."
+            ).format(particle=format_number(particle_density), fluid=format_number(fluid_density))
         )
 
 
@@ -48,7 +51,9 @@ def _words(words: Iterable[str]) -> Any:
 
 
 class FluidizationSpread(NamedTuple):
-    """Every correlation of the minimum fluidization velocity, slowest first; median and spread of those in range."""
+    """Every correlation of the minimum fluidization velocity, slowest first; median and spread of those in
+    range.
+    """
 
     correlation: Annotated[str, Series("correlations")]
     minimum_fluidization_velocity: Annotated[Speed, Series("correlations")]
@@ -67,34 +72,50 @@ def minimum_fluidization_spread(
     void_fraction: VoidFraction = 0.4,
     sphericity: Sphericity = 1.0,
 ) -> FluidizationSpread:
-    """Minimum fluidization velocity by every correlation, each marked in or out of its range, with their median and spread.
+    """Minimum fluidization velocity by every correlation, each marked in or out of its range, with their
+    median and spread.
 
-    The spread is the ratio of highest to lowest among those in range; ±30 % is the usual scatter of a good correlation. Void fraction
-    and sphericity serve those that use them.
+    The spread is the ratio of highest to lowest among those in range; ±30 % is the usual scatter of a good
+    correlation. Void fraction and sphericity serve those that use them.
 
     >>> found = minimum_fluidization_spread("200 um", 2500, 1.2, 1.8e-5)
     >>> 0.02 < found.median_velocity < 0.06
     True
     """
     denser(particle_density, fluid_density)
-    fluid = {"particle_diameter": particle_diameter, "particle_density": particle_density, "fluid_density": fluid_density,
-             "dynamic_viscosity": dynamic_viscosity}  # fmt: skip
+    fluid = {
+        "particle_diameter": particle_diameter,
+        "particle_density": particle_density,
+        "fluid_density": fluid_density,
+        "dynamic_viscosity": dynamic_viscosity,
+    }
     rows = []
-    for name, law in [pair for module in (minimum, minimum_beds, minimum_powers) for pair in vars(module).items()]:
+    for name, law in [
+        pair for module in (minimum, minimum_beds, minimum_powers) for pair in vars(module).items()
+    ]:
         if not name.startswith("minimum_fluidization_velocity_"):
             continue
         asked = {p.name for p in law.card.parameters}
-        result = law.evaluate(**fluid, **{k: v for k, v in (("void_fraction", void_fraction), ("sphericity", sphericity)) if k in asked})
+        result = law.evaluate(
+            **fluid,
+            **{k: v for k, v in (("void_fraction", void_fraction), ("sphericity", sphericity)) if k in asked},
+        )
         remark = "; ".join(notice["message"] for notice in result.notices)
-        suits = not remark and (name.endswith("riba") == (fluid_density > GEL_LIQUID) or "ergun" in name or "wen_yu" in name)
+        suits = not remark and (
+            name.endswith("riba") == (fluid_density > GEL_LIQUID) or "ergun" in name or "wen_yu" in name
+        )
         rows.append((float(result.value), name.removeprefix("minimum_fluidization_velocity_"), suits, remark))
     rows.sort()
     values = np.array([row[0] for row in rows])
     trusted = values[[row[2] for row in rows]]
     return FluidizationSpread(
-        _words(row[1] for row in rows), values, np.array([float(row[2]) for row in rows]), _words(row[3] for row in rows),
-        float(np.median(trusted)), float(trusted.max() / trusted.min()),
-    )  # fmt: skip
+        _words(row[1] for row in rows),
+        values,
+        np.array([float(row[2]) for row in rows]),
+        _words(row[3] for row in rows),
+        float(np.median(trusted)),
+        float(trusted.max() / trusted.min()),
+    )
 
 
 class Spread(NamedTuple):
@@ -106,17 +127,26 @@ class Spread(NamedTuple):
 
 
 @procedure(source="smolders2001; kunii1991, ch. 7", title="Disengaging height by every correlation")
-def disengaging_height_spread(superficial_velocity: Speed, minimum_fluidization_velocity: Speed, bubble_diameter: Length) -> Spread:
+def disengaging_height_spread(
+    superficial_velocity: Speed, minimum_fluidization_velocity: Speed, bubble_diameter: Length
+) -> Spread:
     """Transport disengaging height by every correlation: they differ by a factor of several.
 
     >>> found = disengaging_height_spread(0.5, 0.05, 0.1)
     >>> len(found.correlation)
     6
     """
-    known = {"superficial_velocity": superficial_velocity, "minimum_fluidization_velocity": minimum_fluidization_velocity,
-             "bubble_diameter": bubble_diameter}  # fmt: skip
+    known = {
+        "superficial_velocity": superficial_velocity,
+        "minimum_fluidization_velocity": minimum_fluidization_velocity,
+        "bubble_diameter": bubble_diameter,
+    }
     rows = _every(freeboard, "disengaging_height_", known)
-    return Spread(_words(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
+    return Spread(
+        _words(name for _v, name in rows),
+        np.array([v for v, _n in rows]),
+        float(np.median([v for v, _n in rows])),
+    )
 
 
 class ElutriationSpread(NamedTuple):
@@ -127,8 +157,11 @@ class ElutriationSpread(NamedTuple):
     median_flux: MassFlux
 
 
-@procedure(source="kunii1991, ch. 7; geldart1986", title="Elutriation rate constant by every correlation",
-           typical={"terminal_velocity": (0.05, 0.4)})  # fmt: skip
+@procedure(
+    source="kunii1991, ch. 7; geldart1986",
+    title="Elutriation rate constant by every correlation",
+    typical={"terminal_velocity": (0.05, 0.4)},
+)
 def elutriation_spread(
     superficial_velocity: Speed,
     terminal_velocity: Speed,
@@ -137,7 +170,8 @@ def elutriation_spread(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> ElutriationSpread:
-    """Elutriation rate constant of one size class by every correlation: they differ by orders of magnitude, so trust the band.
+    """Elutriation rate constant of one size class by every correlation: they differ by orders of magnitude,
+    so trust the band.
 
     >>> found = elutriation_spread(1.0, 0.2, "60 um", 1500, 1.2, 1.8e-5)
     >>> found.elutriation_flux[-1] > 3 * found.elutriation_flux[0]
@@ -145,14 +179,21 @@ def elutriation_spread(
     """
     denser(particle_density, fluid_density)
     rows = _every(freeboard, "elutriation_flux_", locals())
-    return ElutriationSpread(_words(name for _v, name in rows), np.array([v for v, _n in rows]), float(np.median([v for v, _n in rows])))
+    return ElutriationSpread(
+        _words(name for _v, name in rows),
+        np.array([v for v, _n in rows]),
+        float(np.median([v for v, _n in rows])),
+    )
 
 
 def _every(module: Any, start: str, known: dict[str, Any]) -> list[tuple[float, str]]:
     """Value and author of every law of a module whose name starts so, lowest first."""
     laws = [(name, law) for name, law in vars(module).items() if name.startswith(start)]
     return sorted(
-        (float(law(**{p.name: known[p.name] for p in law.card.parameters if p.name in known})), name.removeprefix(start))
+        (
+            float(law(**{p.name: known[p.name] for p in law.card.parameters if p.name in known})),
+            name.removeprefix(start),
+        )
         for name, law in laws
     )
 
@@ -176,10 +217,15 @@ def geldart_group(
 ) -> GeldartGroup:
     """Group of a powder in a gas: C cohesive, A aeratable, B sand-like, D spoutable.
 
-    A–B and B–D are Geldart's lines for air; C–A is Molerus' balance of weight and adhesion, soft in practice. The ratio of bubbling to
-    minimum fluidization velocity above 1 is the other sign of group A. Sizes at the borders C–A, A–B, B–D.
+    A–B and B–D are Geldart's lines for air; C–A is Molerus' balance of weight and adhesion, soft in practice.
+    The ratio of bubbling to minimum fluidization velocity above 1 is the other sign of group A. Sizes at the
+    borders C–A, A–B, B–D.
 
-    >>> geldart_group("60 um", 1500).geldart_group, geldart_group("300 um", 2600).geldart_group, geldart_group("2 mm", 2600).geldart_group
+    >>> (
+    ...     geldart_group("60 um", 1500).geldart_group,
+    ...     geldart_group("300 um", 2600).geldart_group,
+    ...     geldart_group("2 mm", 2600).geldart_group,
+    ... )
     ('A', 'B', 'D')
     """
     denser(particle_density, fluid_density)
@@ -217,7 +263,11 @@ class Regime(NamedTuple):
     dimensionless_velocity: Ratio
 
 
-@procedure(source="grace1986; bi1995; stewart1967", title="Regime of a gas-fluidized bed", typical={"superficial_velocity": (0.05, 3.0)})
+@procedure(
+    source="grace1986; bi1995; stewart1967",
+    title="Regime of a gas-fluidized bed",
+    typical={"superficial_velocity": (0.05, 3.0)},
+)
 def fluidization_regime(
     superficial_velocity: Speed,
     particle_diameter: Length,
@@ -226,9 +276,11 @@ def fluidization_regime(
     dynamic_viscosity: DynamicViscosity,
     diameter: Length,
 ) -> Regime:
-    """Regime of a gas-fluidized bed in a vessel: fixed, bubbling, slugging, turbulent or fast, with the velocities between them.
+    """Regime of a gas-fluidized bed in a vessel: fixed, bubbling, slugging, turbulent or fast, with the
+    velocities between them.
 
-    A limit that lies above the next one does not occur: wide vessels do not slug, coarse particles pass from bubbling to transport.
+    A limit that lies above the next one does not occur: wide vessels do not slug, coarse particles pass from
+    bubbling to transport.
 
     >>> fluidization_regime(0.01, "200 um", 2600, 1.2, 1.8e-5, 1.0).regime
     'fixed bed'
@@ -241,7 +293,10 @@ def fluidization_regime(
         (first, _("bubbling bed")),
         (regimes.minimum_slugging_velocity(first, diameter), _("slugging bed")),
         (turbulent, _("turbulent bed")),
-        (max(regimes.entrainment_onset_velocity_bi_grace(*fluid), turbulent), _("fast fluidization or transport")),
+        (
+            max(regimes.entrainment_onset_velocity_bi_grace(*fluid), turbulent),
+            _("fast fluidization or transport"),
+        ),
     ]
     regime = _("fixed bed")
     stable = 2.0 * turbulent**2 / STANDARD_GRAVITY
@@ -252,5 +307,9 @@ def fluidization_regime(
             regime = name
     at = regimes.grace_coordinates(superficial_velocity, *fluid)
     return Regime(
-        regime, _words(n for _v, n in limits), np.array([v for v, _n in limits]), at.dimensionless_diameter, at.dimensionless_velocity
+        regime,
+        _words(n for _v, n in limits),
+        np.array([v for v, _n in limits]),
+        at.dimensionless_diameter,
+        at.dimensionless_velocity,
     )

@@ -1,4 +1,6 @@
-"""The two charts of humid gas: psychrometric (Carrier) and Mollier–Ramzin, for any pair and pressure, with the path of a process."""
+"""The two charts of humid gas: psychrometric (Carrier) and Mollier–Ramzin, for any pair and pressure, with
+the path of a process.
+"""
 
 from __future__ import annotations
 
@@ -22,14 +24,18 @@ if TYPE_CHECKING:
 
 WIDTH, HEIGHT = 1120, 790
 MARGIN = {"l": 70, "r": 80, "t": 70, "b": 62}
-NEARBY = np.array([0.0, -0.04, 0.04, -0.08, 0.08, -0.12, 0.12, -0.18, 0.18, -0.24, 0.24, -0.3, 0.3])  # shares where a label may evade to
+NEARBY = np.array(
+    [0.0, -0.04, 0.04, -0.08, 0.08, -0.12, 0.12, -0.18, 0.18, -0.24, 0.24, -0.3, 0.3]
+)  # shares where a label may evade to
 States = Annotated[Temperature, Series("states")] | None
 Humidities = Annotated[HumidityRatio, Series("states")] | None
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def default_humidity(T_high: float, pair: AbstractPair = AIR_WATER) -> float:
-    """A humidity ratio that suits a highest temperature: that of air and water, times what a more volatile vapor makes of it."""
+    """A humidity ratio that suits a highest temperature: that of air and water, times what a more volatile
+    vapor makes of it.
+    """
     t = T_high - ZERO_CELSIUS
     w = 0.03 if t <= 60.0 else 0.03 + 8e-4 * (t - 55.0)
     if pair.vapor_molar_mass == AIR_WATER.vapor_molar_mass:
@@ -42,17 +48,37 @@ def default_humidity(T_high: float, pair: AbstractPair = AIR_WATER) -> float:
 def _window(
     low: float | None, high: float | None, usual: float, w_high: float | None, states: Any, pair: AbstractPair
 ) -> tuple[float, float, float]:
-    """Coldest and hottest temperature and largest humidity: those given, or the usual ones widened so that every state is inside."""
+    """Coldest and hottest temperature and largest humidity: those given, or the usual ones widened so that
+    every state is inside.
+    """
     T, w = ([], []) if states is None else ([float(t) for t in states[0]], [float(x) for x in states[1]])
-    cold = min([263.15] + [5.0 * float(np.floor((t - 1.0) / 5.0)) + 3.15 for t in T]) if low is None else float(low)
-    hot = max([usual] + [5.0 * float(np.ceil((t + 1.85) / 5.0)) + 3.15 for t in T]) if high is None else float(high)
+    cold = (
+        min([263.15] + [5.0 * float(np.floor((t - 1.0) / 5.0)) + 3.15 for t in T])
+        if low is None
+        else float(low)
+    )
+    hot = (
+        max([usual] + [5.0 * float(np.ceil((t + 1.85) / 5.0)) + 3.15 for t in T])
+        if high is None
+        else float(high)
+    )
     return cold, hot, float(w_high) if w_high else max([default_humidity(hot, pair)] + [1.1 * x for x in w])
 
 
 class _Sheet:
-    """Draws isolines, labels and states on one of the two charts; ``place`` turns temperature and humidity into coordinates."""
+    """Draws isolines, labels and states on one of the two charts; ``place`` turns temperature and humidity
+    into coordinates.
+    """
 
-    def __init__(self, figure: go.Figure, lines: Isolines, place: Place, x: tuple[float, float], y: tuple[float, float], height: float):
+    def __init__(
+        self,
+        figure: go.Figure,
+        lines: Isolines,
+        place: Place,
+        x: tuple[float, float],
+        y: tuple[float, float],
+        height: float,
+    ):
         self.figure, self.lines, self.place = figure, lines, place
         self.x, self.y = x, y
         self.scale = ((WIDTH - MARGIN["l"] - MARGIN["r"]) / (x[1] - x[0]), height / (y[1] - y[0]))
@@ -63,24 +89,58 @@ class _Sheet:
         left, right = (x * self.scale[0] for x in self.x)
         low, high = (y * self.scale[1] for y in self.y)
         inside = all(left + r < x < right - r and low + r < y < high - r for x, y, r in circles)
-        return inside and all(np.hypot(x - a, y - b) >= r + c for x, y, r in circles for a, b, c in self.taken)
+        return inside and all(
+            np.hypot(x - a, y - b) >= r + c for x, y, r in circles for a, b, c in self.taken
+        )
 
     def reserve(self, T: np.ndarray, w: np.ndarray) -> None:
         """Keep labels off the marks of states."""
         x, y = self.place(T, w)
-        self.taken += [(float(a * self.scale[0]), float(b * self.scale[1]), 13.0) for a, b in zip(x, y, strict=True)]
+        self.taken += [
+            (float(a * self.scale[0]), float(b * self.scale[1]), 13.0) for a, b in zip(x, y, strict=True)
+        ]
 
-    def curve(self, T: np.ndarray, w: np.ndarray, name: str, color: str, width: float, dash: str = "solid", legend: bool = False) -> None:
+    def curve(
+        self,
+        T: np.ndarray,
+        w: np.ndarray,
+        name: str,
+        color: str,
+        width: float,
+        dash: str = "solid",
+        legend: bool = False,
+    ) -> None:
         import plotly.graph_objects as go
 
         if len(T) < 2:
             return
         x, y = self.place(T, w)
-        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": color, "width": width, "dash": dash, "simplify": False}, name=name,
-                                         legendgroup=name, showlegend=legend, hoverinfo="skip"))  # fmt: skip
+        self.figure.add_trace(
+            go.Scatter(
+                x=x,
+                y=y,
+                mode="lines",
+                line={"color": color, "width": width, "dash": dash, "simplify": False},
+                name=name,
+                legendgroup=name,
+                showlegend=legend,
+                hoverinfo="skip",
+            )
+        )
 
-    def label(self, T: np.ndarray, w: np.ndarray, text: str, color: str, at: float, size: int = 10, beyond: float = 0.0) -> None:
-        """Text along a curve, near a share of its drawn length where nothing is in the way; ``beyond`` shifts it past the end, in pixels."""
+    def label(
+        self,
+        T: np.ndarray,
+        w: np.ndarray,
+        text: str,
+        color: str,
+        at: float,
+        size: int = 10,
+        beyond: float = 0.0,
+    ) -> None:
+        """Text along a curve, near a share of its drawn length where nothing is in the way; ``beyond`` shifts
+        it past the end, in pixels.
+        """
         if len(T) < 2:
             return
         x, y = self.place(T, w)
@@ -98,18 +158,38 @@ class _Sheet:
             sign = 1.0 if at > 0.5 else -1.0
             cx, cy = cx + sign * beyond * dx, cy + sign * beyond * dy
             half = 0.28 * size * len(text)
-            circles = [(float(cx + k * half * dx), float(cy + k * half * dy), 0.6 * size) for k in (-0.7, 0.0, 0.7)]
+            circles = [
+                (float(cx + k * half * dx), float(cy + k * half * dy), 0.6 * size) for k in (-0.7, 0.0, 0.7)
+            ]
             if self._free(circles):
                 self.taken += circles
                 angle = -np.degrees(np.arctan2(dy, dx))
                 angle = angle - 180.0 if angle > 90.0 else angle + 180.0 if angle < -90.0 else angle
                 self.figure.add_annotation(
-                    x=cx / self.scale[0], y=cy / self.scale[1], text=text, textangle=float(angle), showarrow=False,
-                    font={"size": size, "color": color}, bgcolor="rgba(255,255,255,0.85)" if not beyond else None, borderpad=0)  # fmt: skip
+                    x=cx / self.scale[0],
+                    y=cy / self.scale[1],
+                    text=text,
+                    textangle=float(angle),
+                    showarrow=False,
+                    font={"size": size, "color": color},
+                    bgcolor="rgba(255,255,255,0.85)" if not beyond else None,
+                    borderpad=0,
+                )
                 return
 
-    def family(self, kind: str, values: np.ndarray, name: str, color: str, width: float, dash: str, text: Callable[[float], str], at: float,
-               beyond: float = 0.0, every: int = 1) -> None:  # fmt: skip
+    def family(
+        self,
+        kind: str,
+        values: np.ndarray,
+        name: str,
+        color: str,
+        width: float,
+        dash: str,
+        text: Callable[[float], str],
+        at: float,
+        beyond: float = 0.0,
+        every: int = 1,
+    ) -> None:
         """All lines of one quantity, every so many of them labelled."""
         first = True
         for i, value in enumerate(values):
@@ -129,11 +209,23 @@ class _Sheet:
         x, y = self.place(T, w)
         template = (
             "<b>%{customdata[0]:.1f} °C</b><br>w %{customdata[1]:.2f} g/kg<br>φ %{customdata[2]:.1f} %<br>"
-            + "T<sub>h</sub> %{customdata[3]:.1f} °C<br>T<sub>r</sub> %{customdata[4]:.1f} °C<br>h %{customdata[5]:.1f} kJ/kg<br>"
+            + (
+                "T<sub>h</sub> %{customdata[3]:.1f} °C<br>T<sub>r</sub> %{customdata[4]:.1f} °C<br>h "
+                "%{customdata[5]:.1f} kJ/kg<br>"
+            )
             + "v %{customdata[6]:.3f} m³/kg<extra></extra>"
         )
-        self.figure.add_trace(go.Scatter(x=x, y=y, mode="markers", marker={"size": 9, "opacity": 0.0}, customdata=data, hovertemplate=template,
-                                         showlegend=False))  # fmt: skip
+        self.figure.add_trace(
+            go.Scatter(
+                x=x,
+                y=y,
+                mode="markers",
+                marker={"size": 9, "opacity": 0.0},
+                customdata=data,
+                hovertemplate=template,
+                showlegend=False,
+            )
+        )
 
     def path(self, T: np.ndarray, w: np.ndarray) -> None:
         """The process: thick line through numbered states."""
@@ -142,24 +234,66 @@ class _Sheet:
         from granum.core.charts import ACCENT
 
         x, y = self.place(T, w)
-        self.figure.add_trace(go.Scatter(x=x, y=y, mode="lines", line={"color": ACCENT, "width": 4}, name=_("process"), hoverinfo="skip"))
-        self.figure.add_trace(go.Scatter(
-            x=x, y=y, mode="markers+text", text=[f"<b>{i + 1}</b>" for i in range(len(T))], textfont={"color": "white", "size": 12},
-            marker={"size": 21, "color": ACCENT, "line": {"color": "white", "width": 2}}, showlegend=False, hoverinfo="skip"))  # fmt: skip
+        self.figure.add_trace(
+            go.Scatter(
+                x=x,
+                y=y,
+                mode="lines",
+                line={"color": ACCENT, "width": 4},
+                name=_("process"),
+                hoverinfo="skip",
+            )
+        )
+        self.figure.add_trace(
+            go.Scatter(
+                x=x,
+                y=y,
+                mode="markers+text",
+                text=[f"<b>{i + 1}</b>" for i in range(len(T))],
+                textfont={"color": "white", "size": 12},
+                marker={"size": 21, "color": ACCENT, "line": {"color": "white", "width": 2}},
+                showlegend=False,
+                hoverinfo="skip",
+            )
+        )
 
 
 def _table(figure: go.Figure, states: np.ndarray, share: float) -> None:
     """The states in rows under the chart; the columns are those of ``Isolines.states``."""
     import plotly.graph_objects as go
 
-    heads = ("", "T / °C", "w / (g/kg)", "φ / %", "T<sub>h</sub> / °C", "T<sub>r</sub> / °C", "h / (kJ/kg)", "v / (m³/kg)")
+    heads = (
+        "",
+        "T / °C",
+        "w / (g/kg)",
+        "φ / %",
+        "T<sub>h</sub> / °C",
+        "T<sub>r</sub> / °C",
+        "h / (kJ/kg)",
+        "v / (m³/kg)",
+    )
     digits = (3, 3, 3, 3, 3, 4, 4)
     columns = [[str(i + 1) for i in range(len(states))]]
     columns += [[format_number(float(v), n) for v in states[:, k]] for k, n in enumerate(digits)]
-    figure.add_trace(go.Table(
-        header={"values": [f"<b>{n}</b>" for n in heads], "fill_color": "#eef2f2", "line_color": "#d9dde3", "font": {"size": 12}, "height": 26},
-        cells={"values": columns, "fill_color": "white", "line_color": "#d9dde3", "font": {"size": 12}, "height": 24},
-        domain={"x": [0.0, 1.0], "y": [0.0, share]}))  # fmt: skip
+    figure.add_trace(
+        go.Table(
+            header={
+                "values": [f"<b>{n}</b>" for n in heads],
+                "fill_color": "#eef2f2",
+                "line_color": "#d9dde3",
+                "font": {"size": 12},
+                "height": 26,
+            },
+            cells={
+                "values": columns,
+                "fill_color": "white",
+                "line_color": "#d9dde3",
+                "font": {"size": 12},
+                "height": 24,
+            },
+            domain={"x": [0.0, 1.0], "y": [0.0, share]},
+        )
+    )
 
 
 def _checked(temperature: Any, humidity_ratio: Any) -> tuple[np.ndarray, np.ndarray] | None:
@@ -177,10 +311,16 @@ def _frame(title: str, states: Any, pair: AbstractPair, P: float) -> tuple[go.Fi
     rows = 0 if states is None else len(states[0])
     extra = 0 if states is None else 60 + 25 * rows
     height = HEIGHT + extra
-    drawing = figure("", "", title=f"{title} · {type(pair).card.title} · {show(P, KINDS['Pressure'])}")  # type: ignore[attr-defined]
+    drawing = figure("", "", title=(f"{title} · {type(pair).card.title} · {show(P, KINDS['Pressure'])}"))  # type: ignore[attr-defined]
     share = 0.0 if states is None else (40 + 25 * rows) / (height - MARGIN["t"] - MARGIN["b"])
-    drawing.update_layout(width=WIDTH, height=height, margin=MARGIN, legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "font": {"size": 11}},
-                          hovermode="closest", hoverdistance=15)  # fmt: skip
+    drawing.update_layout(
+        width=WIDTH,
+        height=height,
+        margin=MARGIN,
+        legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "font": {"size": 11}},
+        hovermode="closest",
+        hoverdistance=15,
+    )
     start = 0.0 if states is None else share + 70.0 / (height - MARGIN["t"] - MARGIN["b"])
     drawing.update_yaxes(domain=[start, 1.0])
     return drawing, (1.0 - start) * (height - MARGIN["t"] - MARGIN["b"]), share
@@ -190,18 +330,61 @@ def _families(sheet: _Sheet, wet_at: float, volume_at: float) -> None:
     from granum.core.charts import HEAT, INK, LIQUID, OK
 
     lines = sheet.lines
-    humid = [p for p in (0.01, 0.02, 0.05) if lines.T_high > 353.0] + [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
-    sheet.family("enthalpy", nice_steps(*lines.range_of("enthalpy"), 16), _("enthalpy kJ/kg"), HEAT, 0.7, "solid",
-                 lambda h: format_number(h / 1e3, 4), 0.0, beyond=16.0)  # fmt: skip
+    humid = [p for p in (0.01, 0.02, 0.05) if lines.T_high > 353.0] + [
+        0.1,
+        0.2,
+        0.3,
+        0.4,
+        0.5,
+        0.6,
+        0.7,
+        0.8,
+        0.9,
+    ]
+    sheet.family(
+        "enthalpy",
+        nice_steps(*lines.range_of("enthalpy"), 16),
+        _("enthalpy kJ/kg"),
+        HEAT,
+        0.7,
+        "solid",
+        lambda h: format_number(h / 1e3, 4),
+        0.0,
+        beyond=16.0,
+    )
     T, w = lines.line("relative_humidity", 1.0)
     sheet.label(T, w, "100 %", INK, 0.75, size=11)
     sheet.family(
-        "relative_humidity", np.array(humid), _("relative humidity"), LIQUID, 1.0, "solid", lambda f: f"{format_number(100 * f, 2)} %", 0.72
+        "relative_humidity",
+        np.array(humid),
+        _("relative humidity"),
+        LIQUID,
+        1.0,
+        "solid",
+        lambda f: f"{format_number(100 * f, 2)} %",
+        0.72,
     )
-    sheet.family("wet_bulb_temperature", nice_steps(lines.T_low - ZERO_CELSIUS, lines.range_of("wet_bulb")[1] - ZERO_CELSIUS, 12) + ZERO_CELSIUS,
-                 _("wet bulb °C"), "#6b46c1", 0.7, "dash", lambda T: f"{format_number(T - ZERO_CELSIUS, 3)}°", wet_at)  # fmt: skip
-    sheet.family("specific_volume", nice_steps(*lines.range_of("specific_volume"), 10), _("volume m³/kg"), OK, 0.8, "dashdot",
-                 lambda v: f"{format_number(v, 4)}", volume_at)  # fmt: skip
+    sheet.family(
+        "wet_bulb_temperature",
+        nice_steps(lines.T_low - ZERO_CELSIUS, lines.range_of("wet_bulb")[1] - ZERO_CELSIUS, 12)
+        + ZERO_CELSIUS,
+        _("wet bulb °C"),
+        "#6b46c1",
+        0.7,
+        "dash",
+        lambda T: f"{format_number(T - ZERO_CELSIUS, 3)}°",
+        wet_at,
+    )
+    sheet.family(
+        "specific_volume",
+        nice_steps(*lines.range_of("specific_volume"), 10),
+        _("volume m³/kg"),
+        OK,
+        0.8,
+        "dashdot",
+        lambda v: f"{format_number(v, 4)}",
+        volume_at,
+    )
     sheet.curve(T, w, _("saturation"), INK, 3.0, legend=True)
 
 
@@ -215,18 +398,23 @@ def psychrometric_chart(
     temperature: States = None,
     humidity_ratio: Humidities = None,
 ) -> go.Figure:
-    """Psychrometric chart of Carrier's type: humidity ratio over dry-bulb temperature, with the states of a process if given.
+    """Psychrometric chart of Carrier's type: humidity ratio over dry-bulb temperature, with the states of a
+    process if given.
 
-    Lines of relative humidity, wet bulb, enthalpy and volume; the pointer shows the full state. Without limits the chart runs from −10 to
-    50 °C, or as far as the states need.
+    Lines of relative humidity, wet bulb, enthalpy and volume; the pointer shows the full state. Without
+    limits the chart runs from −10 to 50 °C, or as far as the states need.
 
-    >>> psychrometric_chart(temperature=["20 degC", "60 degC", "35 degC"], humidity_ratio=[0.008, 0.008, 0.018]).layout.xaxis.range
+    >>> psychrometric_chart(
+    ...     temperature=["20 degC", "60 degC", "35 degC"], humidity_ratio=[0.008, 0.008, 0.018]
+    ... ).layout.xaxis.range
     (-10.0, 65.0)
     """
     from granum.core.charts import axis_title
 
     states = _checked(temperature, humidity_ratio)
-    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 323.15, humidity_ratio_high, states, pair)
+    temperature_low, temperature_high, top = _window(
+        temperature_low, temperature_high, 323.15, humidity_ratio_high, states, pair
+    )
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     drawing, height, share = _frame(_("Psychrometric chart"), states, pair, pressure)
     x, y = (temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS), (0.0, 1e3 * top)
@@ -253,9 +441,11 @@ def mollier_chart(
     temperature: States = None,
     humidity_ratio: Humidities = None,
 ) -> go.Figure:
-    """Oblique enthalpy chart of Mollier and Ramzin: the isotherm of 0 °C is level, lines of constant enthalpy fall to the right.
+    """Oblique enthalpy chart of Mollier and Ramzin: the isotherm of 0 °C is level, lines of constant enthalpy
+    fall to the right.
 
-    The ordinate is enthalpy less the heat of vaporization at 0 °C times humidity, so heating is a vertical and mixing a straight line.
+    The ordinate is enthalpy less the heat of vaporization at 0 °C times humidity, so heating is a vertical
+    and mixing a straight line.
 
     >>> mollier_chart().layout.xaxis.range
     (0.0, 30.0)
@@ -263,25 +453,38 @@ def mollier_chart(
     from granum.core.charts import INK, axis_title
 
     states = _checked(temperature, humidity_ratio)
-    temperature_low, temperature_high, top = _window(temperature_low, temperature_high, 333.15, humidity_ratio_high, states, pair)
+    temperature_low, temperature_high, top = _window(
+        temperature_low, temperature_high, 333.15, humidity_ratio_high, states, pair
+    )
     lines = Isolines(pair, pressure, temperature_low, temperature_high, top, states)
     zero = (
-        float(lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([1e-3]))[0] - lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([0.0]))[0])
+        float(
+            lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([1e-3]))[0]
+            - lines.enthalpy(np.array([ZERO_CELSIUS]), np.array([0.0]))[0]
+        )
         * 1e3
     )
 
     def place(T: np.ndarray, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return 1e3 * np.asarray(w), (lines.enthalpy(np.asarray(T), np.asarray(w)) - zero * np.asarray(w)) / 1e3
+        return 1e3 * np.asarray(w), (
+            lines.enthalpy(np.asarray(T), np.asarray(w)) - zero * np.asarray(w)
+        ) / 1e3
 
     drawing, height, share = _frame(_("Mollier–Ramzin chart"), states, pair, pressure)
-    low, high = (float(place(np.array([T]), np.array([0.0]))[1][0]) for T in (temperature_low, temperature_high))
+    low, high = (
+        float(place(np.array([T]), np.array([0.0]))[1][0]) for T in (temperature_low, temperature_high)
+    )
     x, y = (0.0, 1e3 * top), (low, high)
     sheet = _Sheet(drawing, lines, place, x, y, height)
     ticks = nice_steps(temperature_low - ZERO_CELSIUS, temperature_high - ZERO_CELSIUS, 14)
     at = [float(place(np.array([t + ZERO_CELSIUS]), np.array([0.0]))[1][0]) for t in ticks]
     drawing.update_xaxes(range=list(x), title=axis_title("humidity_ratio", "g/kg"), nticks=16)
     drawing.update_yaxes(
-        range=list(y), title=axis_title("temperature", "degC"), tickvals=at, ticktext=[format_number(t, 3) for t in ticks], showgrid=False
+        range=list(y),
+        title=axis_title("temperature", "degC"),
+        tickvals=at,
+        ticktext=[format_number(t, 3) for t in ticks],
+        showgrid=False,
     )
     if states is not None:
         sheet.reserve(*states)
@@ -289,7 +492,9 @@ def mollier_chart(
     first = True
     for t in fine:
         T, w = lines.line("temperature", t + ZERO_CELSIUS)
-        sheet.curve(T, w, _("temperature °C"), "#8a94a3", 0.9 if np.isclose(t, ticks).any() else 0.4, legend=first)
+        sheet.curve(
+            T, w, _("temperature °C"), "#8a94a3", 0.9 if np.isclose(t, ticks).any() else 0.4, legend=first
+        )
         first = False
         if np.isclose(t, ticks).any():
             sheet.label(T, w, f"{format_number(t, 3)}°", INK, 0.35)

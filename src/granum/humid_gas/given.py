@@ -25,15 +25,17 @@ def check_pair_of_inputs(given: dict[str, Any]) -> None:
         )
     if all(name in MOISTURE for name in names):
         raise InputError(
-            _("{first} and {second} say the same thing at a given pressure; give one of them and another property.").format(
-                first=names[0], second=names[1]
-            ),
+            _(
+                "{first} and {second} say the same thing at a given pressure; give one of them and "
+                "another property."
+            ).format(first=names[0], second=names[1]),
             given=names,
         )
     if all(name in WET for name in names):
         raise InputError(
-            _("{first} and {second} nearly coincide and do not fix the state; give one of them and another property.").format(
-                first=names[0], second=names[1]
-            ),
+            _(
+                "{first} and {second} nearly coincide and do not fix the state; give one of them and "
+                "another property."
+            ).format(first=names[0], second=names[1]),
             given=names,
         )

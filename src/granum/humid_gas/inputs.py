@@ -24,13 +24,19 @@ ROUNDING = 1e-9
 ROOM_FOR_REAL = 1.25  # over the temperature at which dry ideal gas has a volume: a real gas may be warmer
 TWO_STATES = "Two states have these values; the colder and moister one is given."
 NEARLY_PARALLEL = (
-    "Lines of constant wet bulb and of constant enthalpy are nearly parallel: a change of 0.1 kJ/kg moves the temperature by more "
+    "Lines of constant wet bulb and of constant enthalpy are nearly parallel: a change of 0.1 kJ/kg "
+    "moves the temperature by more "
     "than 1 K. Give the temperature or the humidity in place of one of them."
 )
-PARALLEL_SHARE = 0.1  # enthalpy of the evaporating liquid over its latent heat: below this the temperature moves by more than 1 K
+# enthalpy of the evaporating liquid over its latent heat: below this the temperature moves by more than 1 K
+PARALLEL_SHARE = 0.1
 OVER_SATURATION = "The vapor would be more than saturates the gas at this temperature."
-ABOVE_TOTAL = "The vapor pressure cannot be above the total pressure, nor the dew point above the boiling point."
-BETWEEN_WET = "The limits are the wet bulb of dry gas at this temperature, and the dry bulb or the boiling point."
+ABOVE_TOTAL = (
+    "The vapor pressure cannot be above the total pressure, nor the dew point above the boiling point."
+)
+BETWEEN_WET = (
+    "The limits are the wet bulb of dry gas at this temperature, and the dry bulb or the boiling point."
+)
 BETWEEN_DRY_AND_SATURATED = "The limits are those of dry and of saturated gas at this temperature."
 OVER_DRY = "The limits are those of dry gas at this temperature and, below freezing, of saturated gas."
 OVER_DEW = "The limit is that of the gas saturated, at its dew point."
@@ -53,7 +59,9 @@ class Solver:
         """The state, and where it is possible."""
         check_pair_of_inputs(self.given)
         names, lewis = list(self.given), self.lewis["wet_bulb_temperature"]
-        if flags.listening() or (lewis is not None and jnp.ndim(lewis) > 0):  # a block cannot tell what it has to say
+        if flags.listening() or (
+            lewis is not None and jnp.ndim(lewis) > 0
+        ):  # a block cannot tell what it has to say
             return self._solve()
 
         def one(P: Any, *values: Any) -> tuple[Gas, Any]:
@@ -79,7 +87,12 @@ class Solver:
         pressure = name == "vapor_pressure"
         y = value / self.P if pressure else rel.saturated_fraction(self.pair, value, self.P)
         possible = y <= 1.0 + ROUNDING
-        self._tell(~possible, name, lambda: (0.0, self.P) if pressure else (-jnp.inf, self.pair.boiling_temperature(self.P)), ABOVE_TOTAL)
+        self._tell(
+            ~possible,
+            name,
+            lambda: (0.0, self.P) if pressure else (-jnp.inf, self.pair.boiling_temperature(self.P)),
+            ABOVE_TOTAL,
+        )
         return jnp.clip(y, 0.0, 1.0), possible
 
     def _ys(self, T: Any) -> Any:
@@ -95,7 +108,9 @@ class Solver:
             low, high = limits()
             flags.impossible(wrong, self.given[name], name, low, high, reason)
 
-    def _bounded(self, T: Any, y: Any, name: str, limits: Callable[[], tuple[Any, Any]], reason: str) -> tuple[Gas, Any]:
+    def _bounded(
+        self, T: Any, y: Any, name: str, limits: Callable[[], tuple[Any, Any]], reason: str
+    ) -> tuple[Gas, Any]:
         """An unsaturated state, possible where the fraction lies between dry and saturated."""
         ys = jnp.minimum(self._ys(T), 1.0)
         possible = (y >= -ROUNDING) & (y <= ys * (1 + ROUNDING))
@@ -105,7 +120,11 @@ class Solver:
     def _specific(self, quantity: str, T: Any, y: Any) -> Any:
         """Enthalpy or volume of the gas per mass of dry gas."""
         gas = Gas(T, y, jnp.zeros_like(T * y))
-        return rel.enthalpy_of(self.pair, gas, self.P) if quantity == "enthalpy" else rel.volume_of(self.pair, gas, self.P)
+        return (
+            rel.enthalpy_of(self.pair, gas, self.P)
+            if quantity == "enthalpy"
+            else rel.volume_of(self.pair, gas, self.P)
+        )
 
     def _molar(self, quantity: str) -> Callable[..., Any]:
         return self.pair.molar_enthalpy if quantity == "enthalpy" else self.pair.molar_volume
@@ -124,22 +143,30 @@ class Solver:
             return rel.settled(self.pair, T, self.P, y), possible
 
         def limits() -> tuple[Any, Any]:
-            return (0.0, jnp.minimum(self._ys(T), 1.0) * self.P) if name == "vapor_pressure" else (-jnp.inf, T)
+            return (
+                (0.0, jnp.minimum(self._ys(T), 1.0) * self.P) if name == "vapor_pressure" else (-jnp.inf, T)
+            )
 
         gas, inside = self._bounded(T, y, name, limits, OVER_SATURATION)
         return gas, possible & inside
 
     def _temperature_and_relative_humidity(self, _T: str, name: str) -> tuple[Gas, Any]:
         T = self.given["temperature"]
-        return self._bounded(T, self.given[name] * self._ys(T), name, lambda: (0.0, 1.0 / self._ys(T)), ABOVE_TOTAL)
+        return self._bounded(
+            T, self.given[name] * self._ys(T), name, lambda: (0.0, 1.0 / self._ys(T)), ABOVE_TOTAL
+        )
 
     def _temperature_and_wet_bulb(self, _T: str, name: str) -> tuple[Gas, Any]:
         pair, P, T, lewis = self.pair, self.P, self.given["temperature"], self.lewis[name]
 
         def limits() -> tuple[Any, Any]:
-            return rel.wet_bulb(pair, T, P, jnp.zeros_like(T * P), lewis), jnp.minimum(T, pair.boiling_temperature(P))
+            return rel.wet_bulb(pair, T, P, jnp.zeros_like(T * P), lewis), jnp.minimum(
+                T, pair.boiling_temperature(P)
+            )
 
-        return self._bounded(T, rel.fraction_at_wet_bulb(pair, T, P, self.given[name], lewis), name, limits, BETWEEN_WET)
+        return self._bounded(
+            T, rel.fraction_at_wet_bulb(pair, T, P, self.given[name], lewis), name, limits, BETWEEN_WET
+        )
 
     def _temperature_and_specific_volume(self, _T: str, name: str) -> tuple[Gas, Any]:
         T = self.given["temperature"]
@@ -156,12 +183,19 @@ class Solver:
         pair, P, T, h = self.pair, self.P, self.given["temperature"], self.given["enthalpy"]
         y = rel.fraction_at_enthalpy(pair, T, P, h)
         ys = self._ys(T)
-        foggy = (y > ys) & (ys < 1) & (pair.freezing_temperature < T)  # ice takes enthalpy away, so such a mixture is not told apart
+        foggy = (
+            (y > ys) & (ys < 1) & (pair.freezing_temperature < T)
+        )  # ice takes enthalpy away, so such a mixture is not told apart
         gas, possible = self._bounded(
-            T, jnp.where(foggy, ys, y), name,
-            lambda: (self._specific(name, T, 0.0 * ys), jnp.where(pair.is_frozen(T), self._dry_and_saturated(name, T)[1], jnp.inf)),
+            T,
+            jnp.where(foggy, ys, y),
+            name,
+            lambda: (
+                self._specific(name, T, 0.0 * ys),
+                jnp.where(pair.is_frozen(T), self._dry_and_saturated(name, T)[1], jnp.inf),
+            ),
             OVER_DRY,
-        )  # fmt: skip
+        )
         saturated = Gas(T, jnp.where(foggy, ys, 0.5), jnp.zeros_like(y))
         liquid = pair.condensate_molar_enthalpy(T, P, False) / pair.gas_molar_mass
         fog = (h - rel.enthalpy_of(pair, saturated, P)) / jnp.where(foggy, liquid, 1.0)
@@ -194,7 +228,9 @@ class Solver:
         self._tell(~above | (wet.ys >= 1.0), name, limits, FROM_DEW)
         y = jnp.minimum(y, wet.ys)
         h = wet.enthalpy(y)
-        T = self._falling(lambda T: h - pair.molar_enthalpy(T, P, y), Ts + 0.0 * y, pair.highest_temperature, start=Ts)
+        T = self._falling(
+            lambda T: h - pair.molar_enthalpy(T, P, y), Ts + 0.0 * y, pair.highest_temperature, start=Ts
+        )
         return Gas(T, y + 0.0 * T, jnp.zeros_like(T)), above
 
     def _moisture_and_enthalpy(self, moisture: str, name: str) -> tuple[Gas, Any]:
@@ -208,12 +244,23 @@ class Solver:
         return self._moisture_and_specific(moisture, name)
 
     def _moisture_and_specific(self, moisture: str, name: str) -> tuple[Gas, Any]:
-        """Unsaturated gas of a vapor fraction and an enthalpy or volume, which rise with temperature from the dew point on."""
+        """Unsaturated gas of a vapor fraction and an enthalpy or volume, which rise with temperature from the
+        dew point on.
+        """
         y, possible = self._fraction(moisture)
-        dew = self.given[moisture] if moisture == "dew_point_temperature" else rel.dew_point(self.pair, self.P, y)
+        dew = (
+            self.given[moisture]
+            if moisture == "dew_point_temperature"
+            else rel.dew_point(self.pair, self.P, y)
+        )
         goal, of = self._per_gas(self.given[name], y), self._molar(name)
         T = self._falling(lambda T: goal - of(T, self.P, y), dew + 0.0 * goal, self.pair.highest_temperature)
-        self._tell(goal < of(dew, self.P, y) * (1 - SLACK), name, lambda: (self._specific(name, dew, y), jnp.inf), OVER_DEW)
+        self._tell(
+            goal < of(dew, self.P, y) * (1 - SLACK),
+            name,
+            lambda: (self._specific(name, dew, y), jnp.inf),
+            OVER_DEW,
+        )
         return Gas(T, y + 0.0 * T, jnp.zeros_like(T)), possible
 
     # --- wet bulb and another
@@ -291,8 +338,12 @@ class Solver:
         return Gas(T, jnp.minimum(jnp.clip(y, 0.0, 1.0), self._ys(T)), jnp.zeros_like(T)), possible
 
     def _holding(self, y: Any, phi: Any) -> Any:
-        """Temperature at which gas of a relative humidity holds a vapor fraction; the highest of the pair for dry gas."""
-        T = rel.temperature_of_saturation(self.pair, self.P, y / jnp.maximum(phi, 1e-12), self.pair.highest_temperature)
+        """Temperature at which gas of a relative humidity holds a vapor fraction; the highest of the pair for
+        dry gas.
+        """
+        T = rel.temperature_of_saturation(
+            self.pair, self.P, y / jnp.maximum(phi, 1e-12), self.pair.highest_temperature
+        )
         return jnp.where(phi > 1e-9, T * (1 + 1e-6), self.pair.highest_temperature)
 
     # --- two of relative humidity, enthalpy and volume
@@ -309,9 +360,14 @@ class Solver:
         low, high = self.pair.lowest_temperature, self.pair.highest_temperature
         if name == "enthalpy":  # which is zero at 0 °C: no warmer than if the vapor alone held it
             zero = ZERO_CELSIUS
-            vapor = self.pair.vapor_partial_enthalpy(jnp.asarray(zero, dtype=float), self.P, 1e-6) / self.pair.vapor_molar_mass
+            vapor = (
+                self.pair.vapor_partial_enthalpy(jnp.asarray(zero, dtype=float), self.P, 1e-6)
+                / self.pair.vapor_molar_mass
+            )
             held = self.pair.fraction(jnp.maximum(self.given[name], 1.0) / vapor)
-            high = jnp.where(self.given[name] > 0, jnp.maximum(self._holding(held, phi), zero), zero) * (1 + SLACK)
+            high = jnp.where(self.given[name] > 0, jnp.maximum(self._holding(held, phi), zero), zero) * (
+                1 + SLACK
+            )
         T = self._falling(balance, low + 0.0 * phi * self.P * self.given[name], high, start=high)
         return Gas(T, fraction(T), jnp.zeros_like(T)), jnp.asarray(True)
 
@@ -332,12 +388,16 @@ class Solver:
         T = self._coldest(balance, cold + 0.0 * h, dry + 0.0 * h, v)
 
         def limits() -> tuple[Any, Any]:
-            least, most = (self._specific("enthalpy", T, jnp.clip(fraction(T), 0.0, 1 - SLACK)) for T in (dry, cold))
+            least, most = (
+                self._specific("enthalpy", T, jnp.clip(fraction(T), 0.0, 1 - SLACK)) for T in (dry, cold)
+            )
             return least, most
 
         self._tell(jnp.isnan(T), other, limits, ALONG_VOLUME)
         y = fraction(T)
-        return Gas(T, jnp.clip(y, 0.0, 1.0), jnp.zeros_like(T)), (y >= -ROUNDING) & (y <= self._ys(T) * (1 + ROUNDING))
+        return Gas(T, jnp.clip(y, 0.0, 1.0), jnp.zeros_like(T)), (y >= -ROUNDING) & (
+            y <= self._ys(T) * (1 + ROUNDING)
+        )
 
     def _saturated_and_dry(self, v: Any) -> tuple[Any, Any]:
         """Temperatures of saturated and of dry gas whose volume per mole of dry gas is given."""
@@ -352,26 +412,37 @@ class Solver:
         return falling_root(saturated, low, jnp.minimum(dry, pair.boiling_temperature(P)) * (1 + SLACK)), dry
 
     def _coldest(self, balance: Callable[[Any], Any], lower: Any, upper: Any, volume: Any) -> Any:
-        """The coldest root of a balance that falls, or that may turn round: heavy solvents have two states of one volume."""
+        """The coldest root of a balance that falls, or that may turn round: heavy solvents have two states of
+        one volume.
+        """
         if not self.pair.heavy_vapor:
             return self._falling(balance, lower, upper)
         lower, upper = jnp.broadcast_arrays(lower * (1 - SLACK), upper * (1 + SLACK))
-        share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2  # states lie close near saturation
+        share = (
+            jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2
+        )  # states lie close near saturation
         T = lower + share * (upper - lower)
         values = jax.lax.map(balance, T)
         change = values[:-1] * values[1:] < 0
         found = jnp.any(change, axis=0)
         first = jnp.argmax(change, axis=0)[None]
         ends = tuple(jnp.take_along_axis(t, first, axis=0)[0] for t in (T[:-1], T[1:]))
-        hidden = jax.lax.cond(jnp.all(found), lambda: (lower, upper, ~found), lambda: _between_samples(balance, T, values))
+        hidden = jax.lax.cond(
+            jnp.all(found), lambda: (lower, upper, ~found), lambda: _between_samples(balance, T, values)
+        )
         crossed = ~found & hidden[2]
-        low, high = (jnp.where(found, a, jnp.where(crossed, b, c)) for a, b, c in zip(ends, hidden, (lower, upper), strict=False))
+        low, high = (
+            jnp.where(found, a, jnp.where(crossed, b, c))
+            for a, b, c in zip(ends, hidden, (lower, upper), strict=False)
+        )
         flags.limit_active((jnp.sum(change, axis=0) > 1) | crossed, volume, "specific_volume", TWO_STATES)
         return find_root(balance, low, high, tolerance=1e-13).value
 
 
 def _between_samples(balance: Callable[[Any], Any], T: Any, values: Any) -> tuple[Any, Any, Any]:
-    """Where samples of one sign are nearest to zero: the sample before and the turning point, and whether the balance crosses zero there."""
+    """Where samples of one sign are nearest to zero: the sample before and the turning point, and whether the
+    balance crosses zero there.
+    """
     T, values = jax.lax.stop_gradient((T, values))
     nearest = jnp.argmin(jnp.abs(values), axis=0)[None]
     at = [jnp.take_along_axis(T, jnp.clip(nearest + step, 0, SAMPLES - 1), axis=0)[0] for step in (-1, 1)]

@@ -1,4 +1,6 @@
-"""Lines of constant temperature, relative humidity, wet bulb, enthalpy and volume inside a window of temperature and humidity."""
+"""Lines of constant temperature, relative humidity, wet bulb, enthalpy and volume inside a window of
+temperature and humidity.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,13 @@ class Isolines:
     """Isolines of one pair at one pressure."""
 
     def __init__(
-        self, pair: AbstractPair, P: float, T_low: float, T_high: float, w_high: float, states: tuple[np.ndarray, np.ndarray] | None = None
+        self,
+        pair: AbstractPair,
+        P: float,
+        T_low: float,
+        T_high: float,
+        w_high: float,
+        states: tuple[np.ndarray, np.ndarray] | None = None,
     ):
         self.pair, self.P, self.T_low, self.T_high, self.w_high = pair, P, T_low, T_high, w_high
         self.lewis = pair.lewis_factor()
@@ -38,10 +46,14 @@ class Isolines:
             "relative_humidity": jax.jit(lambda phi, T: phi * rel.saturated_fraction(pair, T, P)),
             "enthalpy": jax.jit(lambda h, T: rel.fraction_at_enthalpy(pair, T, P, h)),
             "specific_volume": jax.jit(lambda v, T: pair.fraction_at_volume(T, P, v)),
-            "wet_bulb_temperature": jax.jit(lambda Ts, T: rel.fraction_at_wet_bulb(pair, T, P, Ts, self.lewis)),
+            "wet_bulb_temperature": jax.jit(
+                lambda Ts, T: rel.fraction_at_wet_bulb(pair, T, P, Ts, self.lewis)
+            ),
         }
         self._describe(states)
-        self._enthalpy = jax.jit(lambda T, w: rel.enthalpy_of(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P))
+        self._enthalpy = jax.jit(
+            lambda T, w: rel.enthalpy_of(pair, rel.Gas(T, pair.fraction(w), jnp.zeros_like(T)), P)
+        )
 
     def _humidity(self, y: Any) -> np.ndarray:
         y = np.asarray(y, dtype=float)
@@ -53,7 +65,9 @@ class Isolines:
         return np.asarray(self._enthalpy(T, w))
 
     def line(self, kind: str, value: float) -> tuple[np.ndarray, np.ndarray]:
-        """Temperatures and humidities along a line, from its cold end, cut at saturation and at the window."""
+        """Temperatures and humidities along a line, from its cold end, cut at saturation and at the
+        window.
+        """
         if kind == "temperature":
             top = min(float(np.interp(value, self.T, np.minimum(self.saturated, 1e3))), self.w_high)
             w = np.linspace(0.0, top, 41)
@@ -92,23 +106,38 @@ class Isolines:
         if kind == "wet_bulb":
             return self.T_low, self._wettest
         found = [
-            rel.volume_of(self.pair, rel.Gas(jnp.asarray(T), self.pair.fraction(jnp.asarray(h)), jnp.zeros(())), self.P)
+            rel.volume_of(
+                self.pair, rel.Gas(jnp.asarray(T), self.pair.fraction(jnp.asarray(h)), jnp.zeros(())), self.P
+            )
             for T, h in ((self.T_low, 0.0), (self.T_high, float(w[-1])))
         ]
         return float(found[0]), float(found[1])
 
     def _describe(self, states: tuple[np.ndarray, np.ndarray] | None) -> None:
-        """Full states of a grid over the window, of its upper right corner and of the states given, in one call."""
-        T, w = (a.ravel() for a in np.meshgrid(np.linspace(self.T_low, self.T_high, 61), np.linspace(0.0, self.w_high, 46)))
+        """Full states of a grid over the window, of its upper right corner and of the states given, in one
+        call.
+        """
+        T, w = (
+            a.ravel()
+            for a in np.meshgrid(np.linspace(self.T_low, self.T_high, 61), np.linspace(0.0, self.w_high, 46))
+        )
         top = np.minimum(self.saturated, self.w_high)
         inside = w <= np.interp(T, self.T, np.minimum(self.saturated, 1e3))
         more = (np.array([]), np.array([])) if states is None else states
         T, w = np.concatenate([T, [self.T_high], more[0]]), np.concatenate([w, [float(top[-1])], more[1]])
         found = state(temperature=T, humidity_ratio=w, pressure=self.P, pair=self.pair)
-        data = np.stack([
-            T - ZERO_CELSIUS, 1e3 * w, 100.0 * np.asarray(found.relative_humidity), np.asarray(found.wet_bulb_temperature) - ZERO_CELSIUS,
-            np.asarray(found.dew_point_temperature) - ZERO_CELSIUS, np.asarray(found.enthalpy) / 1e3, np.asarray(found.specific_volume),
-        ], axis=1)  # fmt: skip
+        data = np.stack(
+            [
+                T - ZERO_CELSIUS,
+                1e3 * w,
+                100.0 * np.asarray(found.relative_humidity),
+                np.asarray(found.wet_bulb_temperature) - ZERO_CELSIUS,
+                np.asarray(found.dew_point_temperature) - ZERO_CELSIUS,
+                np.asarray(found.enthalpy) / 1e3,
+                np.asarray(found.specific_volume),
+            ],
+            axis=1,
+        )
         count = inside.size
         self._wettest = float(data[count, 3]) + ZERO_CELSIUS
         self.grid = (T[:count][inside], w[:count][inside], np.round(data[:count][inside], 4))

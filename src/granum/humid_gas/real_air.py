@@ -1,4 +1,6 @@
-"""Real moist air after Herrmann, Kretzschmar and Gatley (ASHRAE RP-1485): virial equation of state and enhancement factor."""
+"""Real moist air after Herrmann, Kretzschmar and Gatley (ASHRAE RP-1485): virial equation of state and
+enhancement factor.
+"""
 
 from __future__ import annotations
 
@@ -39,10 +41,12 @@ LIQUID_MOLAR_VOLUME = 1.85e-5  # m³/mol, water about 60 °C: enough for a start
     equation=r"\frac{p\,\bar v}{RT} = 1 + \frac{B_m}{\bar v} + \frac{C_m}{\bar v^2},\qquad y_s = f\,p_s/p",
 )
 class AirWaterReal(AbstractPair):
-    """Air and water as a real mixture: virial coefficients, enhancement of the vapor pressure by the gas, compressed liquid and ice.
+    """Air and water as a real mixture: virial coefficients, enhancement of the vapor pressure by the gas,
+    compressed liquid and ice.
 
-    −90 to 350 °C and up to 100 bar, as long as the gas stays well below the density at which a virial series of three terms ends.
-    The report states 0.02 % for specific volumes and enthalpies of humid air at atmospheric pressure.
+    −90 to 350 °C and up to 100 bar, as long as the gas stays well below the density at which a virial series
+    of three terms ends. The report states 0.02 % for specific volumes and enthalpies of humid air at
+    atmospheric pressure.
     """
 
     gas_molar_mass: ClassVar[float] = 0.028966
@@ -64,7 +68,9 @@ class AirWaterReal(AbstractPair):
         return water_boiling_temperature.function(P)
 
     def _density(self, T: Any, P: Any, B: Any, C: Any) -> Any:
-        """mol/m³, by Newton from the ideal gas; the slope is kept positive where the short series would bend over."""
+        """mol/m³, by Newton from the ideal gas; the slope is kept positive where the short series would bend
+        over.
+        """
         ideal = P / (R * T)
 
         def excess(rho: Any) -> Any:
@@ -96,13 +102,20 @@ class AirWaterReal(AbstractPair):
         liquid = vi.LIQUID_ENTHALPY(warm) + excess * (v - warm * vi.LIQUID_VOLUME.slope(warm))
         if frozen is False:
             return liquid
-        ice = self.vapor_molar_mass * polynomial(ICE_ENTHALPY, T - 273.15) + polynomial(ICE_VOLUME, T - 273.15) * P
+        ice = (
+            self.vapor_molar_mass * polynomial(ICE_ENTHALPY, T - 273.15)
+            + polynomial(ICE_VOLUME, T - 273.15) * P
+        )
         return jnp.where(frozen, ice, liquid)
 
     def saturated_fraction(self, T: Any, P: Any, frozen: Any) -> Any:
         warm = jnp.clip(T, TRIPLE_POINT, 590.0)
         pure = water_vapor_pressure.function(T)
-        v, k, beta = vi.LIQUID_VOLUME(warm), jnp.exp(vi.LOG_COMPRESSIBILITY(warm)), jnp.exp(vi.LOG_HENRY(warm))
+        v, k, beta = (
+            vi.LIQUID_VOLUME(warm),
+            jnp.exp(vi.LOG_COMPRESSIBILITY(warm)),
+            jnp.exp(vi.LOG_HENRY(warm)),
+        )
         if frozen is not False:
             pure = jnp.where(frozen, ice_vapor_pressure(T), pure)
             v, k, beta = (
@@ -116,7 +129,9 @@ class AirWaterReal(AbstractPair):
         return jnp.where(below, f * p, pure) / P
 
     def _enhancement(self, T: Any, P: Any, p: Any, volume: Any, k: Any, beta: Any) -> Any:
-        """Factor by which air and pressure raise the vapor pressure (RP-1485, eq. 3.25), by Newton on its logarithm."""
+        """Factor by which air and pressure raise the vapor pressure (RP-1485, eq. 3.25), by Newton on its
+        logarithm.
+        """
         a = vi.virials(T)
         rt = 1.0 / (R * T)
         poynting = ((1.0 + k * p) * (P - p) - 0.5 * k * (P * P - p * p)) * rt * volume
@@ -131,13 +146,18 @@ class AirWaterReal(AbstractPair):
             second = reduced * (z2 * (a.Baa - 2.0 * a.Baw) - (1.0 - share - z2) * a.Bww)
             third = z2 * z * a.Caaa + 1.5 * z2 * (1.0 - 2.0 * z) * a.Caaw - 3.0 * z2 * y * a.Caww
             third = third - 0.5 * ((3.0 - 2.0 * y) * y * y - share * share) * a.Cwww
-            third = third - z2 * (3.0 * y - 2.0) * y * a.Baa * a.Bww - 2.0 * z2 * z * (3.0 * y - 1.0) * a.Baa * a.Baw
+            third = (
+                third
+                - z2 * (3.0 * y - 2.0) * y * a.Baa * a.Bww
+                - 2.0 * z2 * z * (3.0 * y - 1.0) * a.Baa * a.Baw
+            )
             third = third + 6.0 * z2 * y * y * a.Bww * a.Baw - 1.5 * z2 * z2 * a.Baa * a.Baa
             third = third - 2.0 * z2 * y * (3.0 * y - 2.0) * a.Baw * a.Baw
             third = third - 0.5 * (share * share - (4.0 - 3.0 * y) * y * y * y) * a.Bww * a.Bww
             return poynting + jnp.log1p(-beta * z * P) + second + r2 * third - x
 
-        # a Newton step from zero with the slope of the second virial terms alone; the curvature grows with pressure
+        # a Newton step from zero with the slope of the second virial terms alone; the curvature grows with
+        # pressure
         slope = 1.0 + 2.0 * reduced * share * (1.0 - share) * (a.Baa - 2.0 * a.Baw + a.Bww)
         start = rest(jnp.zeros_like(share)) / jnp.clip(slope, 0.2, 2.0)
         found = newton_root(rest, start, PASSES, within=1e-4 / (1.0 + P / 1e5))
@@ -145,7 +165,9 @@ class AirWaterReal(AbstractPair):
 
 
 class _NearlyReal(AirWater):
-    """The real mixture with its second virial coefficients alone: wet bulbs within a millikelvin or so near 1 bar."""
+    """The real mixture with its second virial coefficients alone: wet bulbs within a millikelvin or so near
+    1 bar.
+    """
 
     def saturated_fraction(self, T: Any, P: Any, frozen: Any) -> Any:
         share = super().saturated_fraction(T, P, frozen)

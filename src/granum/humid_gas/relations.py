@@ -1,6 +1,8 @@
-"""Psychrometric relations of any pair, on temperature T, pressure P and vapor mole fraction y: balances and their bracketed roots.
+"""Psychrometric relations of any pair, on temperature T, pressure P and vapor mole fraction y: balances and
+their bracketed roots.
 
-Every unknown is sought between physical ends at which the balance has opposite signs, so no search can fail inside the range.
+Every unknown is sought between physical ends at which the balance has opposite signs, so no search can fail
+inside the range.
 """
 
 from __future__ import annotations
@@ -19,7 +21,9 @@ LARGE = 1000  # elements from which a second, ice-free copy of the search is wor
 
 
 class Gas(NamedTuple):
-    """A state: temperature, gas-phase vapor fraction (at most saturated) and condensate per dry gas, mol/mol, that floats as fog."""
+    """A state: temperature, gas-phase vapor fraction (at most saturated) and condensate per dry gas, mol/mol,
+    that floats as fog.
+    """
 
     T: Any
     y: Any
@@ -34,7 +38,9 @@ def saturated_fraction(pair: AbstractPair, T: Any, P: Any) -> Any:
 def enthalpy_of(pair: AbstractPair, gas: Gas, P: Any) -> Any:
     """J per kg of dry gas, fog included."""
     h = pair.molar_enthalpy(gas.T, P, gas.y) / (1.0 - gas.y)
-    fog = jnp.where(gas.fog > 0, gas.fog * pair.condensate_molar_enthalpy(gas.T, P, pair.is_frozen(gas.T)), 0.0)
+    fog = jnp.where(
+        gas.fog > 0, gas.fog * pair.condensate_molar_enthalpy(gas.T, P, pair.is_frozen(gas.T)), 0.0
+    )
     return (h + fog) / pair.gas_molar_mass
 
 
@@ -59,10 +65,11 @@ def settled(pair: AbstractPair, T: Any, P: Any, y: Any) -> Gas:
 
 
 def wet_bulb_balance(pair: AbstractPair, Ts: Any, h: Any, P: Any, y: Any, frozen: Any, lewis: Any) -> Any:
-    """Heat given by the gas less heat taken by evaporation at a wet surface of temperature Ts; zero at the wet bulb.
+    """Heat given by the gas less heat taken by evaporation at a wet surface of temperature Ts; zero at the
+    wet bulb.
 
-    ``h`` is the molar enthalpy of the gas. Scaled by (1 − y)(1 − ys), which keeps it finite up to pure vapor and to the boiling point. Without
-    a Lewis factor it is the adiabatic-saturation balance of enthalpies.
+    ``h`` is the molar enthalpy of the gas. Scaled by (1 − y)(1 − ys), which keeps it finite up to pure vapor
+    and to the boiling point. Without a Lewis factor it is the adiabatic-saturation balance of enthalpies.
     """
     ys = pair.saturated_fraction(Ts, P, frozen)
     saturated = pair.molar_enthalpy(Ts, P, ys)
@@ -75,20 +82,26 @@ def wet_bulb_balance(pair: AbstractPair, Ts: Any, h: Any, P: Any, y: Any, frozen
 
 
 def wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
-    """Temperature of the wet surface at which the balance closes: liquid where such a state exists, else ice."""
+    """Temperature of the wet surface at which the balance closes: liquid where such a state exists, else
+    ice.
+    """
     if lewis is None:
         return blockwise(lambda T, P, y: _wet_bulb(pair, T, P, y, None), T, P, y)
     return blockwise(lambda T, P, y, lewis: _wet_bulb(pair, T, P, y, lewis), T, P, y, lewis)
 
 
 def polished_wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
-    """The wet bulb to the last digit, by one more Newton step: beside an enthalpy it fixes the state a million times less sharply."""
+    """The wet bulb to the last digit, by one more Newton step: beside an enthalpy it fixes the state a
+    million times less sharply.
+    """
 
     def one(T: Any, P: Any, y: Any, *factor: Any) -> Any:
         lewis = factor[0] if factor else None
         Ts, h = _wet_bulb(pair, T, P, y, lewis), pair.molar_enthalpy(T, P, y)
         frozen = jax.lax.stop_gradient(pair.is_frozen(Ts))
-        value, slope = jax.jvp(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, frozen, lewis), (Ts,), (jnp.ones_like(Ts),))
+        value, slope = jax.jvp(
+            lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, frozen, lewis), (Ts,), (jnp.ones_like(Ts),)
+        )
         slope = jax.lax.stop_gradient(slope)
         step = jnp.where(slope < 0, value / jnp.where(slope < 0, slope, -1.0), 0.0)
         return Ts - jnp.where(abs(step) < 1e-9 * Ts, step, 0.0)
@@ -104,7 +117,8 @@ def wet_bulb_of_total(pair: AbstractPair, T: Any, P: Any, w: Any, lewis: Any) ->
         cheap = pair.simplified()
         if cheap is None or y.size < LARGE:
             y = settled(pair, T, P, y).y
-        else:  # the cheaper saturation lies below the true one: where nothing passes it there is no fog to look for
+        # the cheaper saturation lies below the true one: where nothing passes it there is no fog to look for
+        else:
             doubtful = jnp.any(y > saturated_fraction(cheap, T, P))
             y = jax.lax.cond(doubtful, lambda T, P, y: settled(pair, T, P, y).y, lambda T, P, y: y, T, P, y)
         return _wet_bulb(pair, T + 0.0 * y, P, y, factor[0] if factor else None)
@@ -127,7 +141,16 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
         def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
             return wet_bulb_balance(pair, Ts, h, P, y, False, lewis)
 
-        return falling_root(balance, lower, top * (1 + SLACK), h, P, y, start=guess, rough_slope=_rough_slope(pair, T, P, y, lewis))
+        return falling_root(
+            balance,
+            lower,
+            top * (1 + SLACK),
+            h,
+            P,
+            y,
+            start=guess,
+            rough_slope=_rough_slope(pair, T, P, y, lewis),
+        )
 
     def over_either(h: Any, P: Any, y: Any) -> Any:
         def balance(Ts: Any, h: Any, P: Any, y: Any) -> Any:
@@ -143,30 +166,42 @@ def _wet_bulb(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Any:
 
 
 def _refined_guess(pair: AbstractPair, T: Any, P: Any, y: Any, h: Any, boiling: Any) -> Any:
-    """Start value, brought by a Newton step each to the wet bulb of the two cheaper pairs if there are such."""
+    """Start value, brought by a Newton step each to the wet bulb of the two cheaper pairs if there are
+    such.
+    """
     cheap, near = pair.simplified(), pair.nearby()
     guess = _wet_bulb_guess(cheap or pair, T, P, y, boiling)
     if cheap is None or near is None:
         return guess
     for easier, enthalpy in ((cheap, cheap.molar_enthalpy(T, P, y)), (near, h)):
         value, slope = jax.jvp(
-            lambda t, p=easier, h=enthalpy: wet_bulb_balance(p, t, h, P, y, False, None), (guess,), (jnp.ones_like(guess),)
+            lambda t, p=easier, h=enthalpy: wet_bulb_balance(p, t, h, P, y, False, None),
+            (guess,),
+            (jnp.ones_like(guess),),
         )
-        guess = jnp.clip(guess - value / slope, guess - 5.0, jnp.minimum(guess + 5.0, jnp.minimum(T, boiling)))
+        guess = jnp.clip(
+            guess - value / slope, guess - 5.0, jnp.minimum(guess + 5.0, jnp.minimum(T, boiling))
+        )
     return guess
 
 
 def _rough_slope(pair: AbstractPair, T: Any, P: Any, y: Any, lewis: Any) -> Callable[[Any], Any] | None:
-    """Derivative of the balance over liquid with respect to the surface temperature, from the cheaper pair if there is one."""
+    """Derivative of the balance over liquid with respect to the surface temperature, from the cheaper pair if
+    there is one.
+    """
     cheap = pair.simplified()
     if cheap is None:
         return None
     h = cheap.molar_enthalpy(T, P, y)
-    return lambda Ts: jax.jvp(lambda t: wet_bulb_balance(cheap, t, h, P, y, False, lewis), (Ts,), (jnp.ones_like(Ts),))[1]
+    return lambda Ts: jax.jvp(
+        lambda t: wet_bulb_balance(cheap, t, h, P, y, False, lewis), (Ts,), (jnp.ones_like(Ts),)
+    )[1]
 
 
 def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) -> Any:
-    """Start value: saturation line exponential in T, its decay exp(−d) replaced by the inverse of a short series, constant capacities."""
+    """Start value: saturation line exponential in T, its decay exp(−d) replaced by the inverse of a short
+    series, constant capacities.
+    """
     R = jnp.minimum(T, boiling)
     ys, slope = jax.jvp(lambda T: pair.saturated_fraction(T, P, False), (R,), (jnp.ones_like(R),))
     b = slope / ys
@@ -183,7 +218,9 @@ def _wet_bulb_guess(pair: AbstractPair, T: Any, P: Any, y: Any, boiling: Any) ->
 
 
 class WetSurface(NamedTuple):
-    """What a wet surface of known temperature asks of the gas, all molar: h (1 − ys) + (ys − y) taken = (1 − y) saturated."""
+    """What a wet surface of known temperature asks of the gas, all molar: h (1 − ys) + (ys − y) taken = (1 −
+    y) saturated.
+    """
 
     ys: Any
     saturated: Any
@@ -191,7 +228,9 @@ class WetSurface(NamedTuple):
     latent: Any
 
     def balance(self, h: Any, y: Any) -> Any:
-        """Zero where gas of a molar enthalpy and a vapor fraction has this wet surface; it rises with both."""
+        """Zero where gas of a molar enthalpy and a vapor fraction has this wet surface; it rises with
+        both.
+        """
         return (1.0 - self.ys) * h + (self.ys - y) * self.taken - (1.0 - y) * self.saturated
 
     def enthalpy(self, y: Any) -> Any:
@@ -207,7 +246,9 @@ class WetSurface(NamedTuple):
 
 
 def wet_surface(pair: AbstractPair, Ts: Any, P: Any, lewis: Any) -> WetSurface:
-    """The wet surface at Ts: the enthalpy of its evaporating liquid, raised by the latent heat where the Lewis factor is not one."""
+    """The wet surface at Ts: the enthalpy of its evaporating liquid, raised by the latent heat where the
+    Lewis factor is not one.
+    """
     frozen = pair.is_frozen(Ts)
     ys = jnp.minimum(pair.saturated_fraction(Ts, P, frozen), 1.0)
     condensate = pair.condensate_molar_enthalpy(Ts, P, frozen)
@@ -217,8 +258,12 @@ def wet_surface(pair: AbstractPair, Ts: Any, P: Any, lewis: Any) -> WetSurface:
 
 
 def fraction_over(surface: WetSurface, pair: AbstractPair, T: Any, P: Any) -> Any:
-    """Vapor fraction of gas at T with a wet surface; negative where even dry gas is wetter than that. Nearly linear in y."""
-    return newton_root(lambda y: surface.balance(pair.molar_enthalpy(T, P, y), y), surface.ys + 0.0 * T, NEARLY_LINEAR)
+    """Vapor fraction of gas at T with a wet surface; negative where even dry gas is wetter than that. Nearly
+    linear in y.
+    """
+    return newton_root(
+        lambda y: surface.balance(pair.molar_enthalpy(T, P, y), y), surface.ys + 0.0 * T, NEARLY_LINEAR
+    )
 
 
 def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any) -> Any:
@@ -229,11 +274,15 @@ def fraction_at_wet_bulb(pair: AbstractPair, T: Any, P: Any, Ts: Any, lewis: Any
 def fraction_at_enthalpy(pair: AbstractPair, T: Any, P: Any, h: Any) -> Any:
     """Vapor fraction of unsaturated gas of an enthalpy per kg dry gas."""
     first = jnp.zeros_like(T * P * h)
-    return newton_root(lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR)
+    return newton_root(
+        lambda y: pair.molar_enthalpy(T, P, y) - h * pair.gas_molar_mass * (1.0 - y), first, NEARLY_LINEAR
+    )
 
 
 def dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
-    """Temperature at which gas of vapor fraction y becomes saturated: dew point, or frost point where the ice forms first."""
+    """Temperature at which gas of vapor fraction y becomes saturated: dew point, or frost point where the ice
+    forms first.
+    """
     return blockwise(lambda P, y: _dew_point(pair, P, y), P, y)
 
 
@@ -242,7 +291,9 @@ def _dew_point(pair: AbstractPair, P: Any, y: Any) -> Any:
 
 
 def temperature_of_saturation(pair: AbstractPair, P: Any, ys: Any, upper: Any) -> Any:
-    """Temperature, at most ``upper``, at which the saturated fraction has a value; the lowest of the pair where it would lie below."""
+    """Temperature, at most ``upper``, at which the saturated fraction has a value; the lowest of the pair
+    where it would lie below.
+    """
     Tf = pair.freezing_temperature
     frozen = jax.lax.stop_gradient(ys < pair.saturated_fraction(Tf, P, False))
     lowest = pair.lowest_temperature
@@ -257,7 +308,9 @@ def temperature_of_saturation(pair: AbstractPair, P: Any, ys: Any, upper: Any) -
 
 
 def temperature_at_enthalpy(pair: AbstractPair, P: Any, y: Any, h: Any) -> Any:
-    """Temperature of gas of total vapor fraction y and given enthalpy, fog included; the freezing point where ice and water coexist."""
+    """Temperature of gas of total vapor fraction y and given enthalpy, fog included; the freezing point where
+    ice and water coexist.
+    """
     return blockwise(lambda P, y, h: _temperature_at_enthalpy(pair, P, y, h), P, y, h)
 
 

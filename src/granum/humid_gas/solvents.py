@@ -30,7 +30,11 @@ class _Tables:
     def __init__(self, materials: Library, gas: str, vapor: str):
         carrier, solvent = materials.fluid(gas), materials.fluid(vapor)
         if not solvent.condensable:
-            raise ApplicabilityError(_("{name} does not condense here: it cannot be the vapor of a pair.").format(name=solvent.label))
+            raise ApplicabilityError(
+                _("{name} does not condense here: it cannot be the vapor of a pair.").format(
+                    name=solvent.label
+                )
+            )
         self.gas_mass, self.vapor_mass = float(carrier.molar_mass), float(solvent.molar_mass)
         law = solvent.vapor_pressure
         self.low, self.high = float(max(law.low, _COLD)), float(law.high)
@@ -46,7 +50,10 @@ class _Tables:
         top, nearly = float(law.value(self.high)), float(law.value(0.98 * self.high))
         bottom, above = float(law.value(self.low)), float(law.value(1.02 * self.low))
         self.top_pressure = top
-        self.slopes = (float(np.log(above / bottom) / (1 - 1 / 1.02)), float(np.log(top / nearly) / (1 / 0.98 - 1)))
+        self.slopes = (
+            float(np.log(above / bottom) / (1 - 1 / 1.02)),
+            float(np.log(top / nearly) / (1 / 0.98 - 1)),
+        )
         both = gas_vapor(vapor, gas, materials)
         self.lewis_number = float(both.lewis_number(298.15))
 
@@ -59,7 +66,9 @@ class _Tables:
             pressure = jnp.exp(logarithm) * factor
         else:
             pressure = self.pressure.value(inside)
-        return pressure * jnp.exp(jnp.where(self.low > T, self.slopes[0], self.slopes[1]) * (1.0 - inside / T))
+        return pressure * jnp.exp(
+            jnp.where(self.low > T, self.slopes[0], self.slopes[1]) * (1.0 - inside / T)
+        )
 
 
 @lru_cache(maxsize=64)
@@ -129,8 +138,15 @@ class AbstractFluidPair(AbstractIdealPair):
     def boiling_temperature(self, P: Any) -> Any:
         tables = self._of
         goal = jnp.log(jnp.asarray(P, dtype=float))
-        root = find_root(lambda x, y: jnp.log(tables.saturation_pressure(1.0 / x)) - y, 1.0 / tables.high, 1.0 / tables.low, goal)
-        beyond = jnp.maximum(goal - np.log(tables.top_pressure), 0.0) / tables.slopes[1]  # above the critical pressure
+        root = find_root(
+            lambda x, y: jnp.log(tables.saturation_pressure(1.0 / x)) - y,
+            1.0 / tables.high,
+            1.0 / tables.low,
+            goal,
+        )
+        beyond = (
+            jnp.maximum(goal - np.log(tables.top_pressure), 0.0) / tables.slopes[1]
+        )  # above the critical pressure
         return jnp.where(beyond > 0, tables.high / jnp.maximum(1.0 - beyond, 0.1), 1.0 / root.value)
 
     def condensate_molar_enthalpy(self, T: Any, P: Any, frozen: Any) -> Any:
@@ -138,15 +154,21 @@ class AbstractFluidPair(AbstractIdealPair):
         return self.vapor_molar_enthalpy(T) - self.vapor_molar_mass * latent
 
 
-@law("gas_vapor_pair", name="gas_and_vapor", source="green2008, sec. 2; fuller1966; bedingfield1950", title="Gas and vapor of the property library",
-     fitted={"pressure": (LEAST_PRESSURE, MOST_PRESSURE)},
-     equation=r"\frac{h}{k_Y c} = \mathrm{Le}^{n}")  # fmt: skip
+@law(
+    "gas_vapor_pair",
+    name="gas_and_vapor",
+    source="green2008, sec. 2; fuller1966; bedingfield1950",
+    title="Gas and vapor of the property library",
+    fitted={"pressure": (LEAST_PRESSURE, MOST_PRESSURE)},
+    equation=r"\frac{h}{k_Y c} = \mathrm{Le}^{n}",
+)
 class GasAndVapor(AbstractFluidPair):
-    """Any carrier gas and solvent of the property library as ideal gases, with the Lewis factor that psychrometers show.
+    """Any carrier gas and solvent of the property library as ideal gases, with the Lewis factor that
+    psychrometers show.
 
-    The exponent 0.567 is Bedingfield and Drew's, measured on wet cylinders with many vapors; Chilton and Colburn's analogy has 2/3, with
-    which toluene in air of 60 °C has its wet bulb 1 K higher. The Lewis number is that of dilute vapor at 25 °C; it hardly changes with
-    temperature.
+    The exponent 0.567 is Bedingfield and Drew's, measured on wet cylinders with many vapors; Chilton and
+    Colburn's analogy has 2/3, with which toluene in air of 60 °C has its wet bulb 1 K higher. The Lewis
+    number is that of dilute vapor at 25 °C; it hardly changes with temperature.
     """
 
     gas: str = eqx.field(static=True, default="nitrogen")
@@ -169,8 +191,13 @@ class PairOfMixture(AbstractFluidPair):
 def _named(carrier: str, solvent: str, name: str, title: str, low: float, high: float) -> type:
     """``low`` and ``high``: temperatures between which the vapor pressure of the solvent is known, K."""
 
-    @law("gas_vapor_pair", name=name, source="green2008, sec. 2; fuller1966; bedingfield1950", title=title,
-         fitted={"temperature": (low, high), "pressure": (LEAST_PRESSURE, MOST_PRESSURE)})  # fmt: skip
+    @law(
+        "gas_vapor_pair",
+        name=name,
+        source="green2008, sec. 2; fuller1966; bedingfield1950",
+        title=title,
+        fitted={"temperature": (low, high), "pressure": (LEAST_PRESSURE, MOST_PRESSURE)},
+    )
     class NamedPair(AbstractFluidPair):
         """A carrier gas and a solvent vapor of the property library as ideal gases."""
 
@@ -184,10 +211,14 @@ def _named(carrier: str, solvent: str, name: str, title: str, low: float, high: 
 NitrogenWater = _named("nitrogen", "water", "nitrogen_water", "Nitrogen and water", 273.15, 647.096)
 NitrogenEthanol = _named("nitrogen", "ethanol", "nitrogen_ethanol", "Nitrogen and ethanol", 180.0, 514.0)
 NitrogenMethanol = _named("nitrogen", "methanol", "nitrogen_methanol", "Nitrogen and methanol", 180.0, 513.38)
-NitrogenIsopropanol = _named("nitrogen", "2-propanol", "nitrogen_isopropanol", "Nitrogen and isopropanol", 185.25, 508.25)
+NitrogenIsopropanol = _named(
+    "nitrogen", "2-propanol", "nitrogen_isopropanol", "Nitrogen and isopropanol", 185.25, 508.25
+)
 NitrogenAcetone = _named("nitrogen", "acetone", "nitrogen_acetone", "Nitrogen and acetone", 180.0, 508.2)
 NitrogenToluene = _named("nitrogen", "toluene", "nitrogen_toluene", "Nitrogen and toluene", 180.0, 591.75)
-NitrogenEthylAcetate = _named("nitrogen", "ethyl acetate", "nitrogen_ethyl_acetate", "Nitrogen and ethyl acetate", 189.65, 523.2)
+NitrogenEthylAcetate = _named(
+    "nitrogen", "ethyl acetate", "nitrogen_ethyl_acetate", "Nitrogen and ethyl acetate", 189.65, 523.2
+)
 AirEthanol = _named("dry air", "ethanol", "air_ethanol", "Air and ethanol", 180.0, 514.0)
 AirMethanol = _named("dry air", "methanol", "air_methanol", "Air and methanol", 180.0, 513.38)
 AirAcetone = _named("dry air", "acetone", "air_acetone", "Air and acetone", 180.0, 508.2)

@@ -1,10 +1,11 @@
 """Properties of air and water that real moist air needs, each a polynomial in temperature or its inverse.
 
-The polynomials are least-squares fits at Chebyshev nodes to the reference equations named in RP-1485, evaluated with CoolProp 8.0.0: second
-and third virial coefficients and ideal-gas enthalpies of air (Lemmon et al. 2000) and water (IAPWS-95), 180 to 630 K (900 K for
-enthalpies); saturated liquid water (IAPWS-95) and Henry's constant (IAPWS G7-04), 273.16 to 590 K. Largest deviations: virial coefficients
-4e-11 m³/mol (air), 2e-6 relative (water), 4e-5 of B² (third of water); enthalpies 0.03 J/mol (gases), 0.05 J/mol (liquid); liquid volume
-4e-5, Henry's constant 5e-5, compressibility 1.4e-3, relative.
+The polynomials are least-squares fits at Chebyshev nodes to the reference equations named in RP-1485,
+evaluated with CoolProp 8.0.0: second and third virial coefficients and ideal-gas enthalpies of air (Lemmon et
+al. 2000) and water (IAPWS-95), 180 to 630 K (900 K for enthalpies); saturated liquid water (IAPWS-95) and
+Henry's constant (IAPWS G7-04), 273.16 to 590 K. Largest deviations: virial coefficients 4e-11 m³/mol (air),
+2e-6 relative (water), 4e-5 of B² (third of water); enthalpies 0.03 J/mol (gases), 0.05 J/mol (liquid); liquid
+volume 4e-5, Henry's constant 5e-5, compressibility 1.4e-3, relative.
 """
 
 from __future__ import annotations
@@ -98,7 +99,15 @@ C_OVER_B2_WATER = Fit(
 C_AIR = Fit(
     0.0015873015873015873,
     0.005555555555555556,
-    (1.87038611085e-09, 4.99453592165e-10, 8.32479798465e-11, -6.12532747981e-12, 1.17579727224e-12, -3.95925030712e-13, 1.34802149623e-13),
+    (
+        1.87038611085e-09,
+        4.99453592165e-10,
+        8.32479798465e-11,
+        -6.12532747981e-12,
+        1.17579727224e-12,
+        -3.95925030712e-13,
+        1.34802149623e-13,
+    ),
 )
 B_CROSS = Fit(
     0.0015873015873015873,
@@ -146,7 +155,17 @@ LIQUID_VOLUME = Fit(
     ),
 )
 LOG_COMPRESSIBILITY = Fit(
-    273.16, 590.0, (-21.1503197168, 0.990723862185, 0.604677697895, 0.0781228182351, 0.0830727432859, 0.0429258002918, 0.175185370284)
+    273.16,
+    590.0,
+    (
+        -21.1503197168,
+        0.990723862185,
+        0.604677697895,
+        0.0781228182351,
+        0.0830727432859,
+        0.0429258002918,
+        0.175185370284,
+    ),
 )
 LIQUID_ENTHALPY = Fit(
     273.16,
@@ -215,7 +234,9 @@ class Virials(NamedTuple):
 
 
 def virials(T: Any) -> Virials:
-    """All coefficients at a temperature: cross terms of Harvey and Huang (2007) and of Nelson and Sauer (2002) as in RP-1485."""
+    """All coefficients at a temperature: cross terms of Harvey and Huang (2007) and of Nelson and Sauer
+    (2002) as in RP-1485.
+    """
     x = 1.0 / T
     Bww = -jnp.exp(LOG_B_WATER(x))
     Caaw = 1e-12 * (0.482737e3 + x * (0.105678e6 + x * (-0.656394e8 + x * (0.294442e11 - x * 0.319317e13))))
@@ -233,7 +254,9 @@ def slopes(T: Any, v: Virials) -> Virials:
     Caaw = 1e-12 * (0.105678e6 + x * (-2.0 * 0.656394e8 + x * (3.0 * 0.294442e11 - x * 4.0 * 0.319317e13)))
     Caww = v.Caww * (0.347804e4 + x * (-2.0 * 0.383383e6 + x * 3.0 * 0.334060e8))
     Cwww = v.Bww * v.Bww * (ratio_slope + 2.0 * ratio * bend)
-    return Virials(*(-x * c for c in (B_AIR.slope(x), B_CROSS.slope(x), v.Bww * bend, C_AIR.slope(x), Caaw, Caww, Cwww)))
+    return Virials(
+        *(-x * c for c in (B_AIR.slope(x), B_CROSS.slope(x), v.Bww * bend, C_AIR.slope(x), Caaw, Caww, Cwww))
+    )
 
 
 def mixture(v: Virials, y: Any) -> tuple[Any, Any]:

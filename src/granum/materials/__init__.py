@@ -2,4 +2,6 @@
 
 from granum.core.registry import domain_names
 
-__getattr__, __dir__ = domain_names(__name__, "fluid", "gas_vapor", "load", "names", "salt", "solid", "solute")
+__getattr__, __dir__ = domain_names(
+    __name__, "fluid", "gas_vapor", "load", "names", "salt", "solid", "solute"
+)

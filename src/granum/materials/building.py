@@ -19,11 +19,24 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.materials.correlation import Correlation, Missing, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
-from granum.materials.formulas.solutions import dynamic_viscosity_laliberte, liquid_density_laliberte, specific_heat_capacity_laliberte
+from granum.materials.formulas.solutions import (
+    dynamic_viscosity_laliberte,
+    liquid_density_laliberte,
+    specific_heat_capacity_laliberte,
+)
 from granum.materials.salts import Salt
 from granum.materials.schema import BranchEntry, FluidEntry, PropertyEntry, SaltEntry, SolidEntry, SoluteEntry
 from granum.materials.solids import Solid
-from granum.materials.solutes import BASES, REFERENCE, AdditiveHeats, AdditiveVolumes, Branch, LaliberteLaw, NoLaw, SoluteSystem
+from granum.materials.solutes import (
+    BASES,
+    REFERENCE,
+    AdditiveHeats,
+    AdditiveVolumes,
+    Branch,
+    LaliberteLaw,
+    NoLaw,
+    SoluteSystem,
+)
 
 _KIND_OF = {
     "liquid_density": "Density",
@@ -47,15 +60,21 @@ _SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
 @cache
 def _forms() -> dict[str, Formula]:
     cards = registry.everything(("materials",))
-    every = {key.removeprefix("materials."): thing for key, thing in cards.items() if isinstance(thing, Formula)}
+    every = {
+        key.removeprefix("materials."): thing for key, thing in cards.items() if isinstance(thing, Formula)
+    }
     return {name.removeprefix("correlation_"): thing for name, thing in every.items()}
 
 
 def _form(name: str, owner: str) -> Formula:
     found = _forms().get(name)
     if found is None:
-        raise unknown_name(_("Form of correlation"), name, [n for n, f in _forms().items() if f.card.family == "correlation"],
-                           _("for {owner}").format(owner=owner))  # fmt: skip
+        raise unknown_name(
+            _("Form of correlation"),
+            name,
+            [n for n, f in _forms().items() if f.card.family == "correlation"],
+            _("for {owner}").format(owner=owner),
+        )
     return found
 
 
@@ -71,7 +90,11 @@ def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
             factor = float(candidate.to(target).magnitude)
             if factor == factor:
                 return factor
-    raise InputError(_("Unit '{unit}' does not fit {owner}, which is in {target}.").format(unit=unit, owner=owner, target=target))
+    raise InputError(
+        _("Unit '{unit}' does not fit {owner}, which is in {target}.").format(
+            unit=unit, owner=owner, target=target
+        )
+    )
 
 
 def _property(entry: PropertyEntry | None, name: str, owner: str, molar_mass: float) -> Correlation | Missing:
@@ -99,11 +122,19 @@ def _or_nan(value: float | None) -> float:
 def fluid_of(key: str, entry: FluidEntry) -> Fluid:
     """A fluid from its entry."""
     made = {name: _property(getattr(entry, name), name, key, entry.molar_mass) for name in _FLUID_PROPERTIES}
-    return Fluid(name=key, french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass,
-                 critical_temperature=_or_nan(entry.critical_temperature), critical_pressure=_or_nan(entry.critical_pressure),
-                 diffusion_volume=_or_nan(entry.diffusion_volume),
-                 heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS), combustion=_combustion(entry),
-                 flammability=_flammability(entry), **made)  # fmt: skip
+    return Fluid(
+        name=key,
+        french=entry.fr,
+        formula=entry.formula,
+        molar_mass=entry.molar_mass,
+        critical_temperature=_or_nan(entry.critical_temperature),
+        critical_pressure=_or_nan(entry.critical_pressure),
+        diffusion_volume=_or_nan(entry.diffusion_volume),
+        heat_of_vaporization_at_zero=_constant(made["heat_of_vaporization"], ZERO_CELSIUS),
+        combustion=_combustion(entry),
+        flammability=_flammability(entry),
+        **made,
+    )
 
 
 def _combustion(entry: FluidEntry) -> Combustion | None:
@@ -120,8 +151,15 @@ def solid_of(key: str, entry: SolidEntry) -> Solid:
     """A solid from its entry."""
     mass = _or_nan(entry.molar_mass)
     made = {name: _property(getattr(entry, name), name, key, mass) for name in _SOLID_PROPERTIES}
-    return Solid(name=key, french=entry.fr, formula=entry.formula, molar_mass=mass, sphericity=_or_nan(entry.sphericity),
-                 mohs_hardness=_or_nan(entry.mohs_hardness), **made)  # fmt: skip
+    return Solid(
+        name=key,
+        french=entry.fr,
+        formula=entry.formula,
+        molar_mass=mass,
+        sphericity=_or_nan(entry.sphericity),
+        mohs_hardness=_or_nan(entry.mohs_hardness),
+        **made,
+    )
 
 
 def _constant(function: Any, *values: Any) -> float:
@@ -135,9 +173,19 @@ def _constant(function: Any, *values: Any) -> float:
 def salt_of(key: str, entry: SaltEntry) -> Salt:
     """A salt from its entry."""
     cation, anion = entry.cation, entry.anion
-    return Salt(name=key, french=entry.fr, formula=entry.formula, cation=cation.name, anion=anion.name,
-                cation_count=float(cation.count), anion_count=float(anion.count), cation_charge=float(cation.charge),
-                anion_charge=float(anion.charge), solubility_product=entry.solubility_product, source=entry.source)  # fmt: skip
+    return Salt(
+        name=key,
+        french=entry.fr,
+        formula=entry.formula,
+        cation=cation.name,
+        anion=anion.name,
+        cation_count=float(cation.count),
+        anion_count=float(anion.count),
+        cation_charge=float(cation.charge),
+        anion_charge=float(anion.charge),
+        solubility_product=entry.solubility_product,
+        source=entry.source,
+    )
 
 
 def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid, crystal: Solid) -> Branch:
@@ -149,12 +197,34 @@ def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid, c
         with jax.ensure_compile_time_eval():
             law = Tabulated.through(celsius + ZERO_CELSIUS, ratios, *entry.range, whole, entry.source)
     else:
-        law = Correlation(_form(entry.form, whole), tuple(entry.coefficients or ()), entry.factor, *entry.range, whole, entry.source)
-    heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass  # released when it crystallizes
-    branch = Branch(crystal=crystal, solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
-                    stable_from=entry.stable[0], stable_to=entry.stable[1], heat_of_crystallization=heat, heat_given=entry.heat_of_solution is not None,
-                    law=law, basis=entry.basis, misfit=nan, enthalpy_of_formation=nan, _masses=(molar_mass, solvent.molar_mass), _ends=(0.0, 0.0))  # fmt: skip
-    ends = tuple(_constant(jax.grad(lambda u: jnp.log(branch.inside(1.0 / u))), 1.0 / end) for end in entry.range)
+        law = Correlation(
+            _form(entry.form, whole),
+            tuple(entry.coefficients or ()),
+            entry.factor,
+            *entry.range,
+            whole,
+            entry.source,
+        )
+    heat = (
+        nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass
+    )  # released when it crystallizes
+    branch = Branch(
+        crystal=crystal,
+        solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,
+        stable_from=entry.stable[0],
+        stable_to=entry.stable[1],
+        heat_of_crystallization=heat,
+        heat_given=entry.heat_of_solution is not None,
+        law=law,
+        basis=entry.basis,
+        misfit=nan,
+        enthalpy_of_formation=nan,
+        _masses=(molar_mass, solvent.molar_mass),
+        _ends=(0.0, 0.0),
+    )
+    ends = tuple(
+        _constant(jax.grad(lambda u: jnp.log(branch.inside(1.0 / u))), 1.0 / end) for end in entry.range
+    )
     return replace(branch, _ends=ends, misfit=_constant(_misfit, branch, entry.table))
 
 
@@ -165,7 +235,9 @@ def _printed(table: list[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _misfit(branch: Branch, table: list[tuple[float, float]]) -> Any:
-    """Root mean square of the relative deviations of a curve from the points it was drawn through; zero for the formula of a source."""
+    """Root mean square of the relative deviations of a curve from the points it was drawn through; zero for
+    the formula of a source.
+    """
     if not table:
         return 0.0
     celsius, ratios = _printed(table)
@@ -174,25 +246,42 @@ def _misfit(branch: Branch, table: list[tuple[float, float]]) -> Any:
 
 def solute_of(key: str, entry: SoluteEntry, solvent: Fluid, crystals: tuple[Solid, ...]) -> SoluteSystem:
     """A solute–solvent system from its entry, its solvent and the crystals of its branches."""
-    branches = tuple(_branch(b, key, entry.molar_mass, solvent, crystal) for b, crystal in zip(entry.branches, crystals, strict=True))
+    branches = tuple(
+        _branch(b, key, entry.molar_mass, solvent, crystal)
+        for b, crystal in zip(entry.branches, crystals, strict=True)
+    )
     dry = branches[-1].crystal
     density = viscosity = heat_capacity = None
     if entry.density:
-        density = LaliberteLaw(liquid_density_laliberte, tuple(entry.density), tuple(entry.density_limits or ()))
+        density = LaliberteLaw(
+            liquid_density_laliberte, tuple(entry.density), tuple(entry.density_limits or ())
+        )
     if entry.viscosity:
-        viscosity = LaliberteLaw(dynamic_viscosity_laliberte, tuple(entry.viscosity), tuple(entry.viscosity_limits or ()))
+        viscosity = LaliberteLaw(
+            dynamic_viscosity_laliberte, tuple(entry.viscosity), tuple(entry.viscosity_limits or ())
+        )
     if entry.heat_capacity:
-        heat_capacity = LaliberteLaw(specific_heat_capacity_laliberte, tuple(entry.heat_capacity), tuple(entry.heat_capacity_limits or ()))
+        heat_capacity = LaliberteLaw(
+            specific_heat_capacity_laliberte,
+            tuple(entry.heat_capacity),
+            tuple(entry.heat_capacity_limits or ()),
+        )
     if heat_capacity is None:
         parts = (solvent.liquid_heat_capacity, dry.heat_capacity)
         gap = next((part for part in parts if isinstance(part, Missing)), None)
         heat_capacity = NoLaw(gap) if gap is not None else AdditiveHeats(*parts)
     system = SoluteSystem(
-        name=key.split(" in ")[0], french=entry.fr, formula=entry.formula, molar_mass=entry.molar_mass, solvent=solvent, branches=branches,
+        name=key.split(" in ")[0],
+        french=entry.fr,
+        formula=entry.formula,
+        molar_mass=entry.molar_mass,
+        solvent=solvent,
+        branches=branches,
         density_law=density or AdditiveVolumes(solvent.liquid_density, dry.density),
         viscosity_law=viscosity or NoLaw(Missing(f"{key}: {_('viscosity of the solution')}")),
-        heat_capacity_law=heat_capacity, solute_heat_capacity=nan,
-    )  # fmt: skip
+        heat_capacity_law=heat_capacity,
+        solute_heat_capacity=nan,
+    )
     return _with_enthalpies(system)
 
 
@@ -212,7 +301,12 @@ def _with_enthalpies(system: SoluteSystem) -> SoluteSystem:
     def formed(b: Branch) -> float:
         if isinstance(b.crystal.heat_capacity, Missing):
             return nan
-        dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(REFERENCE)
+        dissolved = system.solute_enthalpy(REFERENCE) + b.solvent_ratio * system.solvent.liquid_enthalpy(
+            REFERENCE
+        )
         return (dissolved - b.heat_of_crystallization) / b.hydrate_ratio - b.crystal.enthalpy(REFERENCE)
 
-    return replace(system, branches=tuple(replace(b, enthalpy_of_formation=_constant(formed, b)) for b in system.branches))
+    return replace(
+        system,
+        branches=tuple(replace(b, enthalpy_of_formation=_constant(formed, b)) for b in system.branches),
+    )

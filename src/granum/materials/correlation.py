@@ -35,7 +35,8 @@ as_solute_ratio = _reader("solute_per_solvent", _MassRatio)
 
 
 class Correlation(eqx.Module):
-    """A property over temperature. Call it with K, text with a unit, arrays or tracers; the value is in SI units.
+    """A property over temperature. Call it with K, text with a unit, arrays or tracers; the value is in SI
+    units.
 
     Parameters
     ----------
@@ -62,7 +63,11 @@ class Correlation(eqx.Module):
 
     def value(self, temperature: Any) -> Any:
         """The value without looking at the range: for the inside of integrals and roots."""
-        found = self.form(temperature) if self.coefficients is None else self.form(temperature, np.asarray(self.coefficients))
+        found = (
+            self.form(temperature)
+            if self.coefficients is None
+            else self.form(temperature, np.asarray(self.coefficients))
+        )
         return found * self.factor
 
     def check_range(self, temperature: Any) -> None:
@@ -70,16 +75,23 @@ class Correlation(eqx.Module):
         flag_outside(self, temperature)
 
     def polynomial(self, low: Any, high: Any, degree: int = 2) -> tuple[float, ...]:
-        """Least-squares polynomial in degrees Celsius between two temperatures, lowest power first: what stream species take."""
+        """Least-squares polynomial in degrees Celsius between two temperatures, lowest power first: what
+        stream species take.
+        """
         ends = np.array([float(as_temperature(low)), float(as_temperature(high))])
-        nodes = np.cos(np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8))  # Chebyshev nodes: near-minimax error
+        nodes = np.cos(
+            np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8)
+        )  # Chebyshev nodes: near-minimax error
         T = ends.mean() + 0.5 * (ends[1] - ends[0]) * nodes
-        fitted = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree)
+        fitted = np.polynomial.Polynomial.fit(
+            T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree
+        )
         return tuple(float(c) for c in fitted.convert().coef)
 
 
 class Tabulated(eqx.Module):
-    """A positive property by a monotone cubic through a table, ln y over 1/T; a straight line there (van 't Hoff) beyond its ends.
+    """A positive property by a monotone cubic through a table, ln y over 1/T; a straight line there (van 't
+    Hoff) beyond its ends.
 
     ``low``, ``high``, ``owner`` and ``source`` as of ``Correlation``.
     """
@@ -111,7 +123,9 @@ class Tabulated(eqx.Module):
 def flag_outside(law: Correlation | Tabulated, temperature: Any) -> None:
     """Flag the temperatures outside the range of a law, if anybody collects flags."""
     mask = (temperature < law.low) | (temperature > law.high)
-    flags.record(flags.EXTRAPOLATED, mask, temperature, "temperature", law.owner, law.low, law.high, law.source)
+    flags.record(
+        flags.EXTRAPOLATED, mask, temperature, "temperature", law.owner, law.low, law.high, law.source
+    )
 
 
 class Missing(eqx.Module):
@@ -121,7 +135,10 @@ class Missing(eqx.Module):
 
     def __call__(self, *_values: Any) -> Any:
         raise ApplicabilityError(
-            _("The library has no value for {owner}. Load a TOML file that has one with granum.materials.load.").format(owner=self.owner)
+            _(
+                "The library has no value for {owner}. Load a TOML file that has one with "
+                "granum.materials.load."
+            ).format(owner=self.owner)
         )
 
     value = check_range = polynomial = __call__

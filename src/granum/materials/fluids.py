@@ -25,17 +25,21 @@ class Combustion(NamedTuple):
 
 
 class Flammability(NamedTuple):
-    """Of a vapor in ambient air, mole fractions: its lower explosive limit, and the oxygen below which no mixture with nitrogen burns (NaN when unknown)."""
+    """Of a vapor in ambient air, mole fractions: its lower explosive limit, and the oxygen below which no
+    mixture with nitrogen burns (NaN when unknown).
+    """
 
     lower_limit: float
     limiting_oxygen: float
 
 
 class Fluid(eqx.Module):
-    """A pure fluid. Its properties are functions of temperature: ``fluid("ethanol").liquid_viscosity("25 degC")``.
+    """A pure fluid. Its properties are functions of temperature:
+    ``fluid("ethanol").liquid_viscosity("25 degC")``.
 
-    All of them work on floats, arrays and tracers, are differentiable, and flag temperatures outside their range.
-    Enthalpies of everything condensable are zero for the liquid at 0 °C, those of permanent gases for the gas at 0 °C.
+    All of them work on floats, arrays and tracers, are differentiable, and flag temperatures outside their
+    range. Enthalpies of everything condensable are zero for the liquid at 0 °C, those of permanent gases for
+    the gas at 0 °C.
 
     Parameters
     ----------
@@ -43,7 +47,8 @@ class Fluid(eqx.Module):
     molar_mass: kg/mol.
     critical_temperature, critical_pressure: K, Pa; NaN when not given.
     diffusion_volume: Fuller's molecular diffusion volume, cm³/mol; NaN when not given.
-    heat_of_vaporization_at_zero: at 0 °C, J/kg: the step between the two enthalpy scales; NaN for a permanent gas.
+    heat_of_vaporization_at_zero: at 0 °C, J/kg: the step between the two enthalpy scales; NaN for a permanent
+        gas.
     combustion: what it takes and gives when it burns; None for what is no fuel.
     flammability: limits of its vapor in air; None for what does not burn or is not known.
     """
@@ -84,7 +89,9 @@ class Fluid(eqx.Module):
         return ideal_gas_density(as_temperature(temperature), self.molar_mass, as_pressure(pressure))
 
     def boiling_temperature(self, pressure: Any = STANDARD_ATMOSPHERE) -> Any:
-        """Temperature at which the vapor pressure reaches a pressure, K; also the dew point at a partial pressure."""
+        """Temperature at which the vapor pressure reaches a pressure, K; also the dew point at a partial
+        pressure.
+        """
         p, law = jnp.asarray(as_pressure(pressure)), self.vapor_pressure
         if isinstance(law, Missing):
             return law(p)

@@ -1,7 +1,9 @@
-"""The library: ``fluid``, ``solid``, ``solute``, ``salt`` by name, ``names`` to list them, ``load`` to add one's own from a TOML file.
+"""The library: ``fluid``, ``solid``, ``solute``, ``salt`` by name, ``names`` to list them, ``load`` to add
+one's own from a TOML file.
 
-A materials file has tables ``[fluid.NAME]``, ``[solid.NAME]`` and ``[solute.NAME]``; the files of ``granum/materials/data`` are
-examples, ``granum.materials.schema`` is the full description. The smallest useful solid::
+A materials file has tables ``[fluid.NAME]``, ``[solid.NAME]`` and ``[solute.NAME]``; the files of
+``granum/materials/data`` are examples, ``granum.materials.schema`` is the full description. The smallest
+useful solid::
 
     [solid.zeolite]
     density = { value = 2150.0, source = "measured by helium pycnometry, 2024" }
@@ -31,7 +33,14 @@ from granum.materials.solutes import SoluteSystem
 
 Entries = dict[str, dict[str, Any]]
 _SORTS = {"fluid": "Fluid", "solid": "Solid", "solute": "Solute", "salt": "Salt"}
-_SPELLINGS = {"sulph": "sulf", "Sulph": "Sulf", "aluminium": "aluminum", "caesium": "cesium", "·": ".", "•": "."}
+_SPELLINGS = {
+    "sulph": "sulf",
+    "Sulph": "Sulf",
+    "aluminium": "aluminum",
+    "caesium": "cesium",
+    "·": ".",
+    "•": ".",
+}
 
 
 @dataclass(frozen=True)
@@ -46,28 +55,38 @@ class _File:
         try:
             return cls(path.read_text(encoding="utf-8"), path)
         except OSError as problem:
-            raise InputError(_("Materials file {file} cannot be read: {reason}.").format(file=path, reason=problem.strerror)) from problem
+            raise InputError(
+                _("Materials file {file} cannot be read: {reason}.").format(
+                    file=path, reason=problem.strerror
+                )
+            ) from problem
         except UnicodeDecodeError as problem:
-            raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)) from problem
+            raise InputError(
+                _("Materials file {file} is not valid TOML: {reason}.").format(file=path, reason=problem)
+            ) from problem
 
     def content(self) -> dict[str, Any]:
         try:
             return read_toml(self.text)
         except InputError as problem:
-            raise InputError(_("Materials file {file} is not valid TOML: {reason}.").format(file=self.path, reason=problem)) from problem
+            raise InputError(
+                _("Materials file {file} is not valid TOML: {reason}.").format(file=self.path, reason=problem)
+            ) from problem
 
 
 @dataclass(frozen=True, repr=False)
 class Library:
-    """The materials that come with Granum and those of some files of one's own: a value, equal to another with the same texts.
+    """The materials that come with Granum and those of some files of one's own: a value, equal to another
+    with the same texts.
 
-    What a case names in its files is in the library of its mixture alone, so that other cases may use the same names for other materials.
+    What a case names in its files is in the library of its mixture alone, so that other cases may use the
+    same names for other materials.
     """
 
     files: tuple[_File, ...] = ()
 
     def __repr__(self) -> str:
-        return f"Library({sha256(repr([f.text for f in self.files]).encode()).hexdigest() if self.files else ''})"
+        return f"Library({sha256(repr([f.text for f in self.files]).encode()).hexdigest() if self.files else ''})"  # noqa: E501
 
     def with_files(self, paths: Iterable[str | Path]) -> Library:
         """The library with the materials of further files, all of which have been made once."""
@@ -115,13 +134,17 @@ class Library:
         """The system that a crystal, such as a hydrate, comes from."""
         solids = self._entries["solid"]
         crystal = solids.get(word) or solids.get(word.lower()) or _by_formula(solids, word)
-        return crystal and next((item for item in known.values() if any(b.crystal == crystal[0] for b in item[1].branches)), None)
+        return crystal and next(
+            (item for item in known.values() if any(b.crystal == crystal[0] for b in item[1].branches)), None
+        )
 
     def names(self, sort: str = "") -> list[str]:
         """Names of the materials of a sort, or of all."""
         if sort and sort not in _SORTS:
             raise unknown_name(_("Sort of material"), sort, _SORTS)
-        return sorted({key for s in ([sort] if sort else _SORTS) for key, _entry in self._entries[s].values()})
+        return sorted(
+            {key for s in ([sort] if sort else _SORTS) for key, _entry in self._entries[s].values()}
+        )
 
     def fluid(self, name: str) -> Fluid:
         """A pure fluid by name, chemical formula or French name."""
@@ -136,10 +159,17 @@ class Library:
         return self._find("salt", name, salt_of)
 
     def solute(self, name: str) -> SoluteSystem:
-        """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT`` where the solvent is not water."""
+        """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT``
+        where the solvent is not water.
+        """
 
         def build(key: str, entry: Any) -> SoluteSystem:
-            return solute_of(key, entry, self.fluid(entry.solvent), tuple(self.solid(branch.crystal) for branch in entry.branches))
+            return solute_of(
+                key,
+                entry,
+                self.fluid(entry.solvent),
+                tuple(self.solid(branch.crystal) for branch in entry.branches),
+            )
 
         return self._find("solute", name, build)
 
@@ -160,8 +190,12 @@ def _merge(into: Entries, content: dict[str, Any], where: str | Path) -> None:
         for name, entry in getattr(parsed, sort).items():
             for word in dict.fromkeys((name, *entry.aliases)):
                 if word in into[sort]:
-                    raise InputError(_("'{name}' in {file} is already the name of a {sort}; choose another.").format(
-                        name=word, file=where, sort=sort), name=word)  # fmt: skip
+                    raise InputError(
+                        _("'{name}' in {file} is already the name of a {sort}; choose another.").format(
+                            name=word, file=where, sort=sort
+                        ),
+                        name=word,
+                    )
                 into[sort][word] = (name, entry)
 
 
@@ -173,7 +207,10 @@ def _respelled(name: str) -> str:
 
 
 def _by_formula(known: dict[str, Any], word: str) -> Any:
-    return next((item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula), None)
+    return next(
+        (item for item in known.values() if word.lower() == item[1].fr.lower() or word == item[1].formula),
+        None,
+    )
 
 
 SHIPPED = Library()
@@ -186,14 +223,17 @@ def session() -> Library:
 
 
 def load(path: str | Path) -> list[str]:
-    """Add the materials of a TOML file to the library for this session; returns their names. A case file names its own files instead."""
+    """Add the materials of a TOML file to the library for this session; returns their names. A case file
+    names its own files instead.
+    """
     _session[0] = session().with_files([path])
     content = _File.read(Path(path)).content()
     return sorted({name for sort in _SORTS for name in content.get(sort, {})})
 
 
 def names(sort: str = "") -> list[str]:
-    """Names of the materials of a sort, ``"fluid"``, ``"solid"``, ``"solute"`` or ``"salt"``; of all sorts by default.
+    """Names of the materials of a sort, ``"fluid"``, ``"solid"``, ``"solute"`` or ``"salt"``; of all sorts by
+    default.
 
     >>> "ethanol" in names("fluid"), "quartz" in names("solid"), "potassium nitrate" in names("solute")
     (True, True, True)
@@ -220,7 +260,8 @@ def solid(name: str) -> Solid:
 
 
 def solute(name: str) -> SoluteSystem:
-    """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT`` where the solvent is not water.
+    """A solute–solvent system by the name of the solute or of one of its crystals, with ``in SOLVENT`` where
+    the solvent is not water.
 
     >>> round(float(solute("potassium nitrate").solubility("20 degC")), 2)
     0.32

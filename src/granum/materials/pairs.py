@@ -38,14 +38,28 @@ class GasVapor(eqx.Module):
             return diffusivity_marrero_mason(T, p)
         for one in (self.gas, self.vapor):
             if one.diffusion_volume != one.diffusion_volume:
-                raise ApplicabilityError(_("{name} has no 'diffusion_volume' in the library.").format(name=one.label))
-        return diffusivity_fuller(T, self.vapor.molar_mass, self.vapor.diffusion_volume, self.gas.molar_mass, self.gas.diffusion_volume, p)
+                raise ApplicabilityError(
+                    _("{name} has no 'diffusion_volume' in the library.").format(name=one.label)
+                )
+        return diffusivity_fuller(
+            T,
+            self.vapor.molar_mass,
+            self.vapor.diffusion_volume,
+            self.gas.molar_mass,
+            self.gas.diffusion_volume,
+            p,
+        )
 
     def lewis_number(self, temperature: Any, pressure: Any = STANDARD_ATMOSPHERE) -> Any:
         """Lewis number of the vapor in the nearly dry gas."""
         T, p = as_temperature(temperature), as_pressure(pressure)
         gas = self.gas
-        return lewis_number(gas.vapor_conductivity(T), gas.vapor_density(T, p), gas.vapor_heat_capacity(T), self.diffusivity(T, p))
+        return lewis_number(
+            gas.vapor_conductivity(T),
+            gas.vapor_density(T, p),
+            gas.vapor_heat_capacity(T),
+            self.diffusivity(T, p),
+        )
 
 
 def gas_vapor(vapor: str = "water", gas: str = "dry air", materials: Library | None = None) -> GasVapor:

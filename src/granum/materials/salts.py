@@ -13,7 +13,8 @@ from granum.numerics import safe_log
 
 
 class Salt(eqx.Module):
-    """A salt of one cation and one anion, ``salt("barium sulfate")``; molalities in mol per kg of water, 25 °C.
+    """A salt of one cation and one anion, ``salt("barium sulfate")``; molalities in mol per kg of water,
+    25 °C.
 
     Parameters
     ----------
@@ -51,7 +52,11 @@ class Salt(eqx.Module):
         """Decimal logarithm of the ion activity product over the solubility product."""
         cation = activity_coefficient_davies(self.cation_charge, ionic_strength) * cation_molality
         anion = activity_coefficient_davies(self.anion_charge, ionic_strength) * anion_molality
-        logs = self.cation_count * safe_log(cation) + self.anion_count * safe_log(anion) - jnp.log(self.solubility_product)
+        logs = (
+            self.cation_count * safe_log(cation)
+            + self.anion_count * safe_log(anion)
+            - jnp.log(self.solubility_product)
+        )
         return logs / jnp.log(10.0)
 
     def saturated_molality(self) -> float:

@@ -1,4 +1,6 @@
-"""What a materials file may contain: TOML tables ``[fluid.NAME]``, ``[solid.NAME]``, ``[solute.NAME]``, ``[salt.NAME]``, checked with Pydantic."""
+"""What a materials file may contain: TOML tables ``[fluid.NAME]``, ``[solid.NAME]``, ``[solute.NAME]``,
+``[salt.NAME]``, checked with Pydantic.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ class _Strict(BaseModel):
 
 
 class PropertyEntry(_Strict):
-    """One property: a constant ``value``, or a ``form`` with ``coefficients``; ``range`` in K; ``unit`` of the printed value."""
+    """One property: a constant ``value``, or a ``form`` with ``coefficients``; ``range`` in K; ``unit`` of
+    the printed value.
+    """
 
     value: float | None = None
     form: str | None = None
@@ -44,7 +48,9 @@ class _Named(_Strict):
 
 
 class CombustionEntry(_Strict):
-    """What a kilogram of a fuel takes and gives when it burns: dry air needed and water formed, kg; lower heating value at 25 °C, J/kg."""
+    """What a kilogram of a fuel takes and gives when it burns: dry air needed and water formed, kg; lower
+    heating value at 25 °C, J/kg.
+    """
 
     air: float = Field(gt=0)
     water: float = Field(ge=0)
@@ -53,7 +59,9 @@ class CombustionEntry(_Strict):
 
 
 class FlammabilityEntry(_Strict):
-    """Of a vapor in ambient air, mole fractions: lower explosive limit, and the oxygen below which no mixture with nitrogen burns."""
+    """Of a vapor in ambient air, mole fractions: lower explosive limit, and the oxygen below which no mixture
+    with nitrogen burns.
+    """
 
     lower_limit: float = Field(gt=0, lt=1)
     limiting_oxygen: float | None = Field(default=None, gt=0, lt=0.21)
@@ -93,7 +101,9 @@ class SolidEntry(_Named):
 
 
 class BranchEntry(_Strict):
-    """One crystal: which solid, how many moles of solvent it binds, where it is stable (K), its solubility and in what basis."""
+    """One crystal: which solid, how many moles of solvent it binds, where it is stable (K), its solubility
+    and in what basis.
+    """
 
     crystal: str
     bound_solvent: float = Field(default=0.0, ge=0)
@@ -108,16 +118,23 @@ class BranchEntry(_Strict):
     """J per mol of anhydrous solute dissolved at 25 °C, negative when heat is released on dissolving."""
     heat_source: str = ""
     table: list[tuple[float, float]] = []
-    """Printed values: temperature in °C, rising, and percent by mass of anhydrous solute. The form ``table`` goes through them."""
+    """Printed values: temperature in °C, rising, and percent by mass of anhydrous solute. The form ``table``
+    goes through them.
+    """
 
     @model_validator(mode="after")
     def _curve(self) -> BranchEntry:
         rising = all(a[0] < b[0] for a, b in pairwise(self.table))
         if not rising or any(not 0.0 < percent < 100.0 for _t, percent in self.table):
             raise ValueError("'table' has rising temperatures in °C and percents by mass between 0 and 100")
-        if self.form == "table" and (len(self.table) < 3 or self.coefficients is not None or self.basis != "kg anhydrous per kg solvent"):
+        if self.form == "table" and (
+            len(self.table) < 3
+            or self.coefficients is not None
+            or self.basis != "kg anhydrous per kg solvent"
+        ):
             raise ValueError(
-                "the form 'table' needs a 'table' of three points or more, the basis 'kg anhydrous per kg solvent' and no 'coefficients'"
+                "the form 'table' needs a 'table' of three points or more, the basis 'kg anhydrous per "
+                "kg solvent' and no 'coefficients'"
             )
         return self
 

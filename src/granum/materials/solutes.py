@@ -1,7 +1,9 @@
-"""``SoluteSystem``: a solute in a solvent: solubility of each crystal, hydrates, heats, and properties of the solution.
+"""``SoluteSystem``: a solute in a solvent: solubility of each crystal, hydrates, heats, and properties of the
+solution.
 
-Basis everywhere: ``solute_per_solvent`` is kg of anhydrous solute per kg of solvent, the solvent bound in dissolved hydrate counted
-as solvent. Crystal quantities are per kg of crystal as it is (hydrate included) unless the name says otherwise.
+Basis everywhere: ``solute_per_solvent`` is kg of anhydrous solute per kg of solvent, the solvent bound in
+dissolved hydrate counted as solvent. Crystal quantities are per kg of crystal as it is (hydrate included)
+unless the name says otherwise.
 """
 
 from __future__ import annotations
@@ -63,9 +65,12 @@ class Branch(eqx.Module):
     crystal: the solid that forms.
     solvent_ratio: kg of solvent bound in the crystal per kg of anhydrous solute; zero without solvate.
     stable_from, stable_to: temperatures between which it is the stable one, K.
-    heat_of_crystallization: J per kg of anhydrous solute at 25 °C, positive when heat is released; NaN when not given.
-    misfit: root mean square of the relative deviations of the curve from its own data; zero where the source gives a formula alone.
-    enthalpy_of_formation: of the crystal at 0 °C by its own heat capacity, J per kg of crystal, on the scale of the solution.
+    heat_of_crystallization: J per kg of anhydrous solute at 25 °C, positive when heat is released; NaN when
+        not given.
+    misfit: root mean square of the relative deviations of the curve from its own data; zero where the source
+        gives a formula alone.
+    enthalpy_of_formation: of the crystal at 0 °C by its own heat capacity, J per kg of crystal, on the scale
+        of the solution.
     """
 
     crystal: Solid
@@ -94,10 +99,15 @@ class Branch(eqx.Module):
         return self.value(T)
 
     def value(self, temperature: Any) -> Any:
-        """The solubility without flags; beyond the range a straight line of ln C* over 1/T (van 't Hoff), so that no fit runs away."""
+        """The solubility without flags; beyond the range a straight line of ln C* over 1/T (van 't Hoff), so
+        that no fit runs away.
+        """
         T = jnp.asarray(temperature, dtype=float)
         low, high = self.law.low, self.law.high
-        colder, warmer = jnp.where(low > T, 1.0 / T - 1.0 / low, 0.0), jnp.where(high < T, 1.0 / T - 1.0 / high, 0.0)
+        colder, warmer = (
+            jnp.where(low > T, 1.0 / T - 1.0 / low, 0.0),
+            jnp.where(high < T, 1.0 / T - 1.0 / high, 0.0),
+        )
         return self.inside(jnp.clip(T, low, high)) * jnp.exp(self._ends[0] * colder + self._ends[1] * warmer)
 
     def inside(self, temperature: Any) -> Any:
@@ -115,7 +125,8 @@ class SoluteSystem(eqx.Module):
     solvent: the pure solvent.
     branches: crystals by increasing temperature of stability.
     density_law, viscosity_law, heat_capacity_law: of (temperature, mass fraction of anhydrous solute).
-    solute_heat_capacity: apparent heat capacity of dissolved solute in the solution saturated at 25 °C, J/(kg K).
+    solute_heat_capacity: apparent heat capacity of dissolved solute in the solution saturated at 25 °C, J/(kg
+        K).
     """
 
     name: str = eqx.field(static=True)
@@ -145,7 +156,9 @@ class SoluteSystem(eqx.Module):
         return found[crystal]
 
     def _select(self, temperature: Any, pick: Callable[[Branch, Any], Any]) -> Any:
-        """The value of the branch that is stable at each temperature; the others are evaluated where they are harmless."""
+        """The value of the branch that is stable at each temperature; the others are evaluated where they are
+        harmless.
+        """
         T = jnp.asarray(temperature)
         out = None
         for i, b in enumerate(self.branches):
@@ -158,9 +171,13 @@ class SoluteSystem(eqx.Module):
         return out
 
     def solubility(self, temperature: Any, crystal: str | None = None) -> Any:
-        """Saturation, kg of anhydrous solute per kg of solvent; over the stable crystal, or over a named one."""
+        """Saturation, kg of anhydrous solute per kg of solvent; over the stable crystal, or over a named
+        one.
+        """
         T = as_temperature(temperature)
-        return self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
+        return (
+            self.branch(crystal).solubility(T) if crystal else self._select(T, lambda b, t: b.solubility(t))
+        )
 
     @property
     def data_range(self) -> tuple[float, float]:
@@ -168,7 +185,9 @@ class SoluteSystem(eqx.Module):
         return self.branches[0].law.low, self.branches[-1].law.high
 
     def solubility_misfit(self, temperature: Any) -> Any:
-        """Root mean square of the relative deviations of the curve of the stable crystal from its own data."""
+        """Root mean square of the relative deviations of the curve of the stable crystal from its own
+        data.
+        """
         return self._select(as_temperature(temperature), lambda b, t: b.misfit + 0.0 * t)
 
     def hydrate_ratio(self, temperature: Any) -> Any:
@@ -176,7 +195,8 @@ class SoluteSystem(eqx.Module):
         return self._select(as_temperature(temperature), lambda b, t: b.hydrate_ratio + 0.0 * t)
 
     def heat_of_crystallization(self, temperature: Any) -> Any:
-        """Heat released on crystallization at saturation, J per kg of anhydrous solute: the 25 °C value by Kirchhoff's law.
+        """Heat released on crystallization at saturation, J per kg of anhydrous solute: the 25 °C value by
+        Kirchhoff's law.
 
         Equals ``solute_enthalpy`` + bound solvent − ``crystal_enthalpy``, so that energy balances close.
         """
@@ -184,12 +204,18 @@ class SoluteSystem(eqx.Module):
         def released(b: Branch, t: Any) -> Any:
             self._need_heat(b)
             bound = b.solvent_ratio * self.solvent.liquid_enthalpy(t)
-            return self.solute_enthalpy(t) + bound - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
+            return (
+                self.solute_enthalpy(t)
+                + bound
+                - b.hydrate_ratio * (b.enthalpy_of_formation + b.crystal.enthalpy(t))
+            )
 
         return self._select(as_temperature(temperature), released)
 
     def saturation_temperature(self, solute_per_solvent: Any, crystal: str | None = None) -> Any:
-        """Temperature at which a solution is saturated, K; NaN outside the range of the data. For rising solubilities."""
+        """Temperature at which a solution is saturated, K; NaN outside the range of the data. For rising
+        solubilities.
+        """
         ratio = jnp.asarray(as_solute_ratio(solute_per_solvent))
         branch = self.branch(crystal)
         low, high = branch.law.low, branch.law.high if crystal else self.branches[-1].law.high
@@ -200,7 +226,8 @@ class SoluteSystem(eqx.Module):
         goal = jnp.log(jnp.maximum(ratio, 1e-300))
         return find_root(lambda T, y: jnp.log(law(T)) - y, low, high, goal).value
 
-    # -- the solution ------------------------------------------------------------------------------------------
+    # -- the solution
+    # ------------------------------------------------------------------------------------------
     def mass_fraction(self, solute_per_solvent: Any) -> Any:
         """Mass fraction of anhydrous solute in the solution."""
         ratio = as_solute_ratio(solute_per_solvent)
@@ -218,13 +245,18 @@ class SoluteSystem(eqx.Module):
         """Heat capacity of the solution, J/(kg K)."""
         return self.heat_capacity_law(as_temperature(temperature), self.mass_fraction(solute_per_solvent))
 
-    # -- enthalpies: zero for liquid solvent and dissolved solute at 0 °C; additive, so that mixing closes exactly ----------
+    # -- enthalpies: zero for liquid solvent and dissolved solute at 0 °C; additive, so that mixing closes
+    # exactly ----------
     def solute_enthalpy(self, temperature: Any) -> Any:
-        """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity; heats of dilution are left out."""
+        """Enthalpy of dissolved anhydrous solute, J/kg, with its apparent heat capacity; heats of dilution
+        are left out.
+        """
         return self.solute_heat_capacity * (as_temperature(temperature) - ZERO_CELSIUS)
 
     def crystal_enthalpy(self, temperature: Any, crystal: str | None = None) -> Any:
-        """Enthalpy of a crystal, J per kg of crystal, on the scale of the solution: lower by the heat of crystallization."""
+        """Enthalpy of a crystal, J per kg of crystal, on the scale of the solution: lower by the heat of
+        crystallization.
+        """
         b = self.branch(crystal)
         self._need_heat(b)
         return b.enthalpy_of_formation + b.crystal.enthalpy(temperature)
@@ -232,9 +264,10 @@ class SoluteSystem(eqx.Module):
     def _need_heat(self, b: Branch) -> None:
         if not b.heat_given:
             raise ApplicabilityError(
-                _("The library has no heat of crystallization for {crystal}; give 'heat_of_solution' in a materials file.").format(
-                    crystal=b.crystal.label
-                )
+                _(
+                    "The library has no heat of crystallization for {crystal}; give 'heat_of_solution' "
+                    "in a materials file."
+                ).format(crystal=b.crystal.label)
             )
 
     def __repr__(self) -> str:
@@ -249,7 +282,9 @@ class LaliberteLaw(eqx.Module):
 
     form: Any = eqx.field(static=True)
     coefficients: tuple[float, ...] = eqx.field(static=True)
-    limits: tuple[float, ...] = eqx.field(static=True, default=())  # lowest and highest K, largest mass fraction
+    limits: tuple[float, ...] = eqx.field(
+        static=True, default=()
+    )  # lowest and highest K, largest mass fraction
     is_missing = False
 
     def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:
@@ -259,12 +294,16 @@ class LaliberteLaw(eqx.Module):
             key, source = self.form.card.key, self.form.source
             outside = (cold - SLACK > T) | (hot + SLACK < T)
             flags.record(flags.EXTRAPOLATED, outside & (w > 0), T, "temperature", key, cold, hot, source)
-            flags.record(flags.EXTRAPOLATED, w > most * (1.0 + 1e-3), w, "solute_mass_fraction", key, 0.0, most, source)
+            flags.record(
+                flags.EXTRAPOLATED, w > most * (1.0 + 1e-3), w, "solute_mass_fraction", key, 0.0, most, source
+            )
         return self.form(temperature, solute_mass_fraction, np.asarray(self.coefficients))
 
 
 class AdditiveVolumes(eqx.Module):
-    """Density of a solution whose solvent and (solid) solute volumes add: within a few percent for organic solutes."""
+    """Density of a solution whose solvent and (solid) solute volumes add: within a few percent for organic
+    solutes.
+    """
 
     solvent: Any
     solute_density: Any

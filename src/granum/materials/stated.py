@@ -21,7 +21,9 @@ _PARTS = re.compile(r"\s*(?:;|,\s|\s(?:and|et)\s)\s*")
 
 
 class StatedFluid(NamedTuple):
-    """A fluid at a temperature and a pressure: a liquid where it condenses and lies below its boiling point, else a gas."""
+    """A fluid at a temperature and a pressure: a liquid where it condenses and lies below its boiling point,
+    else a gas.
+    """
 
     fluid: Fluid
     temperature: float
@@ -29,7 +31,9 @@ class StatedFluid(NamedTuple):
 
     @classmethod
     def read(cls, given: Any) -> StatedFluid:
-        """From ``"water at 20 °C"``, ``"air at 60 °C, 2 bar"``, or a fluid (or its name), its temperature and, if not 1 atm, its pressure."""
+        """From ``"water at 20 °C"``, ``"air at 60 °C, 2 bar"``, or a fluid (or its name), its temperature
+        and, if not 1 atm, its pressure.
+        """
         if isinstance(given, str):
             words = _WORDS.match(given)
             if words is None:
@@ -44,13 +48,19 @@ class StatedFluid(NamedTuple):
         known = name if isinstance(name, Fluid) else session().fluid(str(name))
         where = " " + _("of the 'fluid'")
         T = float(convert(parts[0], Parameter("temperature", KINDS["Temperature"]), where))
-        P = float(convert(parts[1], Parameter("pressure", KINDS["Pressure"]), where)) if len(parts) > 1 else STANDARD_ATMOSPHERE
+        P = (
+            float(convert(parts[1], Parameter("pressure", KINDS["Pressure"]), where))
+            if len(parts) > 1
+            else STANDARD_ATMOSPHERE
+        )
         return cls(known, T, P)
 
     @property
     def is_liquid(self) -> bool:
         """Whether it is a liquid in this state."""
-        return self.fluid.condensable and self.temperature < float(self.fluid.boiling_temperature(self.pressure))
+        return self.fluid.condensable and self.temperature < float(
+            self.fluid.boiling_temperature(self.pressure)
+        )
 
     @property
     def label(self) -> str:
@@ -64,7 +74,11 @@ class StatedFluid(NamedTuple):
 
     def density(self) -> Any:
         """kg/m³."""
-        return self.fluid.liquid_density(self.temperature) if self.is_liquid else self.fluid.vapor_density(self.temperature, self.pressure)
+        return (
+            self.fluid.liquid_density(self.temperature)
+            if self.is_liquid
+            else self.fluid.vapor_density(self.temperature, self.pressure)
+        )
 
     def viscosity(self) -> Any:
         """Pa s."""
@@ -91,37 +105,53 @@ class StatedFluid(NamedTuple):
 
 
 _ALWAYS: dict[str, Callable[[StatedFluid], Any]] = {
-    "fluid_density": StatedFluid.density, "dynamic_viscosity": StatedFluid.viscosity, "kinematic_viscosity": StatedFluid.kinematic_viscosity,
-}  # fmt: skip
+    "fluid_density": StatedFluid.density,
+    "dynamic_viscosity": StatedFluid.viscosity,
+    "kinematic_viscosity": StatedFluid.kinematic_viscosity,
+}
 _OF_LIQUID = {"liquid_density": StatedFluid.density, "surface_tension": StatedFluid.surface_tension}
 _OF_GAS = {"gas_density": StatedFluid.density}
-_BESIDE = {"thermal_conductivity": StatedFluid.conductivity, "specific_heat_capacity": StatedFluid.heat_capacity}
+_BESIDE = {
+    "thermal_conductivity": StatedFluid.conductivity,
+    "specific_heat_capacity": StatedFluid.heat_capacity,
+}
 
 
 def asked_of_a_fluid(parameters: Iterable[Parameter]) -> tuple[str, ...]:
-    """Names of the inputs that a fluid can give; conductivity and heat capacity only beside its density or viscosity, else they are a solid's."""
+    """Names of the inputs that a fluid can give; conductivity and heat capacity only beside its density or
+    viscosity, else they are a solid's.
+    """
     names = [p.name for p in parameters]
     own = [name for name in names if name in {**_ALWAYS, **_OF_LIQUID, **_OF_GAS}]
     return tuple(name for name in names if name in own or (own and name in _BESIDE))
 
 
-def properties(given: Any, owner: str, parameters: Iterable[Parameter], typed: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
-    """Values of the inputs that a stated fluid gives, those ``typed`` left as they are, and what a note says of the fluid."""
+def properties(
+    given: Any, owner: str, parameters: Iterable[Parameter], typed: Mapping[str, Any]
+) -> tuple[dict[str, Any], str]:
+    """Values of the inputs that a stated fluid gives, those ``typed`` left as they are, and what a note says
+    of the fluid.
+    """
     names = asked_of_a_fluid(parameters)
     if not names:
-        raise InputError(_("{owner} asks for no property of a fluid: leave 'fluid' out.").format(owner=owner), name="fluid")
+        raise InputError(
+            _("{owner} asks for no property of a fluid: leave 'fluid' out.").format(owner=owner), name="fluid"
+        )
     try:
         state = StatedFluid.read(given)
     except GranumError as problem:  # whatever it lacks, it is the text of this input
         raise InputError(problem.message, **{**problem.details, "name": "fluid"}) from None
     ways = _ALWAYS | _BESIDE | (_OF_LIQUID if state.is_liquid else _OF_GAS)
-    return {name: float(ways[name](state)) for name in names if name in ways and name not in typed}, state.label
+    return {
+        name: float(ways[name](state)) for name in names if name in ways and name not in typed
+    }, state.label
 
 
 def _not_a_fluid(given: Any) -> InputError:
     return InputError(
-        _("'fluid' = {value} is not understood: write it with its temperature, such as fluid=\"water at 20 °C\".").format(
-            value=repr(given)
-        ),
+        _(
+            "'fluid' = {value} is not understood: write it with its temperature, such as fluid=\"water "
+            'at 20 °C".'
+        ).format(value=repr(given)),
         name="fluid",
     )

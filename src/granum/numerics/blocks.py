@@ -1,4 +1,6 @@
-"""Large arrays in blocks that stay in cache: an elementwise iteration then costs arithmetic instead of memory traffic (four times less)."""
+"""Large arrays in blocks that stay in cache: an elementwise iteration then costs arithmetic instead of memory
+traffic (four times less).
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,9 @@
-"""Chains of cells with lanes: each lane sees its own cell and the one before, all lanes of a cell meet in the unknowns they share.
+"""Chains of cells with lanes: each lane sees its own cell and the one before, all lanes of a cell meet in the
+unknowns they share.
 
-Such is solid in many size classes that flows through cells and meets one gas in each. A lane's few unknowns are eliminated by themselves,
-so that work grows with the number of lanes only in proportion; the shared unknowns, which see both neighbors, form a small tridiagonal system.
+Such is solid in many size classes that flows through cells and meets one gas in each. A lane's few unknowns
+are eliminated by themselves, so that work grows with the number of lanes only in proportion; the shared
+unknowns, which see both neighbors, form a small tridiagonal system.
 """
 
 from collections.abc import Callable
@@ -16,7 +18,9 @@ LATE = 1e8  # first steps that make a step as good as infinite
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
 BOLD = 60  # steps after which that path is taken again with every step in time examined
 SHARE = 0.8  # of the largest change allowed, which the next step aims at
-BEND = 0.5  # correction of a step in time, over that step, which the next step aims at; twice as much and the step is taken back
+# correction of a step in time, over that step, which the next step aims at; twice as much and the step is
+# taken back
+BEND = 0.5
 REST = 0.02  # of the largest change: what is too little to count as bent
 WARY, TRUST = 0.3, 1.5  # of a step taken back, which the next may not exceed; by how much more the one after
 CONFIDENCE = 1.2  # by how much more again each one after that, up to the growth of a good step
@@ -25,14 +29,18 @@ GAMMA = 1.0 - 0.5**0.5  # of the two implicit stages in time
 
 
 class Cells(NamedTuple):
-    """A state of the chain, or rates of it: lanes ``(cells, lanes, unknowns)`` and what they share, ``(cells, shared unknowns)``."""
+    """A state of the chain, or rates of it: lanes ``(cells, lanes, unknowns)`` and what they share, ``(cells,
+    shared unknowns)``.
+    """
 
     lanes: Any
     shared: Any
 
 
 class Rates(NamedTuple):
-    """Rates of change of the lanes; what each lane gives to the shared unknowns, ``(cells, lanes, shared unknowns)``; and the rest of these."""
+    """Rates of change of the lanes; what each lane gives to the shared unknowns, ``(cells, lanes, shared
+    unknowns)``; and the rest of these.
+    """
 
     lanes: Any
     parts: Any
@@ -57,8 +65,9 @@ class ChainSolution(NamedTuple):
 
 
 class Blocks(NamedTuple):
-    """Derivatives of the rates of each cell: of a lane by the lane before, itself and the shared; of its part by itself and the shared; of the
-    shared by those before, of the cell and after."""
+    """Derivatives of the rates of each cell: of a lane by the lane before, itself and the shared; of its part
+    by itself and the shared; of the shared by those before, of the cell and after.
+    """
 
     before: Any
     own: Any
@@ -73,7 +82,9 @@ class Blocks(NamedTuple):
         """All times a scale, and a diagonal added."""
         scaled = jax.tree.map(lambda block: scale * block, self)
         own = scaled.own + diagonal.lanes[..., None] * jnp.eye(self.own.shape[-1])
-        return scaled._replace(own=own, mid=scaled.mid + diagonal.shared[..., None] * jnp.eye(self.mid.shape[-1]))
+        return scaled._replace(
+            own=own, mid=scaled.mid + diagonal.shared[..., None] * jnp.eye(self.mid.shape[-1])
+        )
 
 
 def _all(values: Any) -> Any:
@@ -85,7 +96,8 @@ def _summed(rates: Rates) -> Cells:
 
 
 def chain_blocks(push: Callable[[Cells], Rates], like: Cells) -> Blocks:
-    """Blocks of a linear function. Of the lanes every second cell is disturbed at once, of the shared unknowns every third.
+    """Blocks of a linear function. Of the lanes every second cell is disturbed at once, of the shared
+    unknowns every third.
 
     Example:
         >>> def flow(u):
@@ -103,7 +115,12 @@ def chain_blocks(push: Callable[[Cells], Rates], like: Cells) -> Blocks:
     ]  # color, unknown, cell, 1, a
     chosen_shared = (cells % q == jnp.arange(q)[:, None])[:, None, :, None] * jnp.eye(g)[:, None, :]
     seeds = Cells(
-        jnp.concatenate([jnp.broadcast_to(chosen_lanes, (p, a, n, m, a)).reshape(-1, n, m, a), jnp.zeros((q * g, n, m, a))]),
+        jnp.concatenate(
+            [
+                jnp.broadcast_to(chosen_lanes, (p, a, n, m, a)).reshape(-1, n, m, a),
+                jnp.zeros((q * g, n, m, a)),
+            ]
+        ),
         jnp.concatenate([jnp.zeros((p * a, n, g)), chosen_shared.reshape(-1, n, g)]),
     )
     found = jax.vmap(push)(seeds)
@@ -113,12 +130,20 @@ def chain_blocks(push: Callable[[Cells], Rates], like: Cells) -> Blocks:
         return jnp.moveaxis(values.reshape(colors, unknowns, *values.shape[1:]), 1, -1)
 
     lanes, parts = (unpacked(v[: p * a], p, a) for v in (found.lanes, found.parts))
-    by_shared, part_by_shared, shared = (unpacked(v[p * a :], q, g) for v in (found.lanes, found.parts, found.shared))
+    by_shared, part_by_shared, shared = (
+        unpacked(v[p * a :], q, g) for v in (found.lanes, found.parts, found.shared)
+    )
     before = lanes[(cells - 1) % p, cells].at[0].set(0.0)
     return Blocks(
-        before, lanes[cells % p, cells], jnp.sum(by_shared, axis=0), parts[cells % p, cells], jnp.sum(part_by_shared, axis=0),
-        shared[(cells - 1) % q, cells].at[0].set(0.0), shared[cells % q, cells], shared[(cells + 1) % q, cells].at[-1].set(0.0),
-    )  # fmt: skip
+        before,
+        lanes[cells % p, cells],
+        jnp.sum(by_shared, axis=0),
+        parts[cells % p, cells],
+        jnp.sum(part_by_shared, axis=0),
+        shared[(cells - 1) % q, cells].at[0].set(0.0),
+        shared[cells % q, cells],
+        shared[(cells + 1) % q, cells].at[-1].set(0.0),
+    )
 
 
 def _inverse(matrix: Any) -> Any:
@@ -211,25 +236,30 @@ def solve_chain(
     tolerance: float = 1e-12,
     max_steps: Any = 2000,
 ) -> ChainSolution:
-    """Solve for the state at which all rates vanish: by Newton's method, or where that leads astray along the path the system takes in time.
+    """Solve for the state at which all rates vanish: by Newton's method, or where that leads astray along the
+    path the system takes in time.
 
-    The path is first taken in steps as long as the largest change allows. Where these do not arrive, for fast lanes bend within them, it is
-    taken once more with each step compared with the rates at its end, and taken back where they disagree.
+    The path is first taken in steps as long as the largest change allows. Where these do not arrive, for fast
+    lanes bend within them, it is taken once more with each step compared with the rates at its end, and taken
+    back where they disagree.
 
     Parameters
     ----------
-    function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the cell before and on the shared
-        unknowns of its cell, the shared rest on those of the neighbors. It may close over traced values.
+    function: rates of change of what the cells hold. A lane may depend on itself, on the same lane of the
+        cell before and on the shared unknowns of its cell, the shared rest on those of the neighbors. It may
+        close over traced values.
     start: first guess, unknowns scaled to about one.
-    capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation without
-        memory, any broadcastable shapes.
+    capacity: what a cell holds per unknown, so that ``capacity · du/dt = rates``; zero for an equation
+        without memory, any broadcastable shapes.
     first_step: first step in time; it grows fourfold while steps are good.
-    largest_change: change of an unknown in one step above which the step is repeated shorter, broadcastable to a state.
+    largest_change: change of an unknown in one step above which the step is repeated shorter, broadcastable
+        to a state.
     tolerance: on the change that a whole Newton step would still make, relative to the unknowns or one.
 
     Returns
     -------
-    A `ChainSolution`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
+    A `ChainSolution`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit
+        function theorem.
 
     Example:
         >>> def flow(u):
@@ -260,42 +290,89 @@ def solve_chain(
             value, push = jax.linearize(f, u)
             r = _summed(value)
             factors = factored(push, u, h)
-            missing = jax.tree.map(lambda v, c, d: v + c * d / taken, r, capacity, before)  # to the step in time that led here
+            missing = jax.tree.map(
+                lambda v, c, d: v + c * d / taken, r, capacity, before
+            )  # to the step in time that led here
             change = solve_factored(factors, r)
-            correction = lax.cond(careful, lambda: solve_factored(then, missing), lambda: jax.tree.map(jnp.zeros_like, before))
+            correction = lax.cond(
+                careful, lambda: solve_factored(then, missing), lambda: jax.tree.map(jnp.zeros_like, before)
+            )
             far = jnp.maximum(*(jnp.max(abs(d) / s) for d, s in zip(change, size, strict=True)))
-            bent = jnp.maximum(*(jnp.max(abs(c) / jnp.maximum(abs(d), s)) for c, d, s in zip(correction, before, rest, strict=True)))
+            bent = jnp.maximum(
+                *(
+                    jnp.max(abs(c) / jnp.maximum(abs(d), s))
+                    for c, d, s in zip(correction, before, rest, strict=True)
+                )
+            )
             bent = jnp.where(jnp.isfinite(taken) & careful, bent, 0.0)
             straight = bent <= 2.0 * BEND
             good = (far <= 1.0) & straight & _all(jax.tree.map(jnp.isfinite, change))
-            relative = jnp.maximum(*(jnp.max(abs(d) / jnp.maximum(abs(v), 1.0)) for d, v in zip(change, u, strict=True)))
+            relative = jnp.maximum(
+                *(jnp.max(abs(d) / jnp.maximum(abs(v), 1.0)) for d, v in zip(change, u, strict=True))
+            )
             turned = jax.tree.map(lambda d, b: jnp.sum(d * b, axis=-1, keepdims=True) < 0, change, before)
             astray = (h >= LATE * first_step) & (relative > 0.5 * last) & (relative > 1e-7)
             # a lane that goes to and fro over a bend takes less of its steps
             damping = jax.tree.map(
-                lambda t, f: jnp.where(careful, 1.0, jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0))), turned, damping
+                lambda t, f: jnp.where(
+                    careful, 1.0, jnp.where(t & astray, 0.5 * f, jnp.minimum(1.3 * f, 1.0))
+                ),
+                turned,
+                damping,
             )
-            lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))  # the step before went astray: back to its start
-            # Newton's method from the guess is given up when it goes astray, the path without examination when it takes too long
+            lost = ~(
+                jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r))
+            )  # the step before went astray: back to its start
+            # Newton's method from the guess is given up when it goes astray, the path without examination
+            # when it takes too long
             failed = (trial & (~good | (astray & (number >= PATIENCE)))) | (~careful & (number >= BOLD))
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
-            ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)  # Newton's method is quadratic
+            ratio = jnp.where(
+                whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0
+            )  # Newton's method is quadratic
             # changes are nearly proportional to a step: the next is to come close to the largest allowed
             growth = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
             began = jnp.where(jnp.isfinite(taken), taken, h)
             shorter = began * jnp.where(bent > BEND, jnp.clip(BEND / bent, CAUTION**2, 1.0), CAUTION)
-            most = jnp.where(careful, jnp.where(lost, WARY * began, jnp.minimum(trust * most, 1e4 * LATE * first_step)), most)
+            most = jnp.where(
+                careful,
+                jnp.where(lost, WARY * began, jnp.minimum(trust * most, 1e4 * LATE * first_step)),
+                most,
+            )
             trust = jnp.where(lost, TRUST, jnp.minimum(CONFIDENCE * trust, GROWTH))
-            fitting = jnp.minimum(h * jnp.clip(jnp.minimum(SHARE / far, BEND / bent), CAUTION**2, growth), most)
+            fitting = jnp.minimum(
+                h * jnp.clip(jnp.minimum(SHARE / far, BEND / bent), CAUTION**2, growth), most
+            )
             used, h = h, jnp.where(failed, first_step, jnp.where(lost, shorter, fitting))
             back = jax.tree.map(lambda s, v: jnp.where(lost, s, v), safe, u)
-            new = jax.tree.map(lambda g, b, v, d, f: jnp.where(failed, g, jnp.where(good, v - f * d, b)), origin, back, u, change, damping)
+            new = jax.tree.map(
+                lambda g, b, v, d, f: jnp.where(failed, g, jnp.where(good, v - f * d, b)),
+                origin,
+                back,
+                u,
+                change,
+                damping,
+            )
             known = jax.tree.map(lambda d: jnp.where(good & ~failed, d, 0.0), change)
             last = jnp.where(good & ~failed, relative, jnp.inf)
             left = jnp.where(late, relative * ratio**2, jnp.inf)
             taken = jnp.where(good & ~failed, used, jnp.inf)
-            return new, back, h, known, last, left, damping, way + failed, number + 1, taken, most, trust, factors
+            return (
+                new,
+                back,
+                h,
+                known,
+                last,
+                left,
+                damping,
+                way + failed,
+                number + 1,
+                taken,
+                most,
+                trust,
+                factors,
+            )
 
         def unfinished(carry: tuple) -> Any:
             return (carry[5] > tolerance) & (carry[8] < max_steps)
@@ -314,7 +391,10 @@ def solve_chain(
             none,
             1e4 * LATE * first_step,
             jnp.asarray(TRUST),
-            jax.tree.map(lambda v: jnp.zeros(v.shape), jax.eval_shape(lambda u: factored(jax.linearize(f, u)[1], u, 1.0), origin)),
+            jax.tree.map(
+                lambda v: jnp.zeros(v.shape),
+                jax.eval_shape(lambda u: factored(jax.linearize(f, u)[1], u, 1.0), origin),
+            ),
         )
         found = lax.while_loop(unfinished, step, first)
         u, left, number = found[0], found[5], found[8]
@@ -322,7 +402,9 @@ def solve_chain(
         return found, (left, number.astype(left.dtype))
 
     def balanced(v: Rates) -> Rates:
-        """All rates, with the parts as unknowns too, so that the lanes of its linear form can be told apart."""
+        """All rates, with the parts as unknowns too, so that the lanes of its linear form can be told
+        apart.
+        """
         rates = function(Cells(v.lanes, v.shared))
         return Rates(rates.lanes, rates.parts - v.parts, rates.shared + jnp.sum(v.parts, axis=1))
 
@@ -332,7 +414,10 @@ def solve_chain(
         def push(u: Cells) -> Rates:
             return linear(Rates(u.lanes, jnp.zeros_like(right.parts), u.shared))
 
-        u = solve_factored(factor_chain(chain_blocks(push, like)), Cells(right.lanes, right.shared + jnp.sum(right.parts, axis=1)))
+        u = solve_factored(
+            factor_chain(chain_blocks(push, like)),
+            Cells(right.lanes, right.shared + jnp.sum(right.parts, axis=1)),
+        )
         return Rates(u.lanes, push(u).parts - right.parts, u.shared)
 
     guess = Rates(start.lanes, jnp.zeros((*start.lanes.shape[:2], start.shared.shape[1])), start.shared)
@@ -341,11 +426,18 @@ def solve_chain(
 
 
 def _like(start: Cells, given: Cells) -> Cells:
-    return Cells(*(jnp.broadcast_to(lax.stop_gradient(jnp.asarray(v, dtype=float)), s.shape) for v, s in zip(given, start, strict=True)))
+    return Cells(
+        *(
+            jnp.broadcast_to(lax.stop_gradient(jnp.asarray(v, dtype=float)), s.shape)
+            for v, s in zip(given, start, strict=True)
+        )
+    )
 
 
 class History(NamedTuple):
-    """Outcome of `advance_chain`: states after each step, the integral of the outflow up to there, whether every step was solved."""
+    """Outcome of `advance_chain`: states after each step, the integral of the outflow up to there, whether
+    every step was solved.
+    """
 
     states: Cells
     outflow: jax.Array
@@ -362,10 +454,13 @@ def advance_chain(
     reach: Callable[[Cells, Cells], Any] | None = None,
     largest_change: Cells | None = None,
 ) -> History:
-    """States of a chain of cells over time by Alexander's two implicit stages: second order, L-stable, given steps of any length.
+    """States of a chain of cells over time by Alexander's two implicit stages: second order, L-stable, given
+    steps of any length.
 
-    The second stage starts from a straight line through the first. Where this would lead beyond what is possible, such as to less than
-    nothing, it starts earlier, up to a whole step of the implicit method of Euler. What is linear in the unknowns and conserved by ``function`` is conserved to the tolerance of the stages.
+    The second stage starts from a straight line through the first. Where this would lead beyond what is
+    possible, such as to less than nothing, it starts earlier, up to a whole step of the implicit method of
+    Euler. What is linear in the unknowns and conserved by ``function`` is conserved to the tolerance of the
+    stages.
 
     Parameters
     ----------
@@ -375,12 +470,15 @@ def advance_chain(
     step: length of the steps, or of each of them.
     inputs: pytree whose leaves have a leading axis of steps; constant within a step.
     outflow: ``outflow(u, input)``, linear in u: flows (any vector) whose time integral is wanted.
-    reach: ``reach(u, change)``: how many times a change may be added to a state. Without it, as often as one likes.
+    reach: ``reach(u, change)``: how many times a change may be added to a state. Without it, as often as one
+        likes.
     largest_change: as in `solve_chain`.
 
     Example:
         >>> fall = lambda u, i: Rates(i - u.lanes, jnp.zeros((1, 1, 1)), u.lanes[:, 0] - u.shared)
-        >>> found = advance_chain(fall, Cells(jnp.zeros((1, 1, 1)), jnp.zeros((1, 1))), Cells(1.0, 0.0), 0.01, jnp.ones(100))
+        >>> found = advance_chain(
+        ...     fall, Cells(jnp.zeros((1, 1, 1)), jnp.zeros((1, 1))), Cells(1.0, 0.0), 0.01, jnp.ones(100)
+        ... )
         >>> round(float(found.states.lanes[-1, 0, 0, 0]), 4)  # 1 − 1/e = 0.6321
         0.6321
     """
@@ -396,7 +494,9 @@ def advance_chain(
             return Rates(r.lanes - d.lanes, r.parts, r.shared - d.shared)
 
         brake = jax.tree.map(lambda c: jnp.where(c > 0, c, 1e-2 * length), capacity)
-        found = solve_chain(rates, guess, brake, first_step=1e-2 * length, largest_change=largest_change, max_steps=steps)
+        found = solve_chain(
+            rates, guess, brake, first_step=1e-2 * length, largest_change=largest_change, max_steps=steps
+        )
         return found.state, found.converged
 
     def half(carry: tuple, row: tuple) -> tuple[tuple, tuple]:

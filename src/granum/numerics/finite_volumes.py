@@ -114,7 +114,9 @@ def transport_rate(
     h = jnp.diff(edges)
     gap = jnp.concatenate([h[:1], 0.5 * (h[1:] + h[:-1]), h[-1:]])
     first, last = cells[..., :1], cells[..., -1:]
-    ghosted = jnp.concatenate([lower.ghost(first, last, time), cells, upper.ghost(last, first, time)], axis=-1)
+    ghosted = jnp.concatenate(
+        [lower.ghost(first, last, time), cells, upper.ghost(last, first, time)], axis=-1
+    )
     rise = jnp.diff(ghosted)
     slope = rise / gap
     behind, ahead = slope[..., :-1], slope[..., 1:]
@@ -256,7 +258,9 @@ def steps_for(duration: float, edges: Any, speed: Any, *, courant: float = 0.45,
     return max(1, math.ceil(duration * fastest / courant * (1.0 - 1e-12)))
 
 
-def stationary_points(function: Callable[[jax.Array], jax.Array], lower: float, upper: float, samples: int = 513) -> jax.Array:
+def stationary_points(
+    function: Callable[[jax.Array], jax.Array], lower: float, upper: float, samples: int = 513
+) -> jax.Array:
     """Where a scalar flux has its extrema in ``[lower, upper]``, for `Godunov`; outside `jax.jit`.
 
     Found between ``samples`` points: of two extrema closer than that, none is seen.

@@ -36,7 +36,9 @@ class AbstractMethod(eqx.Module):
     """A way to bring a residual vector to zero."""
 
     @abstractmethod
-    def solve(self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int) -> tuple[jax.Array, jax.Array, jax.Array]:
+    def solve(
+        self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int
+    ) -> tuple[jax.Array, jax.Array, jax.Array]:
         """The best iterate, shape ``(n,)``, its largest residual, and the number of steps.
 
         Unknowns and residuals, both shape ``(n,)``, are scaled to about one; ``residual`` is
@@ -62,7 +64,9 @@ class Anderson(AbstractMethod):
     damping: float = 1.0
 
     def begin(self, start: jax.Array) -> tuple:
-        """The state of an iteration that has evaluated nothing yet; its first item is where to evaluate, its second the best so far."""
+        """The state of an iteration that has evaluated nothing yet; its first item is where to evaluate, its
+        second the best so far.
+        """
         history = jnp.zeros((min(self.window, start.size) + 1, start.size), start.dtype)
         zero = jnp.zeros((), int)
         best = (start, jnp.full((), jnp.inf, start.dtype))
@@ -73,7 +77,8 @@ class Anderson(AbstractMethod):
         x, best, base, points, residuals, rejected, number = carry
         slots = len(points)
         size = largest(r)
-        # the start is often an empty stream, whose residual says little: the first step from it may look far worse and be right
+        # the start is often an empty stream, whose residual says little: the first step from it may look far
+        # worse and be right
         second = (number == 1) & jnp.isfinite(size) & (size <= 100.0 * best[1])
         accepted = second | (size <= 2.0 * best[1])
         instructive = ~accepted & (size <= 10.0 * best[1]) & (rejected == 0)
@@ -94,7 +99,9 @@ class Anderson(AbstractMethod):
         length = jnp.where(instructive, 1.0, 0.5**rejected)
         return base[0] + length * move, best, base, points, residuals, rejected, number + 1
 
-    def solve(self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int) -> tuple[jax.Array, jax.Array, jax.Array]:
+    def solve(
+        self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int
+    ) -> tuple[jax.Array, jax.Array, jax.Array]:
         carry = lax.while_loop(
             lambda carry: (carry[1][1] > tolerance) & (carry[-1] < max_steps),
             lambda carry: self.proceed(carry, residual(carry[0])),
@@ -117,7 +124,9 @@ class Newton(AbstractMethod):
 
     halvings: int = eqx.field(static=True, default=20)
 
-    def solve(self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int) -> tuple[jax.Array, jax.Array, jax.Array]:
+    def solve(
+        self, residual: Residual, start: jax.Array, tolerance: float, max_steps: int
+    ) -> tuple[jax.Array, jax.Array, jax.Array]:
         def step(carry: tuple) -> tuple:
             x, _, _, number = carry
             r, linear = jax.linearize(residual, x)
@@ -197,7 +206,9 @@ def fixed_point(
     found, scaled = _solve(residual, start, scale, scale, method, tolerance, max_steps)
     # A change smaller than the rounding of a state that ran away proves nothing.
     rounding = jnp.finfo(scaled.dtype).eps * largest(scaled)
-    return found._replace(converged=found.converged & (rounding <= tolerance), residual=jnp.maximum(found.residual, rounding))
+    return found._replace(
+        converged=found.converged & (rounding <= tolerance), residual=jnp.maximum(found.residual, rounding)
+    )
 
 
 def solve_system(

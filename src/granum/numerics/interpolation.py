@@ -81,7 +81,9 @@ class MonotoneCubic(eqx.Module):
     slopes: jax.Array
 
     @classmethod
-    def through(cls, points: Any, values: Any, slopes: Callable[..., jax.Array] = slopes_pchip) -> "MonotoneCubic":
+    def through(
+        cls, points: Any, values: Any, slopes: Callable[..., jax.Array] = slopes_pchip
+    ) -> "MonotoneCubic":
         """The cubic through a table."""
         points, values = jnp.asarray(points, dtype=float), jnp.asarray(values, dtype=float)
         return cls(points, values, slopes(points, values))

@@ -17,7 +17,9 @@ NEIGHBOR = 1e-7  # distance for slopes, relative to the box
 
 
 class Pair(NamedTuple):
-    """Outcome of `crossing_pair`: the root, what the function returned besides, whether it was found, steps, the residual."""
+    """Outcome of `crossing_pair`: the root, what the function returned besides, whether it was found, steps,
+    the residual.
+    """
 
     value: jax.Array
     made: Any
@@ -35,27 +37,38 @@ def crossing_pair(
     allowed: Callable[[jax.Array], jax.Array] = lambda x: x,
     most: int = MOST,
 ) -> Pair:
-    """Solve ``function(x, help) = 0`` for two unknowns in a box, by Newton's method kept on course by the signs of the residuals.
+    """Solve ``function(x, help) = 0`` for two unknowns in a box, by Newton's method kept on course by the
+    signs of the residuals.
 
-    The first residual must rise with the first unknown and fall with the second, the second residual rise with both. Their zero lines
-    then cross once, and wherever they are known both signs put the root on one side of one of the unknowns: residuals of one sign bound
-    the first unknown, residuals of different signs the second. A Newton step that leaves the box so found, or that neither halves the step before
-    nor lowers the residual, gives way to the middle of the box. The number of steps is bounded; ``converged`` judges the residual alone.
+    The first residual must rise with the first unknown and fall with the second, the second residual rise
+    with both. Their zero lines then cross once, and wherever they are known both signs put the root on one
+    side of one of the unknowns: residuals of one sign bound the first unknown, residuals of different signs
+    the second. A Newton step that leaves the box so found, or that neither halves the step before nor lowers
+    the residual, gives way to the middle of the box. The number of steps is bounded; ``converged`` judges the
+    residual alone.
 
     Parameters
     ----------
-    function: returns two residuals, scaled to about one; the next ``help``, with which its inner searches may start and which must
-        not change the residuals; and anything else that is wanted at the root.
+    function: returns two residuals, scaled to about one; the next ``help``, with which its inner searches may
+        start and which must not change the residuals; and anything else that is wanted at the root.
     lower, upper: corners of the box. start: first guess.
     help_: first ``help``.
-    allowed: moves a point to where the function has the signs said above, by raising the second unknown alone; the root must be there.
+    allowed: moves a point to where the function has the signs said above, by raising the second unknown
+        alone; the root must be there.
 
     Returns
     -------
-    A `Pair`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function theorem.
+    A `Pair`. Nothing raises. Derivatives with respect to closed-over values follow from the implicit function
+        theorem.
 
     Example:
-        >>> found = crossing_pair(lambda x, h: (jnp.stack([x[0] ** 3 - x[1], x[0] + x[1] - 2.0]), h, ()), [0.0, 0.0], [9.0, 9.0], [8.0, 1.0], None)
+        >>> found = crossing_pair(
+        ...     lambda x, h: (jnp.stack([x[0] ** 3 - x[1], x[0] + x[1] - 2.0]), h, ()),
+        ...     [0.0, 0.0],
+        ...     [9.0, 9.0],
+        ...     [8.0, 1.0],
+        ...     None,
+        ... )
         >>> [round(float(v), 9) for v in found.value]
         [1.0, 1.0]
     """
@@ -63,18 +76,33 @@ def crossing_pair(
     start = jnp.clip(lax.stop_gradient(jnp.asarray(start, dtype=float)), lower, upper)
     start = jnp.where(jnp.isfinite(start), start, 0.5 * (lower + upper))
     help_ = lax.stop_gradient(help_)
-    traced, given = jax.closure_convert(function, start, help_)  # Python runs the function once; what follows replays its trace
+    traced, given = jax.closure_convert(
+        function, start, help_
+    )  # Python runs the function once; what follows replays its trace
     moved, allowing = jax.closure_convert(lambda x: allowed(x), start)  # a bound method cannot be hashed
-    value, made, residual, number, _known = _crossing(traced, moved, most, given, lax.stop_gradient(allowing), lower, upper, start, help_)
+    value, made, residual, number, _known = _crossing(
+        traced, moved, most, given, lax.stop_gradient(allowing), lower, upper, start, help_
+    )
     left = lax.stop_gradient(jnp.max(abs(residual)))
     return Pair(value, made, left <= SETTLED, lax.stop_gradient(number).astype(int), left)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1, 2))
-def _crossing(function: Any, allowed: Any, most: int, given: Any, allowing: Any, lower: Any, upper: Any, start: Any, help_: Any) -> tuple:
+def _crossing(
+    function: Any,
+    allowed: Any,
+    most: int,
+    given: Any,
+    allowing: Any,
+    lower: Any,
+    upper: Any,
+    start: Any,
+    help_: Any,
+) -> tuple:
     """The best point evaluated, what was made there, the residuals, the number of steps, the help.
 
-    The function stands in the compiled code once: the slopes are differences with neighbors that are evaluated together with the point.
+    The function stands in the compiled code once: the slopes are differences with neighbors that are
+    evaluated together with the point.
     """
     size = upper - lower
     aside = NEIGHBOR * jnp.diag(jnp.stack([-size[0], size[1]]))  # as ``allowed`` moves
@@ -98,8 +126,11 @@ def _crossing(function: Any, allowed: Any, most: int, given: Any, allowing: Any,
         left = jnp.where(jnp.isfinite(left), left, jnp.inf)
         inside = jnp.all((ahead >= low) & (ahead <= high))
         within = jnp.all((ahead >= lower) & (ahead <= upper))
-        # where gas and solid are nearly in equilibrium both residuals are nearly one, and signs of the small one may mislead
-        good = (inside & (length <= 0.5 * last)) | (within & (left <= jnp.where(inside, 0.8, 0.3) * norm) & (number < LATE))
+        # where gas and solid are nearly in equilibrium both residuals are nearly one, and signs of the small
+        # one may mislead
+        good = (inside & (length <= 0.5 * last)) | (
+            within & (left <= jnp.where(inside, 0.8, 0.3) * norm) & (number < LATE)
+        )
         following = allowed(jnp.where(good, ahead, 0.5 * (low + high)), *allowing)
         length = jnp.where(good, length, jnp.max((high - low) / size))
         length = jnp.where(left <= ROUNDING, 0.0, length)
@@ -141,4 +172,6 @@ def _turned(function: Any, allowed: Any, most: int, primals: tuple, tangents: tu
 def _divided(matrix: jax.Array, right: jax.Array, singular: float) -> jax.Array:
     (a, b), (c, d) = matrix
     det = a * d - b * c
-    return jnp.stack([d * right[0] - b * right[1], a * right[1] - c * right[0]]) / jnp.where(det == 0, singular, det)
+    return jnp.stack([d * right[0] - b * right[1], a * right[1] - c * right[0]]) / jnp.where(
+        det == 0, singular, det
+    )

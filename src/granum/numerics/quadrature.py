@@ -9,7 +9,9 @@ import jax.numpy as jnp
 import numpy as np
 
 
-def gauss_legendre(function: Callable[..., Any], lower: Any, upper: Any, *args: Any, order: int = 16) -> jax.Array:
+def gauss_legendre(
+    function: Callable[..., Any], lower: Any, upper: Any, *args: Any, order: int = 16
+) -> jax.Array:
     """Integral of ``function(x, *args)`` over ``[lower, upper]`` for every element.
 
     Exact for polynomials up to degree ``2 * order - 1``. The function is called once with ``x`` of

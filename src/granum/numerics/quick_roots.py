@@ -1,8 +1,9 @@
 """Roots of functions about which something is known, found with less work than by ``find_root``.
 
-``find_root`` serves every function and pays for it with three stages and both ends evaluated. Where a function is known to fall through
-zero between two ends (``falling_root``), to be steep and smooth near a start (``newton_root``), or nearly always so (``likely_root``), one
-Newton loop compiles three times faster and halves the work.
+``find_root`` serves every function and pays for it with three stages and both ends evaluated. Where a
+function is known to fall through zero between two ends (``falling_root``), to be steep and smooth near a
+start (``newton_root``), or nearly always so (``likely_root``), one Newton loop compiles three times faster
+and halves the work.
 """
 
 from __future__ import annotations
@@ -21,15 +22,21 @@ MOST = 120
 
 
 def falling_root(
-    balance: Callable[..., Any], lower: Any, upper: Any, *arguments: Any, start: Any = None, rough_slope: Callable[[Any], Any] | None = None,
+    balance: Callable[..., Any],
+    lower: Any,
+    upper: Any,
+    *arguments: Any,
+    start: Any = None,
+    rough_slope: Callable[[Any], Any] | None = None,
     size: Any = 0.0,
-) -> Any:  # fmt: skip
-    """The root of an elementwise function that is positive at ``lower`` and negative at ``upper``, both greater than zero unless ``size``
-    gives the size of an unknown near zero.
+) -> Any:
+    """The root of an elementwise function that is positive at ``lower`` and negative at ``upper``, both
+    greater than zero unless ``size`` gives the size of an unknown near zero.
 
-    Newton's step where it stays inside the shrinking bracket and at least halves the one before, bisection otherwise. Derivatives are
-    exact (implicit function theorem). With ``rough_slope``, a cheap approximate derivative, secants take the place of tangents: better for
-    functions that cost much, whose derivative would cost as much again.
+    Newton's step where it stays inside the shrinking bracket and at least halves the one before, bisection
+    otherwise. Derivatives are exact (implicit function theorem). With ``rough_slope``, a cheap approximate
+    derivative, secants take the place of tangents: better for functions that cost much, whose derivative
+    would cost as much again.
     """
     lower, upper = (lax.stop_gradient(jnp.asarray(x, dtype=float)) for x in (lower, upper))
     shape = jnp.broadcast_shapes(lower.shape, upper.shape, *(jnp.shape(a) for a in arguments))
@@ -69,7 +76,9 @@ def falling_root(
     return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide)
 
 
-def _secant(f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any, lower: Any, upper: Any) -> Any:
+def _secant(
+    f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any, lower: Any, upper: Any
+) -> Any:
     def advance(carry: tuple) -> tuple:
         x, low, high, size, slope, last, before, count = carry
         value = f(x)
@@ -83,7 +92,16 @@ def _secant(f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any
         next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
         moving = jnp.abs(size) > TOLERANCE * x
         keep = lambda new, old: jnp.where(moving, new, old)  # noqa: E731
-        return keep(following, x), low, high, keep(next_size, size), slope, keep(following - x, last), keep(value, before), count + 1
+        return (
+            keep(following, x),
+            low,
+            high,
+            keep(next_size, size),
+            slope,
+            keep(following - x, last),
+            keep(value, before),
+            count + 1,
+        )
 
     def unfinished(carry: tuple) -> Any:
         return jnp.any(jnp.abs(carry[3]) > TOLERANCE * carry[0]) & (carry[7] < MOST)
@@ -93,11 +111,19 @@ def _secant(f: Callable[..., Any], rough_slope: Callable[[Any], Any], first: Any
     return lax.while_loop(unfinished, advance, start)[0]
 
 
-def newton_root(function: Callable[..., Any], first: Any, passes: int, least_slope: float | None = None, within: Any = None) -> Any:
-    """Newton steps on a function known to be smooth and steep near its root, until they are small; implicit derivatives.
+def newton_root(
+    function: Callable[..., Any],
+    first: Any,
+    passes: int,
+    least_slope: float | None = None,
+    within: Any = None,
+) -> Any:
+    """Newton steps on a function known to be smooth and steep near its root, until they are small; implicit
+    derivatives.
 
-    ``least_slope`` keeps a slope from falling below it; None for functions that fall. The last step is below ``within``, by default a
-    relative 1e-5; what is left is its square times half the ratio of curvature to slope.
+    ``least_slope`` keeps a slope from falling below it; None for functions that fall. The last step is below
+    ``within``, by default a relative 1e-5; what is left is its square times half the ratio of curvature to
+    slope.
     """
     if within is not None:
         within = lax.stop_gradient(within)
@@ -127,10 +153,12 @@ SETTLED = 1e-6  # a last Newton step this small leaves an error of its square
 
 
 def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: float) -> tuple[Any, Any]:
-    """Root of an elementwise rising function from a good start, and whether it was found; exact derivatives.
+    """Root of an elementwise rising function from a good start, and whether it was found; exact
+    derivatives.
 
-    Three Newton steps serve smooth functions to the last digit. Where one element does not settle, all those that did not are bracketed
-    within ``near`` of the start, or within ``far`` where the function has no change of sign there.
+    Three Newton steps serve smooth functions to the last digit. Where one element does not settle, all those
+    that did not are bracketed within ``near`` of the start, or within ``far`` where the function has no
+    change of sign there.
     """
 
     def search(f: Callable[[Any], Any], x: Any) -> tuple[Any, Any]:
@@ -140,7 +168,11 @@ def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: fl
             step = value / slope
             x = x - step
         settled = abs(step) < SETTLED
-        return lax.cond(jnp.all(settled), lambda: (x, jnp.ones_like(x)), lambda: _bracketed(f, guess, x, settled, near, far))
+        return lax.cond(
+            jnp.all(settled),
+            lambda: (x, jnp.ones_like(x)),
+            lambda: _bracketed(f, guess, x, settled, near, far),
+        )
 
     def divide(linear: Callable[[Any], Any], right: Any) -> Any:
         return right / linear(jnp.ones_like(right))
@@ -149,7 +181,9 @@ def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: fl
     return value, found > 0.0
 
 
-def _bracketed(f: Callable[[Any], Any], guess: Any, reached: Any, settled: Any, near: float, far: float) -> tuple[Any, Any]:
+def _bracketed(
+    f: Callable[[Any], Any], guess: Any, reached: Any, settled: Any, near: float, far: float
+) -> tuple[Any, Any]:
     low, high = guess - near, guess + near
     low = jnp.where(f(low) < 0.0, low, guess - far)
     high = jnp.where(f(high) > 0.0, high, guess + far)

@@ -11,7 +11,9 @@ FAST_STEPS = 16
 GUARDED_STEPS = 56
 OPEN = 2
 LARGE = 4096
-"""From this many elements on, a lean first stage saves memory traffic; below, one loop saves half the compilation."""
+"""From this many elements on, a lean first stage saves memory traffic; below, one loop saves half the
+compilation.
+"""
 
 
 class Root(NamedTuple):
@@ -83,13 +85,16 @@ def find_root(
     def equation(x: jax.Array) -> jax.Array:
         return jnp.asarray(function(x, *args), dtype=x.dtype)
 
-    # Python runs the function once here; what follows replays the trace, which matters where roots are nested.
+    # Python runs the function once here; what follows replays the trace, which matters where roots are
+    # nested.
     traced, closed_over = jax.closure_convert(equation, guess)
 
     def search(f: Callable, initial: jax.Array) -> tuple[jax.Array, tuple]:
         return _search(f, lower, upper, initial, tolerance, max_steps)
 
-    value, (status, steps) = lax.custom_root(lambda x: traced(x, *closed_over), guess, search, _divide_by_slope, has_aux=True)
+    value, (status, steps) = lax.custom_root(
+        lambda x: traced(x, *closed_over), guess, search, _divide_by_slope, has_aux=True
+    )
     value = jnp.where(status >= 0, value, jnp.nan)
     return Root(value, status > 0, steps.astype(int), lax.stop_gradient(equation(value)))
 
@@ -100,7 +105,9 @@ def _divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
     return right / jnp.where(usable, slope, jnp.inf)
 
 
-def _search(f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int) -> tuple[jax.Array, tuple]:
+def _search(
+    f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int
+) -> tuple[jax.Array, tuple]:
     """Roots, with status 1 found, 0 kept but not found, -1 no root; and the number of passes."""
     floor = jnp.minimum(abs(lower), abs(upper))
 
@@ -108,9 +115,19 @@ def _search(f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, t
         return tolerance * jnp.maximum(abs(x), floor)
 
     lower, upper = jnp.broadcast_to(lower, guess.shape), jnp.broadcast_to(upper, guess.shape)
-    if guess.size < LARGE:  # the ends are the first two passes of the one loop, so that the function is compiled once
+    if (
+        guess.size < LARGE
+    ):  # the ends are the first two passes of the one loop, so that the function is compiled once
         nothing = jnp.zeros_like(guess)
-        carry = (lower, lower, upper, nothing, nothing, jnp.full(guess.shape, OPEN, jnp.int8), jnp.zeros((), guess.dtype))
+        carry = (
+            lower,
+            lower,
+            upper,
+            nothing,
+            nothing,
+            jnp.full(guess.shape, OPEN, jnp.int8),
+            jnp.zeros((), guess.dtype),
+        )
         x, status, steps = _safe(f, lower, upper, guess, carry, slack, most)
         return x, (status.astype(x.dtype), steps)
     ends = jax.vmap(f)(jnp.stack([lower, upper]))
@@ -125,13 +142,23 @@ def _search(f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, t
     ceiling = jnp.maximum(abs(ends[0]), abs(ends[1]))
 
     def again(x: jax.Array, status: jax.Array, steps: jax.Array) -> tuple:
-        return _safe(f, lower, upper, guess, (x, below, above, ceiling, abs(upper - lower), status, steps + 2), slack, most)
+        return _safe(
+            f,
+            lower,
+            upper,
+            guess,
+            (x, below, above, ceiling, abs(upper - lower), status, steps + 2),
+            slack,
+            most,
+        )
 
     x, status, steps = lax.cond(jnp.any(failed), again, lambda *found: found, *(x, status, steps))
     return x, (status.astype(x.dtype), steps)
 
 
-def _bracketed(lower: jax.Array, upper: jax.Array, first: jax.Array, second: jax.Array, guess: jax.Array) -> tuple:
+def _bracketed(
+    lower: jax.Array, upper: jax.Array, first: jax.Array, second: jax.Array, guess: jax.Array
+) -> tuple:
     """Where to start, the status so far, and the ends where the function is below and above zero."""
     at_lower, at_upper = first == 0, second == 0
     # A product of the two would underflow to zero.
@@ -178,8 +205,9 @@ def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
 def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
     """Newton or bisection in a shrinking bracket; in the end, bisection of the numbers themselves.
 
-    Passes 0 and 1 evaluate the ends; a carry that knows them starts at 2. It ends only when the bracket itself is narrow. Newton's
-    method comes from one side and would leave the other end where it is, so its small steps go a little too far on purpose.
+    Passes 0 and 1 evaluate the ends; a carry that knows them starts at 2. It ends only when the bracket
+    itself is narrow. Newton's method comes from one side and would leave the other end where it is, so its
+    small steps go a little too far on purpose.
     """
 
     def judge(y: jax.Array, small: jax.Array, ceiling: jax.Array) -> jax.Array:
@@ -199,7 +227,9 @@ def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
         narrow = abs(high - low) <= 2.0 * slack(middle)
         fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
         step = ahead - x
-        across = jnp.sign(jnp.where(y < 0, high, low) - x)  # a step may round to nothing, so its own sign is not asked
+        across = jnp.sign(
+            jnp.where(y < 0, high, low) - x
+        )  # a step may round to nothing, so its own sign is not asked
         beyond = ahead + across * 0.5 * slack(ahead)
         overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
         following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
@@ -207,14 +237,21 @@ def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
         result = judge(y, narrow | exhausted, ceiling)
         going = status == OPEN
         onward = (
-            jnp.where(going & (y != 0), following, x), jnp.where(going, low, below), jnp.where(going, high, above), ceiling,
-            abs(following - x), jnp.where(going, result, status),
-        )  # fmt: skip
+            jnp.where(going & (y != 0), following, x),
+            jnp.where(going, low, below),
+            jnp.where(going, high, above),
+            ceiling,
+            abs(following - x),
+            jnp.where(going, result, status),
+        )
         # At the first end `ceiling` keeps the value there for the second.
         start, begun, under, over = _bracketed(lower, upper, ceiling, y, guess)
         first_end = (upper, below, above, y, size, status)
         second_end = (start, under, over, jnp.maximum(abs(ceiling), abs(y)), abs(upper - lower), begun)
-        chosen = tuple(jnp.where(steps == 0, a, jnp.where(steps == 1, b, c)) for a, b, c in zip(first_end, second_end, onward, strict=True))
+        chosen = tuple(
+            jnp.where(steps == 0, a, jnp.where(steps == 1, b, c))
+            for a, b, c in zip(first_end, second_end, onward, strict=True)
+        )
         return *chosen, steps + 1
 
     def unfinished(carry: tuple) -> jax.Array:

@@ -1,4 +1,6 @@
-"""Fixed points of large functions that make further results on the way, such as one pass through a flowsheet."""
+"""Fixed points of large functions that make further results on the way, such as one pass through a
+flowsheet.
+"""
 
 import math
 from collections.abc import Callable
@@ -31,13 +33,16 @@ def settle(
     max_steps: int = 200,
     watch: Callable[[jax.Array, jax.Array], jax.Array] | None = None,
 ) -> Settled:
-    """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further results on the way.
+    """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further
+    results on the way.
 
-    The function is run once in Python and stands once in the compiled code, so that a large one compiles fast. Derivatives with
-    respect to closed-over values follow from the implicit function theorem, forward and reverse, for the state and what is made.
+    The function is run once in Python and stands once in the compiled code, so that a large one compiles
+    fast. Derivatives with respect to closed-over values follow from the implicit function theorem, forward
+    and reverse, for the state and what is made.
 
-    ``watch`` is called with the number of each pass and the best residual so far and says whether to stop. Of a function that never
-    gives a number, what the first pass made is kept: it shows where the numbers were lost.
+    ``watch`` is called with the number of each pass and the best residual so far and says whether to stop. Of
+    a function that never gives a number, what the first pass made is kept: it shows where the numbers were
+    lost.
 
     Example:
         >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
@@ -53,7 +58,9 @@ def settle(
         leaves = [jnp.asarray(leaf) for leaf in leaves]
         shape[:] = [tree, [(leaf.shape, leaf.dtype) for leaf in leaves]]
         # One vector: each array that a loop carries costs as much compilation as a formula.
-        return image, jnp.concatenate([jnp.ravel(leaf).astype(start.dtype) for leaf in leaves] or [jnp.zeros((0,), start.dtype)])
+        return image, jnp.concatenate(
+            [jnp.ravel(leaf).astype(start.dtype) for leaf in leaves] or [jnp.zeros((0,), start.dtype)]
+        )
 
     traced, closed_over = jax.closure_convert(flat, start)
     tree, kinds = shape
@@ -74,7 +81,9 @@ def settle(
             return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps) & ~stop
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
-        iteration, made, _ = lax.while_loop(unfinished, advance, (method.begin(start), blank, jnp.asarray(False)))
+        iteration, made, _ = lax.while_loop(
+            unfinished, advance, (method.begin(start), blank, jnp.asarray(False))
+        )
         (x, size), number = iteration[1], iteration[-1]
         return x, made, size, number.astype(x.dtype)
 
@@ -91,12 +100,16 @@ def settle(
 
     x, packed, size, number = search(closed_over, start)
     parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
-    made = jax.tree.unflatten(tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)])
+    made = jax.tree.unflatten(
+        tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
+    )
     size = lax.stop_gradient(size)
     return Settled(x, made, size <= within_rounding(x, tolerance), number.astype(int), size)
 
 
 def within_rounding(x: jax.Array, tolerance: float) -> jax.Array:
-    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand tolerances."""
+    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand
+    tolerances.
+    """
     rounding = 32.0 * jnp.finfo(x.dtype).eps * largest(lax.stop_gradient(x))
     return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)

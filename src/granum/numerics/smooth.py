@@ -11,7 +11,9 @@ import jax
 import jax.numpy as jnp
 
 
-def safe_where(condition: Any, function: Callable[[Any], Any], argument: Any, inside: Any, otherwise: Any) -> jax.Array:
+def safe_where(
+    condition: Any, function: Callable[[Any], Any], argument: Any, inside: Any, otherwise: Any
+) -> jax.Array:
     """``function(argument)`` where the condition holds, ``otherwise`` elsewhere.
 
     Parameters

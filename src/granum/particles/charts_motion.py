@@ -1,4 +1,6 @@
-"""Charts of single-particle motion: drag against Reynolds number, deviation from measured drag, trajectories."""
+"""Charts of single-particle motion: drag against Reynolds number, deviation from measured drag,
+trajectories.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,17 @@ import numpy as np
 from granum.core import chart
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.i18n import _
-from granum.core.kinds import KINDS, Acceleration, Density, DynamicViscosity, Law, Length, Ratio, Time, Velocity
+from granum.core.kinds import (
+    KINDS,
+    Acceleration,
+    Density,
+    DynamicViscosity,
+    Law,
+    Length,
+    Ratio,
+    Time,
+    Velocity,
+)
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.particles.formulas.trajectories import trajectory, trajectory_stokes
@@ -38,15 +50,33 @@ def drag_chart(
     gravity: Acceleration = STANDARD_GRAVITY,
     drag: Drag = drag_coefficient_brown_lawler,
 ) -> Any:
-    """Drag coefficient of a sphere against the Reynolds number: all laws in their ranges, measurements, the operating point.
+    """Drag coefficient of a sphere against the Reynolds number: all laws in their ranges, measurements, the
+    operating point.
 
     The operating point, and the line C_D = X/Re² on which it lies, appear when particle and fluid are given.
     """
-    from granum.core.charts import ACCENT, CAUTION, GAS, HEAT, INK, LIQUID, SOLID, add_label, add_line, add_points, axis_title, figure
+    from granum.core.charts import (
+        ACCENT,
+        CAUTION,
+        GAS,
+        HEAT,
+        INK,
+        LIQUID,
+        SOLID,
+        add_label,
+        add_line,
+        add_points,
+        axis_title,
+        figure,
+    )
     from granum.core.units import format_number
 
     drawing = figure(
-        axis_title("reynolds"), axis_title("drag_coefficient"), title=_("Drag coefficient against Reynolds number"), x_log=True, y_log=True
+        axis_title("reynolds"),
+        axis_title("drag_coefficient"),
+        title=_("Drag coefficient against Reynolds number"),
+        x_log=True,
+        y_log=True,
     )
     Re = np.geomspace(1e-3, 1e6, 271)
     colors: dict[str, str] = dict(zip(NAMED, (SOLID, LIQUID, HEAT, CAUTION), strict=True))
@@ -72,12 +102,18 @@ def drag_chart(
     x = _inside(drag, Re) if hasattr(drag, "card") and drag.card.sort == "formula" else Re
     add_line(drawing, x, np.asarray(drag(x)), _title(chosen) or _("chosen law"), color=ACCENT, width=3)
     if None not in (particle_diameter, particle_density, fluid_density, dynamic_viscosity):
-        speed = abs(terminal_velocity(particle_diameter, particle_density, fluid_density, dynamic_viscosity, gravity, drag))
+        speed = abs(
+            terminal_velocity(
+                particle_diameter, particle_density, fluid_density, dynamic_viscosity, gravity, drag
+            )
+        )
         if speed > 0.0:
             at = speed * particle_diameter * fluid_density / dynamic_viscosity
             drawn = float(drag(at))
             line = np.geomspace(at / 10.0, at * 10.0, 20)
-            add_line(drawing, line, drawn * at**2 / line**2, "X = C<sub>D</sub>Re²", color=INK, dash="dot", width=1)
+            add_line(
+                drawing, line, drawn * at**2 / line**2, "X = C<sub>D</sub>Re²", color=INK, dash="dot", width=1
+            )
             text = f"Re = {format_number(at)}, C<sub>D</sub> = {format_number(drawn)}"
             add_points(drawing, [at], [drawn], text, color=INK)
             drawing.data[-1].marker.size = 11
@@ -89,11 +125,16 @@ def drag_chart(
 
 @chart(source="roos1971; morsi1972", title="Drag laws against measured drag")
 def drag_deviation_chart(deviation_largest: Ratio = 0.25) -> Any:
-    """Deviation of every drag law from measured drag against the Reynolds number, law by law inside its range."""
+    """Deviation of every drag law from measured drag against the Reynolds number, law by law inside its
+    range.
+    """
     from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
 
     drawing = figure(
-        axis_title("reynolds"), _("deviation from measured drag") + " / %", title=_("Drag laws against measured drag"), x_log=True
+        axis_title("reynolds"),
+        _("deviation from measured drag") + " / %",
+        title=_("Drag laws against measured drag"),
+        x_log=True,
     )
     Re, measured = measured_drag("morsi1972")
     for i, (name, law) in enumerate(sphere_laws().items()):
@@ -101,7 +142,15 @@ def drag_deviation_chart(deviation_largest: Ratio = 0.25) -> Any:
         if x.size < 3:
             continue
         deviation = 100.0 * (np.asarray(law(x)) / np.interp(x, Re, measured) - 1.0)
-        add_line(drawing, x, deviation, _title(name), color=LINES[i % len(LINES)], dash=DASHES[i // len(LINES) % len(DASHES)], width=1.4)
+        add_line(
+            drawing,
+            x,
+            deviation,
+            _title(name),
+            color=LINES[i % len(LINES)],
+            dash=DASHES[i // len(LINES) % len(DASHES)],
+            width=1.4,
+        )
     drawing.update_yaxes(range=[-100.0 * deviation_largest, 100.0 * deviation_largest])
     drawing.update_layout(legend={"font": {"size": 9}, "x": 1.01, "y": 1.0}, height=560)
     return drawing
@@ -127,8 +176,17 @@ def trajectory_chart(
 
     # even in the square root of time, so that the start is as smooth as the end
     times = time * np.linspace(0.0, 1.0, 120) ** 2
-    inputs = (particle_diameter, particle_density, fluid_density, dynamic_viscosity, times, initial_horizontal_velocity,
-              initial_vertical_velocity, stream_velocity, gravity)  # fmt: skip
+    inputs = (
+        particle_diameter,
+        particle_density,
+        fluid_density,
+        dynamic_viscosity,
+        times,
+        initial_horizontal_velocity,
+        initial_vertical_velocity,
+        stream_velocity,
+        gravity,
+    )
     path = trajectory(*inputs, drag, added_mass_coefficient)
     creeping = trajectory_stokes(*inputs, added_mass_coefficient)
     kind = KINDS["Position"]
@@ -136,9 +194,16 @@ def trajectory_chart(
     units = [best_unit(span, kind) for span in spans]
 
     def shown(which: Any) -> tuple[Any, Any]:
-        return tuple(from_si(np.asarray(v), u, kind) for v, u in zip((which.horizontal_position, which.depth), units, strict=True))  # type: ignore[return-value]
+        return tuple(
+            from_si(np.asarray(v), u, kind)
+            for v, u in zip((which.horizontal_position, which.depth), units, strict=True)
+        )  # type: ignore[return-value]
 
-    drawing = figure(axis_title("horizontal_position", units[0]), axis_title("depth", units[1]), title=_("Trajectory of a particle"))
+    drawing = figure(
+        axis_title("horizontal_position", units[0]),
+        axis_title("depth", units[1]),
+        title=_("Trajectory of a particle"),
+    )
     x, y = shown(path)
     sx, sy = shown(creeping)
     beyond = (abs(sx) <= 1.5 * max(abs(x).max(), 1e-12)) & (abs(sy) <= 1.5 * max(abs(y).max(), 1e-12))
@@ -146,6 +211,12 @@ def trajectory_chart(
     name = drag.card.title if hasattr(drag, "card") else _("chosen law")
     add_line(drawing, x, y, name, color=ACCENT, width=3)
     marks = [int(np.searchsorted(times, f * time)) for f in (0.25, 0.5, 0.75)] + [len(times) - 1]
-    add_points(drawing, x[marks], y[marks], ", ".join(f"{format_number(float(times[i]))} s" for i in marks), color=SOLID)
+    add_points(
+        drawing,
+        x[marks],
+        y[marks],
+        ", ".join(f"{format_number(float(times[i]))} s" for i in marks),
+        color=SOLID,
+    )
     drawing.update_yaxes(autorange="reversed")
     return drawing

@@ -1,4 +1,6 @@
-"""Charts of size analysis: histogram with cumulative curve, Rosin–Rammler paper, log-probability paper, partition curve."""
+"""Charts of size analysis: histogram with cumulative curve, Rosin–Rammler paper, log-probability paper,
+partition curve.
+"""
 
 from __future__ import annotations
 
@@ -49,13 +51,42 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
     first = 1 if edges[0] == 0.0 else 0
     across = np.repeat(x[first:], 2)
     up = np.concatenate([[0.0], np.repeat(height[first:], 2), [0.0]])
-    drawing.add_trace(go.Scatter(x=across, y=up, mode="lines", name=_("histogram"), fill="tozeroy", line={"color": SOLID, "width": 1}))
+    drawing.add_trace(
+        go.Scatter(
+            x=across,
+            y=up,
+            mode="lines",
+            name=_("histogram"),
+            fill="tozeroy",
+            line={"color": SOLID, "width": 1},
+        )
+    )
     grid = _positive_range(distribution)
-    add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(distribution.cumulative(grid)), _("cumulative"), yaxis="y2")
+    add_line(
+        drawing,
+        _shown(grid, unit),
+        100.0 * np.asarray(distribution.cumulative(grid)),
+        _("cumulative"),
+        yaxis="y2",
+    )
     at = edges[edges > 0]
-    add_points(drawing, _shown(at, unit), 100.0 * np.asarray(distribution.cumulative(at)), _("class limits"), yaxis="y2")
+    add_points(
+        drawing,
+        _shown(at, unit),
+        100.0 * np.asarray(distribution.cumulative(at)),
+        _("class limits"),
+        yaxis="y2",
+    )
     if law is not None:
-        add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(law(grid)), _("law"), color="#6b46c1", dash="dash", yaxis="y2")
+        add_line(
+            drawing,
+            _shown(grid, unit),
+            100.0 * np.asarray(law(grid)),
+            _("law"),
+            color="#6b46c1",
+            dash="dash",
+            yaxis="y2",
+        )
     right = {
         "overlaying": "y",
         "side": "right",
@@ -64,43 +95,66 @@ def distribution_figure(distribution: SizeDistribution, law: Any = None) -> go.F
         "title": axis_title("cumulative_fraction", "percent"),
     }
     drawing.update_layout(
-        yaxis2={**right, "tickmode": "array", "tickvals": list(range(0, 101, 20)), "automargin": True}, legend={"x": 0.02, "y": 0.98}
+        yaxis2={**right, "tickmode": "array", "tickvals": list(range(0, 101, 20)), "automargin": True},
+        legend={"x": 0.02, "y": 0.98},
     )
     return drawing
 
 
 @chart(source="iso9276-1", title="Histogram and cumulative curve")
-def size_distribution_chart(class_edges: Edges, class_fractions: Fractions, basis: Basis = "volume", wanted_basis: Basis | None = None,
-                            in_class: Rule = _UNIFORM, size_law: OptionalSizeLaw = None) -> Any:  # fmt: skip
+def size_distribution_chart(
+    class_edges: Edges,
+    class_fractions: Fractions,
+    basis: Basis = "volume",
+    wanted_basis: Basis | None = None,
+    in_class: Rule = _UNIFORM,
+    size_law: OptionalSizeLaw = None,
+) -> Any:
     """Histogram per logarithm of size with the cumulative curve, on any basis, and a law to compare."""
-    return distribution_figure(SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis), size_law)
+    return distribution_figure(
+        SizeDistribution(class_edges, class_fractions, basis, in_class).to_basis(wanted_basis or basis),
+        size_law,
+    )
 
 
 def _paper(sizes: Any, below: Any, size_law: Any, transform: Any, title: str) -> go.Figure:
     sizes, below = np.asarray(sizes, dtype=float), np.asarray(below, dtype=float)
     usable = (below > 0.0) & (below < 1.0) & (sizes > 0.0)
     unit = _unit_of(sizes[sizes > 0])
-    drawing = figure(axis_title("particle_diameter", unit), axis_title("cumulative_fraction", "percent"), x_log=True, title=title)
+    drawing = figure(
+        axis_title("particle_diameter", unit),
+        axis_title("cumulative_fraction", "percent"),
+        x_log=True,
+        title=title,
+    )
     add_points(drawing, _shown(sizes[usable], unit), transform(below[usable]), _("data"))
     if size_law is not None:
         grid = np.geomspace(sizes[usable].min() / 1.5, sizes[usable].max() * 1.5, 200)
         value = np.asarray(size_law(grid))
         inside = (value > 5e-4) & (value < 0.9995)
         add_line(drawing, _shown(grid[inside], unit), transform(value[inside]), _("law"))
-    drawing.update_yaxes(tickvals=[float(transform(np.array(t))) for t in _TICKS], ticktext=[f"{100 * t:g}" for t in _TICKS])
+    drawing.update_yaxes(
+        tickvals=[float(transform(np.array(t))) for t in _TICKS], ticktext=[f"{100 * t:g}" for t in _TICKS]
+    )
     return drawing
 
 
 @chart(source="rosin1933; iso9276-3", title="Rosin–Rammler paper")
-def rosin_rammler_chart(particle_diameter: _Sizes, cumulative_fraction: Annotated[Fraction, Series("points")],
-                        size_law: OptionalSizeLaw = None) -> Any:  # fmt: skip
+def rosin_rammler_chart(
+    particle_diameter: _Sizes,
+    cumulative_fraction: Annotated[Fraction, Series("points")],
+    size_law: OptionalSizeLaw = None,
+) -> Any:
     """Cumulative fractions on axes where a Rosin–Rammler law is a straight line."""
     return _paper(particle_diameter, cumulative_fraction, size_law, lambda q: np.log(-np.log1p(-q)), "")
 
 
 @chart(source="iso9276-1; iso9276-5", title="Log-probability paper")
-def log_probability_chart(particle_diameter: _Sizes, cumulative_fraction: Annotated[Fraction, Series("points")],
-                          size_law: OptionalSizeLaw = None) -> Any:  # fmt: skip
+def log_probability_chart(
+    particle_diameter: _Sizes,
+    cumulative_fraction: Annotated[Fraction, Series("points")],
+    size_law: OptionalSizeLaw = None,
+) -> Any:
     """Cumulative fractions on axes where a log-normal law is a straight line."""
     from scipy.special import ndtri
 
@@ -108,15 +162,23 @@ def log_probability_chart(particle_diameter: _Sizes, cumulative_fraction: Annota
 
 
 @chart(source="tromp1937", title="Partition (Tromp) curve")
-def partition_chart(separation: Annotated[Any, Law("partition_curve")], particle_diameter: _Sizes | None = None,
-                    partition_number: Annotated[Fraction, Series("points")] | None = None, smallest_size: Length | None = None,
-                    largest_size: Length | None = None) -> Any:  # fmt: skip
+def partition_chart(
+    separation: Annotated[Any, Law("partition_curve")],
+    particle_diameter: _Sizes | None = None,
+    partition_number: Annotated[Fraction, Series("points")] | None = None,
+    smallest_size: Length | None = None,
+    largest_size: Length | None = None,
+) -> Any:
     """Part of each size that goes to the coarse product, with the cut size and measured points."""
     cut = float(separation.cut_size)
     unit = _unit_of([cut])
     grid = np.geomspace(smallest_size or cut / 10.0, largest_size or cut * 10.0, 300)
-    drawing = figure(axis_title("particle_diameter", unit), axis_title("partition_number", "percent"), x_log=True)
-    add_line(drawing, _shown(grid, unit), 100.0 * np.asarray(separation(grid)), _("partition curve"), color=ACCENT)
+    drawing = figure(
+        axis_title("particle_diameter", unit), axis_title("partition_number", "percent"), x_log=True
+    )
+    add_line(
+        drawing, _shown(grid, unit), 100.0 * np.asarray(separation(grid)), _("partition curve"), color=ACCENT
+    )
     if particle_diameter is not None and partition_number is not None:
         add_points(drawing, _shown(particle_diameter, unit), 100.0 * np.asarray(partition_number), _("data"))
     drawing.add_vline(x=float(_shown(cut, unit)), line={"color": SOLID, "dash": "dot", "width": 1})

@@ -1,4 +1,6 @@
-"""Size distributions by class: what a sieve stack, a laser or a counter gives, on any basis, one or many at a time."""
+"""Size distributions by class: what a sieve stack, a laser or a counter gives, on any basis, one or many at a
+time.
+"""
 
 from __future__ import annotations
 
@@ -32,14 +34,14 @@ class SizeDistribution(eqx.Module):
 
     Parameters
     ----------
-    edges: limits of the classes, increasing, n + 1 values, m. The first may be 0: the smallest class then has no measured
-        lower limit.
+    edges: limits of the classes, increasing, n + 1 values, m. The first may be 0: the smallest class then has
+        no measured lower limit.
     fractions: part of the material in each class, summing to 1; shape ``(n,)`` or ``(many, n)``.
     basis: what the fractions count.
     in_class: rule inside a class, on that basis.
 
-    Conversion between bases is exact under the rule: moments and percentiles do not depend on the basis in which the
-    distribution is carried, and converting back restores the fractions.
+    Conversion between bases is exact under the rule: moments and percentiles do not depend on the basis in
+    which the distribution is carried, and converting back restores the fractions.
 
     >>> d = SizeDistribution([0.0, 1e-4, 2e-4], [0.25, 0.75])
     >>> float((d.percentile(0.5) * 1e6).round(3))
@@ -51,7 +53,9 @@ class SizeDistribution(eqx.Module):
     basis: str = eqx.field(static=True)
     in_class: InClassRule
 
-    def __init__(self, edges: Any, fractions: Any, basis: str = "volume", in_class: InClassRule | None = None):
+    def __init__(
+        self, edges: Any, fractions: Any, basis: str = "volume", in_class: InClassRule | None = None
+    ):
         order_of(basis)
         edges, fractions = _checked_classes(edges, fractions)
         total = fractions.sum(axis=-1, keepdims=True)
@@ -64,7 +68,9 @@ class SizeDistribution(eqx.Module):
         self.in_class = UniformDensity() if in_class is None else in_class
 
     @classmethod
-    def from_amounts(cls, edges: Any, amounts: Any, basis: str = "volume", in_class: InClassRule | None = None) -> SizeDistribution:
+    def from_amounts(
+        cls, edges: Any, amounts: Any, basis: str = "volume", in_class: InClassRule | None = None
+    ) -> SizeDistribution:
         """From masses, counts or percentages by class, whatever they add up to.
 
         >>> SizeDistribution.from_amounts([1e-6, 2e-6, 4e-6], [30, 10], basis="number").fractions
@@ -73,11 +79,15 @@ class SizeDistribution(eqx.Module):
         edges, amounts = _checked_classes(edges, amounts)
         total = amounts.sum(axis=-1, keepdims=True)
         if not is_tracer(total) and np.any(np.asarray(total) <= 0.0):
-            raise InputError(_("The classes are all empty: at least one needs material."), name="class_amounts")
+            raise InputError(
+                _("The classes are all empty: at least one needs material."), name="class_amounts"
+            )
         return cls(edges, amounts / total, basis, in_class)
 
     @classmethod
-    def from_cumulative(cls, edges: Any, below: Any, basis: str = "volume", in_class: InClassRule | None = None) -> SizeDistribution:
+    def from_cumulative(
+        cls, edges: Any, below: Any, basis: str = "volume", in_class: InClassRule | None = None
+    ) -> SizeDistribution:
         """From the cumulative fraction below each edge; it must start at 0 and end at 1.
 
         >>> SizeDistribution.from_cumulative([0, 1e-5, 2e-5], [0, 0.4, 1]).fractions
@@ -89,8 +99,11 @@ class SizeDistribution(eqx.Module):
             if np.any(abs(ends - np.array([0.0, 1.0])) > SUM_TOLERANCE):
                 raise InputError(
                     _(
-                        "The cumulative curve runs from {first} to {last}: it must run from 0 to 1. Add the smallest and the largest size."
-                    ).format(first=f"{ends.reshape(-1, 2)[0, 0]:.4g}", last=f"{ends.reshape(-1, 2)[0, 1]:.4g}"),
+                        "The cumulative curve runs from {first} to {last}: it must run from 0 to 1. Add "
+                        "the smallest and the largest size."
+                    ).format(
+                        first=f"{ends.reshape(-1, 2)[0, 0]:.4g}", last=f"{ends.reshape(-1, 2)[0, 1]:.4g}"
+                    ),
                     name="cumulative_fraction",
                 )
         return cls(edges, jnp.diff(below, axis=-1), basis, in_class)
@@ -127,15 +140,17 @@ class SizeDistribution(eqx.Module):
     def mean(self, p: float, q: float) -> Any:
         """D[p,q], the moment-ratio mean of ISO 9276-2: ``(M_p0 / M_q0) ** (1 / (p - q))``, m.
 
-        D[1,0] arithmetic, D[2,0] and D[3,0] of surface and volume, D[3,2] Sauter, D[4,3] mass mean, D[0,0] geometric mean
-        by number.
+        D[1,0] arithmetic, D[2,0] and D[3,0] of surface and volume, D[3,2] Sauter, D[4,3] mass mean, D[0,0]
+        geometric mean by number.
 
         >>> d = SizeDistribution([2e-6, 4e-6, 8e-6], [0.5, 0.5], basis="number")
         >>> float((d.mean(1, 0) * 1e6).round(6))
         4.5
         """
         if p == q:
-            slope = jax.jvp(lambda s: jnp.log(self.fractions @ self._weights(p - self.order + s)), (0.0,), (1.0,))[1]
+            slope = jax.jvp(
+                lambda s: jnp.log(self.fractions @ self._weights(p - self.order + s)), (0.0,), (1.0,)
+            )[1]
             return jnp.exp(slope)
         high, low = (self.fractions @ self._weights(k - self.order) for k in (p, q))
         return (high / low) ** (1.0 / (p - q))
@@ -144,7 +159,9 @@ class SizeDistribution(eqx.Module):
         """The same distribution counted on another basis."""
         shift = order_of(basis) - self.order
         parts = self.fractions * self._weights(shift) if shift else self.fractions
-        return SizeDistribution(self.edges, parts / parts.sum(axis=-1, keepdims=True), basis, self.in_class.on_basis(shift))
+        return SizeDistribution(
+            self.edges, parts / parts.sum(axis=-1, keepdims=True), basis, self.in_class.on_basis(shift)
+        )
 
     def cumulative_at_edges(self) -> Any:
         """Fraction below each edge: n + 1 values from 0 to 1."""
@@ -152,7 +169,8 @@ class SizeDistribution(eqx.Module):
         return jnp.concatenate([start, jnp.cumsum(self.fractions, axis=-1)], axis=-1)
 
     def cumulative(self, size: Any) -> Any:
-        """Fraction below a size; 0 below the smallest edge, 1 above the largest. A distribution stack gives ``(many, *size)``.
+        """Fraction below a size; 0 below the smallest edge, 1 above the largest. A distribution stack gives
+        ``(many, *size)``.
 
         >>> float(SizeDistribution([0, 1e-5, 2e-5], [0.4, 0.6]).cumulative(1.5e-5).round(6))
         0.7
@@ -174,10 +192,12 @@ class SizeDistribution(eqx.Module):
         return jnp.where(usable, self.fractions / width, 0.0)
 
     def percentile(self, part: Any) -> Any:
-        """Size below which a part (0 to 1) of the material lies; always a size between the first and the last edge.
+        """Size below which a part (0 to 1) of the material lies; always a size between the first and the last
+        edge.
 
-        One part gives the shape of the stack; several parts add a last axis. Inside empty classes the smallest size with
-        that part below is taken. See ``is_measured`` for parts in a class without a measured lower limit.
+        One part gives the shape of the stack; several parts add a last axis. Inside empty classes the
+        smallest size with that part below is taken. See ``is_measured`` for parts in a class without a
+        measured lower limit.
         """
         part = jnp.asarray(part, dtype=float)
         wanted = jnp.atleast_1d(part)
@@ -187,11 +207,15 @@ class SizeDistribution(eqx.Module):
         content, over = (jnp.take_along_axis(a, i, axis=-1) for a in (self.fractions, below))
         full = content > 0
         inner = 1.0 - (over - wanted * below[..., -1:]) / jnp.where(full, content, 1.0)
-        found = self.in_class.size_at(self.edges[i], self.edges[i + 1], jnp.where(full, jnp.clip(inner, 0.0, 1.0), 0.0))
+        found = self.in_class.size_at(
+            self.edges[i], self.edges[i + 1], jnp.where(full, jnp.clip(inner, 0.0, 1.0), 0.0)
+        )
         return found if part.ndim else found[..., 0]
 
     def is_measured(self, part: Any) -> Any:
-        """Whether a percentile lies above the smallest measured limit: false only when the first edge is 0 and it lies below the second."""
+        """Whether a percentile lies above the smallest measured limit: false only when the first edge is
+        0 and it lies below the second.
+        """
         part = jnp.asarray(part, dtype=float)
         first = self.fractions[..., 0]
         return (self.edges[0] > 0) | (part > (first[..., None] if part.ndim else first))
@@ -208,8 +232,12 @@ class SizeDistribution(eqx.Module):
     def regrouped(self, edges: Any) -> SizeDistribution:
         """The same material in other classes that span at least the old ones, by the cumulative curve."""
         edges = jnp.asarray(edges, dtype=float)
-        if not is_tracer(edges) and (float(edges[0]) > float(self.edges[0]) or float(edges[-1]) < float(self.edges[-1])):
-            raise InputError(_("The new classes do not span the old ones: material would be lost."), name="class_edges")
+        if not is_tracer(edges) and (
+            float(edges[0]) > float(self.edges[0]) or float(edges[-1]) < float(self.edges[-1])
+        ):
+            raise InputError(
+                _("The new classes do not span the old ones: material would be lost."), name="class_edges"
+            )
         return SizeDistribution(edges, jnp.diff(self.cumulative(edges), axis=-1), self.basis, self.in_class)
 
 
@@ -217,7 +245,10 @@ def _checked_classes(edges: Any, amounts: Any) -> tuple[jax.Array, jax.Array]:
     edges, amounts = (jnp.asarray(a, dtype=float) for a in (edges, amounts))
     if edges.ndim != 1 or amounts.ndim == 0 or edges.shape[0] != amounts.shape[-1] + 1:
         raise InputError(
-            _("{edges} class limits and {classes} fractions do not go together: n classes have n + 1 limits.").format(
+            _(
+                "{edges} class limits and {classes} fractions do not go together: n classes have n + "
+                "1 limits."
+            ).format(
                 edges=edges.shape[-1] if edges.ndim else 1, classes=amounts.shape[-1] if amounts.ndim else 1
             ),
             name="class_edges",
@@ -226,21 +257,29 @@ def _checked_classes(edges: Any, amounts: Any) -> tuple[jax.Array, jax.Array]:
         limits = np.asarray(edges)
         if not np.all(np.isfinite(limits)) or limits[0] < 0.0:
             raise InputError(
-                _("Class limits must be finite and not negative; the first is {first} m.").format(first=limits[0]), name="class_edges"
+                _("Class limits must be finite and not negative; the first is {first} m.").format(
+                    first=limits[0]
+                ),
+                name="class_edges",
             )
         down = np.flatnonzero(np.diff(limits) <= 0.0)
         if down.size:
             i = int(down[0])
             raise InputError(
                 _(
-                    "Class limits must increase: limit {place} is {first} m and the next {second} m. Sort the table from fine to coarse."
+                    "Class limits must increase: limit {place} is {first} m and the next {second} m. "
+                    "Sort the table from fine to coarse."
                 ).format(place=i + 1, first=f"{limits[i]:.4g}", second=f"{limits[i + 1]:.4g}"),
                 name="class_edges",
             )
     if not is_tracer(amounts):
         found = np.asarray(amounts)
         if not np.all(np.isfinite(found)) or np.any(found < -_ROUNDING * abs(found).max()):
-            bad = int(np.argmin(np.where(np.isfinite(found), found, -np.inf).reshape(-1, found.shape[-1]).min(axis=0)))
+            bad = int(
+                np.argmin(
+                    np.where(np.isfinite(found), found, -np.inf).reshape(-1, found.shape[-1]).min(axis=0)
+                )
+            )
             raise InputError(
                 _("Class {place} holds {value}: no class can hold less than nothing.").format(
                     place=bad + 1, value=f"{float(found.reshape(-1, found.shape[-1])[:, bad].min()):.4g}"
@@ -256,5 +295,7 @@ def _wrong_sum(total: np.ndarray) -> InputError:
     if abs(off - 100.0) < 100.0 * SUM_TOLERANCE * 2:
         message += " " + _("These look like percentages: divide by 100.")
     else:
-        message += " " + _("Add the missing material (pan, oversize, losses) or give amounts instead of fractions.")
+        message += " " + _(
+            "Add the missing material (pan, oversize, losses) or give amounts instead of fractions."
+        )
     return InputError(message, name="class_fractions", value=off)

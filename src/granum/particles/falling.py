@@ -36,8 +36,9 @@ def drag_of_any_shape(Re: Any, sphericity: Any) -> Any:
 def drag_of_shape(drag: Any, sphericity: Any) -> Callable[[Any], Any]:
     """The drag law of a shape as a function of the Reynolds number alone; no sphericity means a sphere.
 
-    A law that knows the sphericity takes it. A law for spheres is multiplied by what Haider and Levenspiel find between the
-    shape and a sphere, which vanishes in creeping flow; there Pettyjohn and Christiansen's factor, in Ganser's form, is added.
+    A law that knows the sphericity takes it. A law for spheres is multiplied by what Haider and Levenspiel
+    find between the shape and a sphere, which vanishes in creeping flow; there Pettyjohn and Christiansen's
+    factor, in Ganser's form, is added.
     """
     if sphericity is None:
         return drag

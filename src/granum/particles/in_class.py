@@ -1,8 +1,8 @@
 """How a size class is filled: the rule that turns class fractions into moments, bases and percentiles.
 
-A rule answers three questions about the material of one class ``[lower, upper]``: the mean of a power of its size, the part
-below a size, and the size at a part. A rule also knows what it becomes when the fractions are put on another basis, so
-that converting to number and back gives the same distribution again.
+A rule answers three questions about the material of one class ``[lower, upper]``: the mean of a power of its
+size, the part below a size, and the size at a part. A rule also knows what it becomes when the fractions are
+put on another basis, so that converting to number and back gives the same distribution again.
 """
 
 from __future__ import annotations
@@ -45,7 +45,9 @@ def _power_integral(order: Any, ratio: Any) -> Any:
     log_ratio = jnp.log(jnp.where(positive, ratio, 1.0))
     y = order * log_ratio
     near = abs(y) < _SMALL
-    inner = jnp.where(near, -log_ratio * (1.0 + 0.5 * y), -jnp.expm1(y) / jnp.where(near | (order == 0), 1.0, order))
+    inner = jnp.where(
+        near, -log_ratio * (1.0 + 0.5 * y), -jnp.expm1(y) / jnp.where(near | (order == 0), 1.0, order)
+    )
     return jnp.where(positive, inner, jnp.where(order > 0, 1.0 / jnp.where(order > 0, order, 1.0), jnp.inf))
 
 
@@ -71,7 +73,9 @@ class PowerDensity(InClassRule):
         whole = _power_integral(jnp.asarray(self.exponent + 1.0), lower / upper)
         finite = jnp.isfinite(whole)
         above = _power_integral(jnp.asarray(self.exponent + 1.0), jnp.where(finite, size / upper, 1.0))
-        return jnp.where(finite, 1.0 - above / jnp.where(finite, whole, 1.0), jnp.where(size >= 0.5 * upper, 1.0, 0.0))
+        return jnp.where(
+            finite, 1.0 - above / jnp.where(finite, whole, 1.0), jnp.where(size >= 0.5 * upper, 1.0, 0.0)
+        )
 
     def size_at(self, lower: Any, upper: Any, part: Any) -> Any:
         """Size below which a part of the class lies."""
@@ -100,8 +104,13 @@ class ShiftedDensity(PowerDensity):
         return self.power
 
 
-@law("in_class_rule", name="uniform", source="iso9276-2; astm_e799", title="Uniform density in each class",
-     equation=r"q(x) = \text{const. for } x_{i-1} < x \le x_i")  # fmt: skip
+@law(
+    "in_class_rule",
+    name="uniform",
+    source="iso9276-2; astm_e799",
+    title="Uniform density in each class",
+    equation=r"q(x) = \text{const. for } x_{i-1} < x \le x_i",
+)
 class UniformDensity(PowerDensity):
     """Density of the measured basis constant in each class: the cumulative curve is a polygon.
 
@@ -114,8 +123,13 @@ class UniformDensity(PowerDensity):
         return 0.0
 
 
-@law("in_class_rule", name="log_uniform", source="allen1997", title="Uniform density in the logarithm of size",
-     equation=r"x\,q(x) = \text{const. for } x_{i-1} < x \le x_i")  # fmt: skip
+@law(
+    "in_class_rule",
+    name="log_uniform",
+    source="allen1997",
+    title="Uniform density in the logarithm of size",
+    equation=r"x\,q(x) = \text{const. for } x_{i-1} < x \le x_i",
+)
 class LogUniformDensity(PowerDensity):
     """Density over the logarithm of size constant in each class: a polygon on a logarithmic axis."""
 
@@ -126,7 +140,9 @@ class LogUniformDensity(PowerDensity):
 
 
 def _named(power: float) -> InClassRule:
-    return UniformDensity() if power == 0.0 else LogUniformDensity() if power == -1.0 else ShiftedDensity(power)
+    return (
+        UniformDensity() if power == 0.0 else LogUniformDensity() if power == -1.0 else ShiftedDensity(power)
+    )
 
 
 class _Lumped(InClassRule):
@@ -138,11 +154,19 @@ class _Lumped(InClassRule):
 
     def __call__(self, smaller_size: Distance, larger_size: Length, moment_order: Number) -> PositiveNumber:
         """The power of the representative size."""
-        return self.middle(jnp.asarray(smaller_size, dtype=float), jnp.asarray(larger_size, dtype=float)) ** moment_order
+        return (
+            self.middle(jnp.asarray(smaller_size, dtype=float), jnp.asarray(larger_size, dtype=float))
+            ** moment_order
+        )
 
 
-@law("in_class_rule", name="midpoint", source="iso9276-2", title="All of a class at its arithmetic middle",
-     equation=r"\bar x_i = \tfrac12 (x_{i-1} + x_i)")  # fmt: skip
+@law(
+    "in_class_rule",
+    name="midpoint",
+    source="iso9276-2",
+    title="All of a class at its arithmetic middle",
+    equation=r"\bar x_i = \tfrac12 (x_{i-1} + x_i)",
+)
 class ArithmeticMidpoint(_Lumped):
     """All particles of a class have the size in its middle: the rule of most textbook tables."""
 
@@ -159,10 +183,17 @@ class ArithmeticMidpoint(_Lumped):
         return lower + part * (upper - lower)
 
 
-@law("in_class_rule", name="geometric_midpoint", source="iso9276-2", title="All of a class at its geometric middle",
-     equation=r"\bar x_i = \sqrt{x_{i-1} x_i}")  # fmt: skip
+@law(
+    "in_class_rule",
+    name="geometric_midpoint",
+    source="iso9276-2",
+    title="All of a class at its geometric middle",
+    equation=r"\bar x_i = \sqrt{x_{i-1} x_i}",
+)
 class GeometricMidpoint(_Lumped):
-    """All particles of a class have the geometric mean of its limits; a class that starts at 0 counts at its middle."""
+    """All particles of a class have the geometric mean of its limits; a class that starts at 0 counts at its
+    middle.
+    """
 
     def middle(self, lower: Any, upper: Any) -> Any:
         """Geometric mean of the limits."""

@@ -1,4 +1,6 @@
-"""Partition curves: the part of the material of a size that goes to the coarse product of a screen, a cyclone or a classifier."""
+"""Partition curves: the part of the material of a size that goes to the coarse product of a screen, a cyclone
+or a classifier.
+"""
 
 from __future__ import annotations
 
@@ -45,8 +47,13 @@ def _ratio(particle_diameter: Any, cut_size: Any) -> tuple[Any, Any]:
     return x > 0, jnp.where(x > 0, x, cut_size) / cut_size
 
 
-@law("partition_curve", name="logistic", source="lynch1977; tromp1937", title="Logistic partition curve",
-     equation=r"G(x) = \frac{1}{1 + (d_{50}/x)^{n}}")  # fmt: skip
+@law(
+    "partition_curve",
+    name="logistic",
+    source="lynch1977; tromp1937",
+    title="Logistic partition curve",
+    equation=r"G(x) = \frac{1}{1 + (d_{50}/x)^{n}}",
+)
 class LogisticPartition(PartitionCurve):
     """S-shaped curve over the logarithm of size; its sharpness index is 9 to the power -1/n.
 
@@ -73,8 +80,13 @@ class LogisticPartition(PartitionCurve):
         return cls(cut_size, -2.0 * _LN3 / jnp.log(sharpness_index))
 
 
-@law("partition_curve", name="rosin_rammler_partition", source="plitt1976", title="Rosin–Rammler (Plitt) partition curve",
-     equation=r"G(x) = 1 - \exp\!\left[-\ln 2\,(x/d_{50})^{n}\right]")  # fmt: skip
+@law(
+    "partition_curve",
+    name="rosin_rammler_partition",
+    source="plitt1976",
+    title="Rosin–Rammler (Plitt) partition curve",
+    equation=r"G(x) = 1 - \exp\!\left[-\ln 2\,(x/d_{50})^{n}\right]",
+)
 class RosinRammlerPartition(PartitionCurve):
     """Corrected efficiency curve of hydrocyclones and screens.
 
@@ -95,13 +107,22 @@ class RosinRammlerPartition(PartitionCurve):
         return self.cut_size * (-jnp.log1p(-jnp.asarray(part, dtype=float)) / _LN2) ** (1.0 / self.sharpness)
 
 
-@law("partition_curve", name="whiten", source="napiermunn1996", title="Whiten partition curve",
-     equation=r"G(x) = 1 - (1 - R_f)\frac{(1 + \beta \beta^* t)(e^{n} - 1)}{e^{n \beta^* t} + e^{n} - 2},\ t = x/d_{50}")  # fmt: skip
+@law(
+    "partition_curve",
+    name="whiten",
+    source="napiermunn1996",
+    title="Whiten partition curve",
+    equation=(
+        r"G(x) = 1 - (1 - R_f)\frac{(1 + \beta \beta^* t)(e^{n} - 1)}{e^{n \beta^* t} + e^{n} - 2},\ t = "
+        r"x/d_{50}"
+    ),
+)
 class WhitenPartition(PartitionCurve):
-    """Whiten's efficiency curve, with an optional fish-hook; the factor beta* keeps the half value at the cut size.
+    """Whiten's efficiency curve, with an optional fish-hook; the factor beta* keeps the half value at the cut
+    size.
 
-    The cut size is the corrected one: without the bypass half of that size goes either way. A strong fish-hook without a bypass would send
-    less than nothing to the coarse product; such values are cut at 0.
+    The cut size is the corrected one: without the bypass half of that size goes either way. A strong
+    fish-hook without a bypass would send less than nothing to the coarse product; such values are cut at 0.
 
     >>> round(float(WhitenPartition(cut_size="100 um", sharpness=4.0)(100e-6)), 6)
     0.5
@@ -118,9 +139,17 @@ class WhitenPartition(PartitionCurve):
 
         def to_fine(t: Any, star: Any) -> Any:
             # divided through by exp(a): no overflow for a sharp cut
-            return (1.0 + b * star * t) * -jnp.expm1(-a) / (jnp.exp(jnp.minimum(a * (star * t - 1.0), _LARGE)) + 1.0 - 2.0 * jnp.exp(-a))
+            return (
+                (1.0 + b * star * t)
+                * -jnp.expm1(-a)
+                / (jnp.exp(jnp.minimum(a * (star * t - 1.0), _LARGE)) + 1.0 - 2.0 * jnp.exp(-a))
+            )
 
-        star = find_root(lambda s: to_fine(1.0, s) - 0.5, 0.9, 50.0 + 50.0 * jnp.sqrt(b), start=1.0).value if _has_hook(b) else 1.0
+        star = (
+            find_root(lambda s: to_fine(1.0, s) - 0.5, 0.9, 50.0 + 50.0 * jnp.sqrt(b), start=1.0).value
+            if _has_hook(b)
+            else 1.0
+        )
         t = jnp.maximum(jnp.asarray(particle_diameter, dtype=float), 0.0) / self.cut_size
         return jnp.clip(1.0 - (1.0 - self.bypass_fraction) * to_fine(t, star), 0.0, 1.0)
 
@@ -129,8 +158,13 @@ def _has_hook(parameter: Any) -> bool:
     return not (isinstance(parameter, float) and parameter == 0.0)
 
 
-@law("partition_curve", name="molerus_hoffmann", source="molerus1969", title="Molerus–Hoffmann partition curve",
-     equation=r"G(x) = \left\{1 + (d_{50}/x)^2 \exp\left[n\left(1 - (x/d_{50})^2\right)\right]\right\}^{-1}")  # fmt: skip
+@law(
+    "partition_curve",
+    name="molerus_hoffmann",
+    source="molerus1969",
+    title="Molerus–Hoffmann partition curve",
+    equation=r"G(x) = \left\{1 + (d_{50}/x)^2 \exp\left[n\left(1 - (x/d_{50})^2\right)\right]\right\}^{-1}",
+)
 class MolerusHoffmannPartition(PartitionCurve):
     """Partition curve of air classifiers.
 
@@ -148,8 +182,13 @@ class MolerusHoffmannPartition(PartitionCurve):
         return jnp.where(inside, 1.0 / (1.0 + jnp.exp(exponent)), 0.0)
 
 
-@law("partition_curve", name="ideal", source="tromp1937", title="Ideal partition",
-     equation=r"G(x) = 0\ (x < d_{50}),\ 1\ (x \ge d_{50})")  # fmt: skip
+@law(
+    "partition_curve",
+    name="ideal",
+    source="tromp1937",
+    title="Ideal partition",
+    equation=r"G(x) = 0\ (x < d_{50}),\ 1\ (x \ge d_{50})",
+)
 class IdealPartition(PartitionCurve):
     """Everything below the cut size passes, everything above stays.
 
@@ -172,10 +211,16 @@ class IdealPartition(PartitionCurve):
         return self.cut_size * jnp.ones_like(jnp.asarray(part, dtype=float))
 
 
-@law("partition_curve", name="bypassed", source="kelsall1953; lynch1977", title="Partition with a bypass",
-     equation=r"G(x) = R_f + (1 - R_f)\,G_c(x)")  # fmt: skip
+@law(
+    "partition_curve",
+    name="bypassed",
+    source="kelsall1953; lynch1977",
+    title="Partition with a bypass",
+    equation=r"G(x) = R_f + (1 - R_f)\,G_c(x)",
+)
 class BypassedPartition(PartitionCurve):
-    """A corrected curve with a part of every size, usually the water split, carried to the coarse product unclassified.
+    """A corrected curve with a part of every size, usually the water split, carried to the coarse product
+    unclassified.
 
     >>> curve = LogisticPartition(cut_size="100 um", sharpness=3.0)
     >>> round(float(BypassedPartition(separation=curve, bypass_fraction=0.2)(100e-6)), 3)
@@ -231,9 +276,16 @@ def sharpness_index(percentile_25: Length, percentile_75: Length) -> Ratio:
     return percentile_25 / percentile_75
 
 
-@formula(source="svarovsky2001; kelsall1953", equation=r"G' = \frac{G - R_f}{1 - R_f}", title="Reduced (corrected) partition number")
-def partition_number_reduced(partition_number: Fraction, bypass_fraction: Annotated[Fraction, Within(0.0, 0.999)]) -> Number:
-    """Partition number without the part of each size that only follows the liquid into the coarse product; below 0 for fines that avoid it.
+@formula(
+    source="svarovsky2001; kelsall1953",
+    equation=r"G' = \frac{G - R_f}{1 - R_f}",
+    title="Reduced (corrected) partition number",
+)
+def partition_number_reduced(
+    partition_number: Fraction, bypass_fraction: Annotated[Fraction, Within(0.0, 0.999)]
+) -> Number:
+    """Partition number without the part of each size that only follows the liquid into the coarse product;
+    below 0 for fines that avoid it.
 
     It reduces the total efficiency of a hydrocyclone by its underflow share in the same way.
 

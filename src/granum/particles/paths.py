@@ -1,8 +1,10 @@
-"""The equations of motion of a particle in a plane, stepped by exact solutions for a friction held over half a step.
+"""The equations of motion of a particle in a plane, stepped by exact solutions for a friction held over half
+a step.
 
-An adaptive solver would do, but compiles for seconds and must be stiff (relaxation in microseconds, settling in hours). Here the
-steps grow geometrically, each is the exponential midpoint rule extrapolated once (third order, exact at the terminal velocity), and
-between the knots a partial step gives any time. Against Diffrax at 1e-11 it agrees within 3e-6.
+An adaptive solver would do, but compiles for seconds and must be stiff (relaxation in microseconds, settling
+in hours). Here the steps grow geometrically, each is the exponential midpoint rule extrapolated once (third
+order, exact at the terminal velocity), and between the knots a partial step gives any time. Against Diffrax
+at 1e-11 it agrees within 3e-6.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ SHORTEST, LONGEST = 1e-5, 50.0  # first step and last knot, in relaxation times
 
 
 class Motion(eqx.Module):
-    """One particle: position in units of speed × relaxation time, velocity of the largest speed in play, time of relaxation."""
+    """One particle: position in units of speed × relaxation time, velocity of the largest speed in play, time
+    of relaxation.
+    """
 
     drag: Any
     relaxation: Any
@@ -33,7 +37,18 @@ class Motion(eqx.Module):
     start: Any
 
     @staticmethod
-    def of(d: Any, rho_p: Any, rho: Any, eta: Any, gravity: Any, added: Any, drag: Any, vx: Any, vy: Any, stream: Any) -> Motion:
+    def of(
+        d: Any,
+        rho_p: Any,
+        rho: Any,
+        eta: Any,
+        gravity: Any,
+        added: Any,
+        drag: Any,
+        vx: Any,
+        vy: Any,
+        stream: Any,
+    ) -> Motion:
         """The motion of a sphere released with a velocity in a stream."""
         inertia = rho_p + added * rho
         excess = jnp.asarray(rho_p - rho, dtype=float)
@@ -56,12 +71,19 @@ class Motion(eqx.Module):
         q = step * gone / z  # ∫ e^−kt dt
         short = z < 1e-3
         long = jnp.where(short, 1.0, z)
-        r = step**2 * jnp.where(short, 0.5 - z / 6.0 + z**2 / 24.0, (long + jnp.expm1(-long)) / long**2)  # ∫∫ e^−kt dt dt
+        r = step**2 * jnp.where(
+            short, 0.5 - z / 6.0 + z**2 / 24.0, (long + jnp.expm1(-long)) / long**2
+        )  # ∫∫ e^−kt dt dt
         x, y, vx, vy = state
         across = vx - self.stream
         left = 1.0 - gone
         return jnp.stack(
-            [x + self.stream * step + across * q, y + vy * q + self.weight * r, self.stream + across * left, vy * left + self.weight * q]
+            [
+                x + self.stream * step + across * q,
+                y + vy * q + self.weight * r,
+                self.stream + across * left,
+                vy * left + self.weight * q,
+            ]
         )
 
     def _midpoint(self, state: Any, step: Any) -> Any:
@@ -77,7 +99,13 @@ class Motion(eqx.Module):
     def knots(self) -> tuple[Any, Any]:
         """Times and states of the knots, the start first; after the last the motion is steady."""
         fastest = jnp.maximum(self.friction(self.start), 1e-6)
-        steady = self.drag(self.terminal * self.reynolds / self.speed) * self.terminal * self.reynolds / self.speed / 24.0
+        steady = (
+            self.drag(self.terminal * self.reynolds / self.speed)
+            * self.terminal
+            * self.reynolds
+            / self.speed
+            / 24.0
+        )
         first = lax.stop_gradient(SHORTEST / jnp.maximum(fastest, steady))
         last = lax.stop_gradient(LONGEST / steady)
         times = jnp.concatenate([jnp.zeros(1), first * (last / first) ** jnp.linspace(0.0, 1.0, KNOTS)])
@@ -97,7 +125,9 @@ class Motion(eqx.Module):
         return self.in_si(self.after(states[i], t - times[i]))
 
     def reaching(self, depth: Any) -> tuple[Any, Any]:
-        """Position and velocity, and time, in SI when a height below (heavy) or above (light) the start is reached."""
+        """Position and velocity, and time, in SI when a height below (heavy) or above (light) the start is
+        reached.
+        """
         times, states = self.knots()
         side = jnp.sign(self.weight)
         target = depth / (self.speed * self.relaxation)
@@ -105,8 +135,12 @@ class Motion(eqx.Module):
         i = jnp.clip(jnp.argmax(jnp.append(deep >= target, True)) - 1, 0, KNOTS)
         state, left = states[i], lax.stop_gradient(target - deep[i])
         last = i >= KNOTS
-        longest = jnp.where(last, 2.0 * left * self.speed / self.terminal + 1.0, times[jnp.minimum(i + 1, KNOTS)] - times[i])
-        step = find_root(lambda h: side * self.after(state, h)[1] - target, 0.0, longest, tolerance=1e-14).value
+        longest = jnp.where(
+            last, 2.0 * left * self.speed / self.terminal + 1.0, times[jnp.minimum(i + 1, KNOTS)] - times[i]
+        )
+        step = find_root(
+            lambda h: side * self.after(state, h)[1] - target, 0.0, longest, tolerance=1e-14
+        ).value
         return self.in_si(self.after(state, step)), (times[i] + step) * self.relaxation
 
     def in_si(self, state: Any) -> Any:

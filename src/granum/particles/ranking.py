@@ -21,7 +21,9 @@ def measured_drag(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sphere_laws() -> dict[str, Any]:
-    """The drag laws of a sphere by the author's part of their name; parametrised laws need a shape and stay out."""
+    """The drag laws of a sphere by the author's part of their name; parametrised laws need a shape and stay
+    out.
+    """
     from granum.core.registry import everything
 
     return {
@@ -45,14 +47,17 @@ class DragRanking(NamedTuple):
 
 @procedure(source="roos1971; morsi1972", title="Drag laws ranked by accuracy")
 def drag_ranking(
-    measurements: Literal["all", "morsi1972", "roos1971"] = "all", reynolds_lowest: Ratio = 0.1, reynolds_highest: PositiveNumber = 1.2e5
+    measurements: Literal["all", "morsi1972", "roos1971"] = "all",
+    reynolds_lowest: Ratio = 0.1,
+    reynolds_highest: PositiveNumber = 1.2e5,
 ) -> DragRanking:
-    """Every drag law of a sphere against measured drag, ranked by the root-mean-square deviation inside its range.
+    """Every drag law of a sphere against measured drag, ranked by the root-mean-square deviation inside its
+    range.
 
-    Two tables: Morsi and Alexander's means of the measurements known in 1972 (Re 0.1 to 50 000, smooth) and Roos and Willmarth's
-    own measurements (Re 5 to 118 300), whose scatter of some 4 to 7 % is the floor of any law. A law is judged only
-    where it claims to hold. Laws that cover every measurement between the two Reynolds numbers come first, then those that
-    cover a part; within each group the smallest deviation leads.
+    Two tables: Morsi and Alexander's means of the measurements known in 1972 (Re 0.1 to 50 000, smooth) and
+    Roos and Willmarth's own measurements (Re 5 to 118 300), whose scatter of some 4 to 7 % is the floor of
+    any law. A law is judged only where it claims to hold. Laws that cover every measurement between the two
+    Reynolds numbers come first, then those that cover a part; within each group the smallest deviation leads.
 
     >>> "stokes" in drag_ranking(reynolds_lowest=1.0, reynolds_highest=1e5).drag[:10]
     False
@@ -63,9 +68,9 @@ def drag_ranking(
     Re, measured = Re[asked], measured[asked]
     if Re.size == 0:
         raise ApplicabilityError(
-            _("There is no measured drag between Re = {low} and {high}; the tables cover 0.1 to 118 300.").format(
-                low=format_number(reynolds_lowest), high=format_number(reynolds_highest)
-            )
+            _(
+                "There is no measured drag between Re = {low} and {high}; the tables cover 0.1 to 118 300."
+            ).format(low=format_number(reynolds_lowest), high=format_number(reynolds_highest))
         )
     rows = []
     for name, law in sphere_laws().items():
@@ -74,7 +79,17 @@ def drag_ranking(
         if not inside.any():
             continue
         deviation = np.asarray(law(Re[inside])) / measured[inside] - 1.0
-        rows.append((name, np.sqrt(np.mean(deviation**2)), deviation.mean(), abs(deviation).max(), inside.mean(), low, high))
+        rows.append(
+            (
+                name,
+                np.sqrt(np.mean(deviation**2)),
+                deviation.mean(),
+                abs(deviation).max(),
+                inside.mean(),
+                low,
+                high,
+            )
+        )
     rows.sort(key=lambda row: (row[4] < 1.0, row[1]))
     columns = list(zip(*rows, strict=True))
     return DragRanking(columns[0], *(np.asarray(column, dtype=float) for column in columns[1:]))  # type: ignore[arg-type]

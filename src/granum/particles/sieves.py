@@ -26,14 +26,25 @@ def sieve_table() -> dict[str, dict[str, float]]:
 
 
 def _tidy(designation: str) -> str:
-    word = designation.lower().replace("#", "").replace('"', " in").replace("½", " 1/2").replace("mesh", "").replace("no.", "").strip()
-    word = word.removesuffix("in.").removesuffix("in").strip() + " in" if word.endswith(("in", "in.")) else word
+    word = (
+        designation.lower()
+        .replace("#", "")
+        .replace('"', " in")
+        .replace("½", " 1/2")
+        .replace("mesh", "")
+        .replace("no.", "")
+        .strip()
+    )
+    word = (
+        word.removesuffix("in.").removesuffix("in").strip() + " in" if word.endswith(("in", "in.")) else word
+    )
     return " ".join(word.removesuffix("mm").split())
 
 
 @procedure(source="iso565; iso3310-1; astm_e11; tyler_handbook53", title="Aperture of a standard sieve")
 def aperture(sieve_designation: str, sieve_series: SeriesName = "astm_e11") -> Length:
-    """Nominal aperture of a sieve by its designation: mm for ISO, number or inches for ASTM E11, mesh for Tyler.
+    """Nominal aperture of a sieve by its designation: mm for ISO, number or inches for ASTM E11, mesh for
+    Tyler.
 
     >>> aperture("No. 200")
     7.5e-05
@@ -60,7 +71,10 @@ def sieve_series_apertures(
 ) -> SieveStack:
     """All apertures of a series between two sizes, fine to coarse.
 
-    >>> [round(float(w) * 1e6, 3) for w in sieve_series_apertures("iso565_r20_3", "125 um", "500 um").aperture]
+    >>> [
+    ...     round(float(w) * 1e6, 3)
+    ...     for w in sieve_series_apertures("iso565_r20_3", "125 um", "500 um").aperture
+    ... ]
     [125.0, 180.0, 250.0, 355.0, 500.0]
     """
     sizes = np.sort(np.array(list(sieve_table()[sieve_series].values())))

@@ -51,14 +51,18 @@ class SizeLaw(eqx.Module):
         order = order_of(self.basis)
         high, low = self.moment(p - order), self.moment(q - order)
         exists = jnp.isfinite(high) & jnp.isfinite(low)
-        return jnp.where(exists, jnp.where(exists, high, 1.0) / jnp.where(exists, low, 1.0), jnp.nan) ** (1.0 / (p - q))
+        return jnp.where(exists, jnp.where(exists, high, 1.0) / jnp.where(exists, low, 1.0), jnp.nan) ** (
+            1.0 / (p - q)
+        )
 
     def span(self) -> Any:
         """(d90 - d10) / d50."""
         return (self.percentile(0.9) - self.percentile(0.1)) / self.percentile(0.5)
 
     def classes(self, edges: Any, in_class: InClassRule | None = None) -> SizeDistribution:
-        """The law cut into classes; the tails beyond the outer limits go into the outer classes, so nothing is lost."""
+        """The law cut into classes; the tails beyond the outer limits go into the outer classes, so nothing
+        is lost.
+        """
         edges = jnp.asarray(edges, dtype=float)
         below = jnp.concatenate([jnp.zeros(1), self(edges[1:-1]), jnp.ones(1)])
         return SizeDistribution(edges, jnp.diff(below), self.basis, in_class)
@@ -69,8 +73,13 @@ def _positive(x: Any) -> tuple[Any, Any]:
     return x > 0, jnp.where(x > 0, x, 1.0)
 
 
-@law("size_distribution", name="rosin_rammler", source="rosin1933; iso9276-3", title="Rosin–Rammler–Sperling–Bennett law",
-     equation=r"Q(x) = 1 - \exp\!\left[-(x/x')^n\right]")  # fmt: skip
+@law(
+    "size_distribution",
+    name="rosin_rammler",
+    source="rosin1933; iso9276-3",
+    title="Rosin–Rammler–Sperling–Bennett law",
+    equation=r"Q(x) = 1 - \exp\!\left[-(x/x')^n\right]",
+)
 class RosinRammler(SizeLaw):
     """Weibull law of ground products, by the size with 63.2 % below it and the uniformity exponent.
 
@@ -101,11 +110,18 @@ class RosinRammler(SizeLaw):
         """``x'^k Gamma(1 + k/n)``, for k > -n."""
         z = 1.0 + power / self.distribution_exponent
         exists = z > 0
-        return jnp.where(exists, self.size_modulus**power * jnp.exp(gammaln(jnp.where(exists, z, 1.0))), jnp.inf)
+        return jnp.where(
+            exists, self.size_modulus**power * jnp.exp(gammaln(jnp.where(exists, z, 1.0))), jnp.inf
+        )
 
 
-@law("size_distribution", name="log_normal", source="iso9276-5; hatch1929", title="Log-normal law",
-     equation=r"Q(x) = \Phi\!\left(\frac{\ln (x/d_{50})}{\ln\sigma_g}\right)")  # fmt: skip
+@law(
+    "size_distribution",
+    name="log_normal",
+    source="iso9276-5; hatch1929",
+    title="Log-normal law",
+    equation=r"Q(x) = \Phi\!\left(\frac{\ln (x/d_{50})}{\ln\sigma_g}\right)",
+)
 class LogNormal(SizeLaw):
     """Normal law over the logarithm of size, by median and geometric standard deviation.
 
@@ -120,7 +136,9 @@ class LogNormal(SizeLaw):
     def __call__(self, particle_diameter: Length) -> Fraction:
         """Cumulative fraction below a size."""
         inside, x = _positive(particle_diameter)
-        return jnp.where(inside, ndtr(jnp.log(x / self.median_diameter) / jnp.log(self.geometric_standard_deviation)), 0.0)
+        return jnp.where(
+            inside, ndtr(jnp.log(x / self.median_diameter) / jnp.log(self.geometric_standard_deviation)), 0.0
+        )
 
     def density(self, particle_diameter: Any) -> Any:
         """Derivative of the cumulative curve, 1/m."""
@@ -131,20 +149,30 @@ class LogNormal(SizeLaw):
 
     def percentile(self, part: Any) -> Any:
         """Size below which a part lies, m."""
-        return self.median_diameter * jnp.exp(jnp.log(self.geometric_standard_deviation) * ndtri(jnp.asarray(part, dtype=float)))
+        return self.median_diameter * jnp.exp(
+            jnp.log(self.geometric_standard_deviation) * ndtri(jnp.asarray(part, dtype=float))
+        )
 
     def moment(self, power: Any) -> Any:
         """``d50^k exp(k^2 s^2 / 2)``."""
-        return self.median_diameter**power * jnp.exp(0.5 * (power * jnp.log(self.geometric_standard_deviation)) ** 2)
+        return self.median_diameter**power * jnp.exp(
+            0.5 * (power * jnp.log(self.geometric_standard_deviation)) ** 2
+        )
 
 
-@law("size_distribution", name="normal", source="iso9276-3", title="Normal law",
-     equation=r"Q(x) = \Phi\!\left(\frac{x - d_{50}}{\sigma}\right)\ \text{cut at } x = 0")  # fmt: skip
+@law(
+    "size_distribution",
+    name="normal",
+    source="iso9276-3",
+    title="Normal law",
+    equation=r"Q(x) = \Phi\!\left(\frac{x - d_{50}}{\sigma}\right)\ \text{cut at } x = 0",
+)
 class Normal(SizeLaw):
     """Normal law over the size, cut off and renormalized at 0, for narrow products.
 
-    Moments are taken between 0.1 % of the mean and eight standard deviations above it, so that negative ones are finite; with a standard
-    deviation above a third of the mean the law puts material near 0 and negative moments depend on that limit.
+    Moments are taken between 0.1 % of the mean and eight standard deviations above it, so that negative ones
+    are finite; with a standard deviation above a third of the mean the law puts material near 0 and negative
+    moments depend on that limit.
 
     >>> round(float(Normal(mean_diameter="100 um", standard_deviation="10 um")(110e-6)), 4)
     0.8413
@@ -183,8 +211,13 @@ class Normal(SizeLaw):
         return gauss_legendre(lambda x: x**power * self.density(x), low, high, order=_NODES)
 
 
-@law("size_distribution", name="gates_gaudin_schuhmann", source="schuhmann1940; iso9276-3", title="Gates–Gaudin–Schuhmann law",
-     equation=r"Q(x) = (x/x_{\max})^n,\quad x \le x_{\max}")  # fmt: skip
+@law(
+    "size_distribution",
+    name="gates_gaudin_schuhmann",
+    source="schuhmann1940; iso9276-3",
+    title="Gates–Gaudin–Schuhmann law",
+    equation=r"Q(x) = (x/x_{\max})^n,\quad x \le x_{\max}",
+)
 class GatesGaudinSchuhmann(SizeLaw):
     """Power law up to the largest size: a straight line on log–log axes.
 
@@ -218,8 +251,13 @@ class GatesGaudinSchuhmann(SizeLaw):
         return jnp.where(exists, self.size_maximum**power * n / jnp.where(exists, n + power, 1.0), jnp.inf)
 
 
-@law("size_distribution", name="gaudin_meloy", source="gaudin1962", title="Gaudin–Meloy law",
-     equation=r"Q(x) = 1 - (1 - x/x_{\max})^n,\quad x \le x_{\max}")  # fmt: skip
+@law(
+    "size_distribution",
+    name="gaudin_meloy",
+    source="gaudin1962",
+    title="Gaudin–Meloy law",
+    equation=r"Q(x) = 1 - (1 - x/x_{\max})^n,\quad x \le x_{\max}",
+)
 class GaudinMeloy(SizeLaw):
     """Law of single fracture: linear at small sizes, with a largest size.
 
@@ -246,7 +284,9 @@ class GaudinMeloy(SizeLaw):
 
     def percentile(self, part: Any) -> Any:
         """Size below which a part lies, m."""
-        return self.size_maximum * (1.0 - (1.0 - jnp.asarray(part, dtype=float)) ** (1.0 / self.distribution_exponent))
+        return self.size_maximum * (
+            1.0 - (1.0 - jnp.asarray(part, dtype=float)) ** (1.0 / self.distribution_exponent)
+        )
 
     def moment(self, power: Any) -> Any:
         """``x_max^k n B(k + 1, n)``, for k > -1."""
@@ -256,7 +296,13 @@ class GaudinMeloy(SizeLaw):
         return jnp.where(exists, self.size_maximum**power * n * beta, jnp.inf)
 
 
-@law("size_distribution", name="mixture", source="iso9276-3", title="Mixture of two laws", equation=r"Q(x) = w\,Q_1(x) + (1 - w)\,Q_2(x)")
+@law(
+    "size_distribution",
+    name="mixture",
+    source="iso9276-3",
+    title="Mixture of two laws",
+    equation=r"Q(x) = w\,Q_1(x) + (1 - w)\,Q_2(x)",
+)
 class Mixture(SizeLaw):
     """Two populations on one basis, such as product and fines.
 
@@ -272,9 +318,9 @@ class Mixture(SizeLaw):
     def __check_init__(self) -> None:
         if self.first_law.basis != self.second_law.basis:
             raise InputError(
-                _("The two laws count on different bases, {first} and {second}: give both on one basis.").format(
-                    first=self.first_law.basis, second=self.second_law.basis
-                ),
+                _(
+                    "The two laws count on different bases, {first} and {second}: give both on one basis."
+                ).format(first=self.first_law.basis, second=self.second_law.basis),
                 name="second_law",
             )
 
@@ -292,13 +338,17 @@ class Mixture(SizeLaw):
 
     def density(self, particle_diameter: Any) -> Any:
         """Derivative of the cumulative curve, 1/m."""
-        return self._blend(self.first_law.density(particle_diameter), self.second_law.density(particle_diameter))
+        return self._blend(
+            self.first_law.density(particle_diameter), self.second_law.density(particle_diameter)
+        )
 
     def percentile(self, part: Any) -> Any:
         """Size below which a part lies, m: between those of the two laws."""
         ends = self.first_law.percentile(part), self.second_law.percentile(part)
         part = jnp.asarray(part, dtype=float)
-        return find_root(lambda x: self(x) - part, jnp.minimum(*ends) * (1 - 1e-12), jnp.maximum(*ends) * (1 + 1e-12)).value
+        return find_root(
+            lambda x: self(x) - part, jnp.minimum(*ends) * (1 - 1e-12), jnp.maximum(*ends) * (1 + 1e-12)
+        ).value
 
     def moment(self, power: Any) -> Any:
         """Mean of a power."""

@@ -1,4 +1,6 @@
-"""Displacement of one liquid by another in a porous layer with axial dispersion: what leaves and what stays."""
+"""Displacement of one liquid by another in a porous layer with axial dispersion: what leaves and what
+stays.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,10 @@ import jax.numpy as jnp
 from jax.scipy.special import erfc, log_ndtr
 
 BEST_NUMBER = 16.2
-"""Dispersion number at which one void volume displaces 86 %, the best that Choudhury and Dahlstrom (1957) found on filters:
-cakes are never as even as the theory of dispersion between grains supposes. exp(D) erfc(√D) = 0.14."""
+"""Dispersion number at which one void volume displaces 86 %, the best that Choudhury and Dahlstrom (1957)
+found on filters: cakes are never as even as the theory of dispersion between grains supposes. exp(D) erfc(√D)
+= 0.14.
+"""
 
 
 def _terms(ratio: Any, number: Any) -> tuple[Any, Any]:
@@ -22,20 +26,26 @@ def _terms(ratio: Any, number: Any) -> tuple[Any, Any]:
 
 
 def effluent_concentration(ratio: Any, number: Any) -> Any:
-    """Share of the displaced liquid in what leaves after a number of void volumes, at a dispersion number (Sherman 1964)."""
+    """Share of the displaced liquid in what leaves after a number of void volumes, at a dispersion number
+    (Sherman 1964).
+    """
     first, second = _terms(ratio, number)
     return jnp.where(ratio > 0, 1.0 - 0.5 * (first + second), 1.0)
 
 
 def remaining_fraction(ratio: Any, number: Any) -> Any:
-    """Fraction of the displaced liquid that is still in the layer: the integral of the above in closed form."""
+    """Fraction of the displaced liquid that is still in the layer: the integral of the above in closed
+    form.
+    """
     first, second = _terms(ratio, number)
     left = 1.0 - ratio + 0.5 * ((ratio - 1.0) * first + (ratio + 1.0) * second)
     return jnp.where(ratio > 0, jnp.maximum(left, 0.0), 1.0)
 
 
 def axial_dispersion(velocity: Any, diameter: Any, diffusivity: Any) -> Any:
-    """Axial dispersion coefficient of a thin layer of grains at a pore velocity, m²/s (Wakeman and Tarleton 2005)."""
+    """Axial dispersion coefficient of a thin layer of grains at a pore velocity, m²/s (Wakeman and Tarleton
+    2005).
+    """
     return diffusivity / jnp.sqrt(2.0) + 1.75 * velocity * diameter
 
 

@@ -37,7 +37,11 @@ from granum.streams.stream import main_phase
 
 def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
     label = f"{p.label} ({origin})" if origin else p.label
-    return {"label": label, "symbol": mathml(p.term.symbol) if p.term else p.name, "text": value_text(value, p)}
+    return {
+        "label": label,
+        "symbol": mathml(p.term.symbol) if p.term else p.name,
+        "text": value_text(value, p),
+    }
 
 
 def note_step(step: Result) -> dict[str, Any]:
@@ -47,7 +51,9 @@ def note_step(step: Result) -> dict[str, Any]:
         "key": step.card.key,
         "equation": mathml(step.card.equation, display=True),
         "inputs": [
-            _row(p, step.inputs[p.name], step.origins.get(p.name, "")) for p in step.card.parameters if step.inputs[p.name] is not None
+            _row(p, step.inputs[p.name], step.origins.get(p.name, ""))
+            for p in step.card.parameters
+            if step.inputs[p.name] is not None
         ],
         "outputs": [_row(p, step.outputs[p.name]) for p in step.card.outputs],
         "source": step.card.citation,
@@ -65,7 +71,12 @@ def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
 
 def nomenclature(steps: Iterable[Result]) -> list[tuple[str, str]]:
     """The symbols of a calculation note with what they mean."""
-    words = {p.term for step in steps for p in (*step.card.parameters, *step.card.outputs) if p.term and p.term.symbol}
+    words = {
+        p.term
+        for step in steps
+        for p in (*step.card.parameters, *step.card.outputs)
+        if p.term and p.term.symbol
+    }
     return sorted(((mathml(word.symbol), word.label) for word in words), key=lambda row: row[1])
 
 
@@ -75,7 +86,9 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
         "name": name,
         "title": report.model.card.title,
         "summary": report.model.card.summary,
-        "parameters": [_row(p, value) for p, value in report.parameters() if value is not None and str(value)],
+        "parameters": [
+            _row(p, value) for p, value in report.parameters() if value is not None and str(value)
+        ],
         "figures": [_row(p, value) for p, value in report.figures()],
         "checks": [check_row(c)._asdict() | {"source": cite(c.source)} for c in report.checks],
         "steps": note_steps(run.notes[name]),
@@ -83,15 +96,28 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
 
 
 def _fit_sheets(run: Any) -> list[dict[str, Any]]:
-    """The lab tests from which parameters of the line were estimated, each once, with what it gave to which unit."""
+    """The lab tests from which parameters of the line were estimated, each once, with what it gave to which
+    unit.
+    """
     sheets = []
     for fit, given in by_fit(run.line.fits):
         paths = [f"{path} = {label_of(name)}" for path, name in given.items()]
         data, card = fit.as_json(), find(fit.card).card
-        sheets.append({
-            "title": card.title, "gives": "; ".join(paths), "rows": estimate_rows(data), "statistics": " · ".join(filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data)))),
-            "source": card.citation, "notices": [f["message"] if isinstance(f, dict) else str(f) for f in data["flags"]],
-        })  # fmt: skip
+        sheets.append(
+            {
+                "title": card.title,
+                "gives": "; ".join(paths),
+                "rows": estimate_rows(data),
+                "statistics": " · ".join(
+                    filter(
+                        None,
+                        (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data)),
+                    )
+                ),
+                "source": card.citation,
+                "notices": [f["message"] if isinstance(f, dict) else str(f) for f in data["flags"]],
+            }
+        )
     return sheets
 
 
@@ -105,7 +131,10 @@ def size_chart(run: Any) -> Any:
         if float(stream.solid_flow) > 1e-9 * float(stream.mass_flow) and main_phase(stream) != "gas":
             edges = np.maximum(stream.mixture.edges, 1e-9) * 1e6
             cumulative = 100 * np.concatenate([[0.0], np.cumsum(np.asarray(stream.size_fractions))])
-            color, dash = charts.LINES[drawn % len(charts.LINES)], charts.DASHES[drawn // len(charts.LINES) % len(charts.DASHES)]
+            color, dash = (
+                charts.LINES[drawn % len(charts.LINES)],
+                charts.DASHES[drawn // len(charts.LINES) % len(charts.DASHES)],
+            )
             charts.add_line(figure, edges, cumulative, name, color=color, dash=dash)
             drawn += 1
     return figure if drawn else None
@@ -117,7 +146,9 @@ def course_chart(run: Any) -> Any:
     if course is None:
         return None
     flows = {
-        name: sum(np.asarray(x).reshape(len(course.times), -1).sum(axis=1) for x in (s.solid, s.liquid, s.gas))
+        name: sum(
+            np.asarray(x).reshape(len(course.times), -1).sum(axis=1) for x in (s.solid, s.liquid, s.gas)
+        )
         for name, s in course.streams.items()
     }
     axes = (Parameter("time", KINDS["Time"]), Parameter("mass_flow", KINDS["MassFlow"]))
@@ -125,9 +156,17 @@ def course_chart(run: Any) -> Any:
     across, upward = (p.display_unit(values) for p, values in zip(axes, columns, strict=True))
     figure = charts.figure(charts.axis_title("time", across), charts.axis_title("mass_flow", upward))
     for i, (name, flow) in enumerate(flows.items()):
-        color, dash = charts.LINES[i % len(charts.LINES)], charts.DASHES[i // len(charts.LINES) % len(charts.DASHES)]
+        color, dash = (
+            charts.LINES[i % len(charts.LINES)],
+            charts.DASHES[i // len(charts.LINES) % len(charts.DASHES)],
+        )
         charts.add_line(
-            figure, from_si(columns[0], across, KINDS["Time"]), from_si(flow, upward, KINDS["MassFlow"]), name, color=color, dash=dash
+            figure,
+            from_si(columns[0], across, KINDS["Time"]),
+            from_si(flow, upward, KINDS["MassFlow"]),
+            name,
+            color=color,
+            dash=dash,
         )
     return figure
 
@@ -140,7 +179,9 @@ def _charts(run: Any) -> list[tuple[str, str]]:
         _("Run in time"): course_chart(run),
         _("Schedule of the batches"): cycles.chart() if cycles.cycles else None,
     }
-    found |= {heading: figure.update_layout(title_text="", margin_t=30) for heading, figure in run.charts().items()}
+    found |= {
+        heading: figure.update_layout(title_text="", margin_t=30) for heading, figure in run.charts().items()
+    }
     drawn = [(heading, figure) for heading, figure in found.items() if figure is not None]
     return [(heading, charts.as_html(figure, plotly=i == 0)) for i, (heading, figure) in enumerate(drawn)]
 
@@ -152,7 +193,11 @@ def line_report(run: Any) -> str:
     told = run.line.told
     described = told.get("description")
     units = [_unit_sheet(run, name) for name in run.sheet.order]
-    keys = {p for name in run.sheet.order for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))}
+    keys = {
+        p
+        for name in run.sheet.order
+        for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))
+    }
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
         (_("Project"), told.get("project", "")),
@@ -161,18 +206,41 @@ def line_report(run: Any) -> str:
         (_("Program"), f"Granum {granum.__version__}"),
         (_("Inputs"), "sha256 " + hashlib.sha256(run.line.text.encode()).hexdigest()[:12]),
     ]
-    environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    environment = Environment(
+        loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
     audit = run.audit
-    numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")} | {"text": audit_text(audit)}
+    numbers = {k: format_number(audit[f"{k}_closure"], 2) for k in ("mass", "energy")} | {
+        "text": audit_text(audit)
+    }
     return environment.get_template("line.html.j2").render(
-        _=_, lang=current_language(), run=run, description=_(described) if described else "",
-        title_block=[(label, value) for label, value in block if value], units=units,
+        _=_,
+        lang=current_language(),
+        run=run,
+        description=_(described) if described else "",
+        title_block=[(label, value) for label, value in block if value],
+        units=units,
         checks=sum(len(u["checks"]) for u in units),
-        failed=[(u["name"], f"{c['name']}: {c['text']} ({c['allowed']})") for u in units for c in u["checks"] if not c["ok"]],
-        flags=run.flags, closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
-        audit=numbers | {"units": [(n, format_number(c["mass"], 2), format_number(c["energy"], 2)) for n, c in audit["units"].items()]},
-        diagram=run.drawing(), streams=stream_table(run), fits=_fit_sheets(run),
+        failed=[
+            (u["name"], f"{c['name']}: {c['text']} ({c['allowed']})")
+            for u in units
+            for c in u["checks"]
+            if not c["ok"]
+        ],
+        flags=run.flags,
+        closes=max(audit["mass_closure"], audit["energy_closure"]) <= 1e-9,
+        audit=numbers
+        | {
+            "units": [
+                (n, format_number(c["mass"], 2), format_number(c["energy"], 2))
+                for n, c in audit["units"].items()
+            ]
+        },
+        diagram=run.drawing(),
+        streams=stream_table(run),
+        fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=_charts(run),
-        sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}), case_text=run.line.text,
-    )  # fmt: skip
+        sources=sorted({cite(part) for key in keys for part in key.split(";") if part.strip()}),
+        case_text=run.line.text,
+    )

@@ -1,4 +1,6 @@
-"""Equations as MathML, so that reports and pages need no script to show them. A contract test converts every card's equation."""
+"""Equations as MathML, so that reports and pages need no script to show them. A contract test converts every
+card's equation.
+"""
 
 from __future__ import annotations
 

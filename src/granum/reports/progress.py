@@ -9,7 +9,9 @@ from typing import Any
 
 @contextmanager
 def working(what: str, quiet: bool = False) -> Iterator[None]:
-    """Shows what is being done while the block runs; nothing when quiet or when the output is not a terminal."""
+    """Shows what is being done while the block runs; nothing when quiet or when the output is not a
+    terminal.
+    """
     from rich.console import Console
 
     console = Console(stderr=True)
@@ -22,7 +24,9 @@ def working(what: str, quiet: bool = False) -> Iterator[None]:
 
 @contextmanager
 def watching(what: str, quiet: bool = False) -> Iterator[Callable[[str, int, float], None] | None]:
-    """Shows how far each loop of a line is while the block solves it: gives the function to tell; None as for ``advancing``."""
+    """Shows how far each loop of a line is while the block solves it: gives the function to tell; None as for
+    ``advancing``.
+    """
     from rich.console import Console
 
     from granum.core.i18n import _
@@ -36,14 +40,18 @@ def watching(what: str, quiet: bool = False) -> Iterator[Callable[[str, int, flo
 
         def tell(loop: str, number: int, residual: float) -> None:
             told = _("loop through '{stream}': pass {number}, residual {residual}")
-            status.update(f"{what} · {told.format(stream=loop, number=number, residual=format_number(residual, 2))}")
+            status.update(
+                f"{what} · {told.format(stream=loop, number=number, residual=format_number(residual, 2))}"
+            )
 
         yield tell
 
 
 @contextmanager
 def advancing(what: str, quiet: bool = False) -> Iterator[Callable[[Any], None] | None]:
-    """A bar for a study: gives the function to call with its progress; None when quiet or when the output is not a terminal."""
+    """A bar for a study: gives the function to call with its progress; None when quiet or when the output is
+    not a terminal.
+    """
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 

@@ -1,4 +1,6 @@
-"""Numbers as people read them, once for terminal, page and report: values, estimates, checks, the stream table."""
+"""Numbers as people read them, once for terminal, page and report: values, estimates, checks, the stream
+table.
+"""
 
 from __future__ import annotations
 
@@ -48,21 +50,31 @@ def _word(value: Any, parameter: Parameter) -> str:
 
 
 def law_label(card: Card) -> str:
-    """A law among others of its family: its author alone when the title is the family's name with the author."""
+    """A law among others of its family: its author alone when the title is the family's name with the
+    author.
+    """
     _head, bracket, author = card.title.partition(" (")
-    return author.removesuffix(")") if bracket and card.sort == "formula" and card.name.startswith(card.family) else card.title
+    return (
+        author.removesuffix(")")
+        if bracket and card.sort == "formula" and card.name.startswith(card.family)
+        else card.title
+    )
 
 
 def law_text(law: Any) -> str:
     """A law with the values of its parameters."""
-    known = ((p, getattr(law, p.name, None)) for p in law.card.parameters) if law.card.sort != "formula" else ()
+    known = (
+        ((p, getattr(law, p.name, None)) for p in law.card.parameters) if law.card.sort != "formula" else ()
+    )
     given = "; ".join(f"{p.label} {value_text(value, p)}" for p, value in known if value is not None)
     return law_label(law.card) + (f" ({given})" if given else "")
 
 
 @cache
 def _kind_in(unit: str) -> Kind | None:
-    """What is measured in an SI unit, with the units of every kind that is; None when that says too little."""
+    """What is measured in an SI unit, with the units of every kind that is; None when that says too
+    little.
+    """
     found = [k for k in KINDS.values() if k.unit == unit]
     if not found or unit in AMBIGUOUS:
         return None
@@ -77,7 +89,9 @@ def figure_named(name: str, unit: str, card: str = "") -> Parameter:
     declared = {p.name: p.kind for p in (*thing.card.parameters, *thing.card.outputs)} if thing else {}
     kinds = {n: kind_of(a) for n, a in getattr(thing, "estimates", {}).items()} | declared
     kind = kinds.get(name)
-    return Parameter(name, kind if kind is not None and kind.unit == unit else _kind_in(unit) or Kind(unit, unit))
+    return Parameter(
+        name, kind if kind is not None and kind.unit == unit else _kind_in(unit) or Kind(unit, unit)
+    )
 
 
 def label_of(name: str) -> str:
@@ -91,11 +105,20 @@ def label_of(name: str) -> str:
 
 def statistics_text(data: dict[str, Any]) -> str:
     """The statistics of the JSON of a fit in one line."""
-    labels = {"rmse": _("root mean square of the residuals"), "r_squared": "R²", "aicc": "AICc", "degrees_of_freedom": _("degrees of freedom"),
-              "points": _("points"), "points_excluded": _("points excluded"), "residual_standard_deviation": _("residual standard deviation"),
-              "condition": _("condition of the normal equations")}  # fmt: skip
+    labels = {
+        "rmse": _("root mean square of the residuals"),
+        "r_squared": "R²",
+        "aicc": "AICc",
+        "degrees_of_freedom": _("degrees of freedom"),
+        "points": _("points"),
+        "points_excluded": _("points excluded"),
+        "residual_standard_deviation": _("residual standard deviation"),
+        "condition": _("condition of the normal equations"),
+    }
     numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
-    return " · ".join(f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers)
+    return " · ".join(
+        f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers
+    )
 
 
 def defaults_text(data: dict[str, Any]) -> str:
@@ -104,7 +127,11 @@ def defaults_text(data: dict[str, Any]) -> str:
 
     thing = registry.everything().get(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
-    shown = [f"{declared[n].label} = {value_text(value, declared[n])}" for n, value in data.get("defaults", {}).items() if n in declared]
+    shown = [
+        f"{declared[n].label} = {value_text(value, declared[n])}"
+        for n, value in data.get("defaults", {}).items()
+        if n in declared
+    ]
     return _("Taken by default: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
 
 
@@ -127,7 +154,9 @@ def ranges_text(data: dict[str, Any]) -> str:
     thing = registry.everything().get(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
     shown = [
-        f"{declared[n].label} {range_text(ends[0], ends[1], declared[n])}" for n, ends in data.get("ranges", {}).items() if n in declared
+        f"{declared[n].label} {range_text(ends[0], ends[1], declared[n])}"
+        for n, ends in data.get("ranges", {}).items()
+        if n in declared
     ]
     return _("Measured at: {conditions}.").format(conditions="; ".join(shown)) if shown else ""
 
@@ -152,7 +181,9 @@ class EstimateRow(NamedTuple):
 def estimate_rows(data: dict[str, Any]) -> list[EstimateRow]:
     """The estimates of the JSON of a fit."""
     groups = [(data["parameters"], False), (data.get("derived", {}), True)]
-    return [_estimate(data["card"], name, row, derived) for rows, derived in groups for name, row in rows.items()]
+    return [
+        _estimate(data["card"], name, row, derived) for rows, derived in groups for name, row in rows.items()
+    ]
 
 
 def _estimate(card: str, name: str, row: dict[str, Any], derived: bool) -> EstimateRow:
@@ -162,7 +193,10 @@ def _estimate(card: str, name: str, row: dict[str, Any], derived: bool) -> Estim
     if figure.kind is not None and row["value"] is not None:
         unit = figure.display_unit(row["value"])
         zero = from_si(0.0, unit, figure.kind)
-        numbers = [None if x is None else float(from_si(x, unit, figure.kind) - (zero if i == 1 else 0.0)) for i, x in enumerate(numbers)]
+        numbers = [
+            None if x is None else float(from_si(x, unit, figure.kind) - (zero if i == 1 else 0.0))
+            for i, x in enumerate(numbers)
+        ]
     value, error, low, high = (_to_figure_of(x, numbers[1]) for x in numbers)
     interval = "" if numbers[2] is None and numbers[3] is None else f"{low} … {high}"
     return EstimateRow(name, label_of(name), value, error, interval, pretty_unit(unit), derived)
@@ -197,7 +231,9 @@ def check_row(check: Any) -> CheckRow:
 
 
 class LimitRow(NamedTuple):
-    """A practical limit of a unit before anything is calculated: what is allowed, and its source spelled out."""
+    """A practical limit of a unit before anything is calculated: what is allowed, and its source spelled
+    out.
+    """
 
     name: str
     allowed: str
@@ -210,8 +246,15 @@ def limit_rows(card: Card) -> list[LimitRow]:
 
 
 def _allowed(limit: Limit, card: Card) -> str:
-    words = [f"{sign} {card.parameter(end).label}" for sign, end in (("≥", limit.low), ("≤", limit.high)) if isinstance(end, str)]
-    low, high = -math.inf if isinstance(limit.low, str) else limit.low, math.inf if isinstance(limit.high, str) else limit.high
+    words = [
+        f"{sign} {card.parameter(end).label}"
+        for sign, end in (("≥", limit.low), ("≤", limit.high))
+        if isinstance(end, str)
+    ]
+    low, high = (
+        -math.inf if isinstance(limit.low, str) else limit.low,
+        math.inf if isinstance(limit.high, str) else limit.high,
+    )
     if math.isfinite(low) or math.isfinite(high):
         tail, (low, high) = _shown(limit.unit, _end(low, high), low, high)
         words.append(_between(low, high) + tail)
@@ -244,7 +287,11 @@ def stream_figures(stream: Any) -> list[tuple[str, str]]:
         (_("pressure"), show(float(stream.pressure), KINDS["Pressure"])),
     ]
     m = stream.mixture
-    phases = (("solid", m.solids, stream.solid_by_species), ("liquid", m.liquids, stream.liquid), ("gas", m.gases, stream.gas))
+    phases = (
+        ("solid", m.solids, stream.solid_by_species),
+        ("liquid", m.liquids, stream.liquid),
+        ("gas", m.gases, stream.gas),
+    )
     for phase, species, flows in phases:
         for one, flow in zip(species, np.asarray(flows), strict=True):
             if flow > 0.0:
@@ -264,10 +311,16 @@ def stream_table(run: Any) -> StreamTable:
     flow, length, degrees = (KINDS[name] for name in ("MassFlow", "Length", "Temperature"))
     streams = run.streams
     phases = {_("solid"): "solid_flow", _("liquid"): "liquid_flow", _("gas"): "gas_flow"}
-    columns = [(label, flow, [float(getattr(s, name)) for s in streams.values()]) for label, name in phases.items()]
+    columns = [
+        (label, flow, [float(getattr(s, name)) for s in streams.values()]) for label, name in phases.items()
+    ]
     columns.append(("T", degrees, [float(s.temperature) for s in streams.values()]))
-    columns.append(("d50", length, [np.nan if (d := median_size(s)) is None else float(d) for s in streams.values()]))
-    shared = Parameter("mass_flow", flow).display_unit([x for _label, kind, column in columns if kind is flow for x in column])
+    columns.append(
+        ("d50", length, [np.nan if (d := median_size(s)) is None else float(d) for s in streams.values()])
+    )
+    shared = Parameter("mass_flow", flow).display_unit(
+        [x for _label, kind, column in columns if kind is flow for x in column]
+    )
     heads, cells = [], []
     for label, kind, values in columns:
         unit = shared if kind is flow else Parameter("", kind).display_unit(values)

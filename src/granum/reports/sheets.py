@@ -15,12 +15,28 @@ from granum.core.i18n import _
 def table_rows(run: Any) -> dict[str, list[list[Any]]]:
     """The two tables of a solved line, SI units: streams and unit results."""
     data = run.as_json()
-    species = [(phase, name) for phase in ("solid", "liquid", "gas") for name in next(iter(data["streams"].values()))[phase]]
+    species = [
+        (phase, name)
+        for phase in ("solid", "liquid", "gas")
+        for name in next(iter(data["streams"].values()))[phase]
+    ]
     streams: list[list[Any]] = [
-        ["stream", "mass_flow [kg/s]", "temperature [K]", "pressure [Pa]", *(f"{p}: {n} [kg/s]" for p, n in species)]
+        [
+            "stream",
+            "mass_flow [kg/s]",
+            "temperature [K]",
+            "pressure [Pa]",
+            *(f"{p}: {n} [kg/s]" for p, n in species),
+        ]
     ]
     for name, s in data["streams"].items():
-        streams.append([name, *(s[k]["value"] for k in ("mass_flow", "temperature", "pressure")), *(s[p][n] for p, n in species)])
+        streams.append(
+            [
+                name,
+                *(s[k]["value"] for k in ("mass_flow", "temperature", "pressure")),
+                *(s[p][n] for p, n in species),
+            ]
+        )
     results: list[list[Any]] = [["unit", "model", "result", "value", "unit of value"]]
     for unit, row in data["units"].items():
         for name, figure in row["results"].items():
@@ -51,4 +67,6 @@ def write_tables(run: Any, path: Path) -> None:
         book.save(data)
         write_atomic(path, data.getvalue())
     else:
-        raise InputError(_("'{path}': tables are written as .csv or .xlsx.").format(path=path), path=str(path))
+        raise InputError(
+            _("'{path}': tables are written as .csv or .xlsx.").format(path=path), path=str(path)
+        )

@@ -86,7 +86,12 @@ def print_result(result: Result) -> None:
             continue  # not given
         origin = _("default") if p.name in result.defaults else result.origins.get(p.name)
         label = f"{p.label} ({origin})" if origin else p.label
-        table.add_row(label, text_symbol(p.term.symbol) if p.term else "", value_text(result.inputs[p.name], p), style="dim")
+        table.add_row(
+            label,
+            text_symbol(p.term.symbol) if p.term else "",
+            value_text(result.inputs[p.name], p),
+            style="dim",
+        )
     columns, rows = result.ranking or ([], [])
     for p in result.card.outputs:
         if p not in columns:
@@ -111,12 +116,20 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
     console, data = _console(), found.as_json()
     console.print(Text(data["card"], style="bold"))
     table = _table(
-        (_("parameter"), "left"), (_("value"), "right"), (_("standard error"), "right"), (_("95 % interval"), "right"), (_("unit"), "left")
+        (_("parameter"), "left"),
+        (_("value"), "right"),
+        (_("standard error"), "right"),
+        (_("95 % interval"), "right"),
+        (_("unit"), "left"),
     )
     for row in estimate_rows(data):
-        table.add_row(row.label, row.value, row.error, row.interval, row.unit, style="dim" if row.derived else None)
+        table.add_row(
+            row.label, row.value, row.error, row.interval, row.unit, style="dim" if row.derived else None
+        )
     console.print(table)
-    for line in filter(None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))):
+    for line in filter(
+        None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))
+    ):
         console.print(Text(line, style="dim"))
     for flag in data["flags"]:
         console.print(Text("! " + (flag["message"] if isinstance(flag, dict) else str(flag)), style=CAUTION))
@@ -126,30 +139,48 @@ def print_fit(found: Any, saved: Path | None = None) -> None:
 
 def _error_text(value: float, figure: Parameter) -> str:
     """A standard error: a difference, so a temperature keeps its kelvins."""
-    return f"{format_number(value, 3)} K" if figure.kind and figure.kind.unit == "K" else value_text(value, figure)
+    return (
+        f"{format_number(value, 3)} K"
+        if figure.kind and figure.kind.unit == "K"
+        else value_text(value, figure)
+    )
 
 
 def print_next(told: dict[str, Any], found: Any) -> None:
     """Where the next measurement tells most."""
-    place = "; ".join(f"{label_of(name)} = {value_text(row['value'], figure_named(name, row['unit']))}" for name, row in told["at"].items())
+    place = "; ".join(
+        f"{label_of(name)} = {value_text(row['value'], figure_named(name, row['unit']))}"
+        for name, row in told["at"].items()
+    )
     units = {name: estimate.unit for name, estimate in found.parameters.items()}
     errors = "; ".join(
-        f"{label_of(name)} ± {_error_text(value, figure_named(name, units[name]))}" for name, value in told["standard_errors"].items()
+        f"{label_of(name)} ± {_error_text(value, figure_named(name, units[name]))}"
+        for name, value in told["standard_errors"].items()
     )
     console = _console()
-    console.print(_("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
-        place=place, share=format_number(100 * told["shrinkage"], 3)))  # fmt: skip
+    console.print(
+        _("Next measurement: {place}. It shrinks the confidence region to {share} % of its size.").format(
+            place=place, share=format_number(100 * told["shrinkage"], 3)
+        )
+    )
     console.print(Text(_("Expected standard errors: {errors}").format(errors=errors), style="dim"))
 
 
 def print_list(cards: Sequence[Card]) -> None:
-    """The outcome of ``granum list``: one line a card, whole where the output goes to a file or another program."""
+    """The outcome of ``granum list``: one line a card, whole where the output goes to a file or another
+    program.
+    """
     console = _console()
     width = max((len(card.key) for card in cards), default=0)
     for card in cards:
         sort = "" if card.sort == "formula" else f" ({_(card.sort)})"
         line = Text.assemble((card.key.ljust(width), "bold"), "  ", card.title, (sort, "dim"))
-        console.print(line, no_wrap=True, overflow="ellipsis" if console.is_terminal else "ignore", crop=console.is_terminal)
+        console.print(
+            line,
+            no_wrap=True,
+            overflow="ellipsis" if console.is_terminal else "ignore",
+            crop=console.is_terminal,
+        )
     console.print(_("{count} cards").format(count=len(cards)))
 
 
@@ -161,14 +192,29 @@ def print_card(card: Card) -> None:
     table = _table((_("input"), "left"), (_("quantity, units, allowed values, default"), "left"))
     table.columns[0].no_wrap = True
     for p in card.inputs.values():
-        allowed = ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
-        default = _("required") if p.required else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
-        table.add_row(p.name, " · ".join(filter(None, (p.label, ", ".join(filter(None, map(pretty_unit, p.units[:3]))), allowed, default))))
+        allowed = (
+            ", ".join(map(str, p.choices)) if p.choices else (f"{_('law')}: {p.law}" if p.law else _bounds(p))
+        )
+        default = (
+            _("required")
+            if p.required
+            else ("" if p.default is None else f"{_('default')} {value_text(p.default, p)}")
+        )
+        table.add_row(
+            p.name,
+            " · ".join(
+                filter(
+                    None, (p.label, ", ".join(filter(None, map(pretty_unit, p.units[:3]))), allowed, default)
+                )
+            ),
+        )
     console.print(table)
     if card.outputs:
         table = _table((_("output"), "left"), (_("quantity, unit"), "left"))
         for p in card.outputs:
-            table.add_row(p.name, " · ".join(filter(None, (p.label, pretty_unit(p.kind.unit) if p.kind else ""))))
+            table.add_row(
+                p.name, " · ".join(filter(None, (p.label, pretty_unit(p.kind.unit) if p.kind else "")))
+            )
         console.print(table)
     for name, ends in card.fitted.items():
         if name not in card.inputs:  # of a result, or of a number worked out on the way
@@ -198,12 +244,17 @@ def _bounds(p: Parameter) -> str:
 
 
 def _fitted(ends: tuple[float, float], kind: Kind | None) -> str:
-    low, high = ("−∞" if x == -np.inf else "∞" if x == np.inf else show(x, kind) if kind else format_number(x) for x in ends)
+    low, high = (
+        "−∞" if x == -np.inf else "∞" if x == np.inf else show(x, kind) if kind else format_number(x)
+        for x in ends
+    )
     return _("fitted {low} … {high}").format(low=low, high=high)
 
 
 def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -> None:
-    """The outcome of ``granum run``: streams, units with results and checks, audit, flags; ``partial`` says that it is no solution."""
+    """The outcome of ``granum run``: streams, units with results and checks, audit, flags; ``partial`` says
+    that it is no solution.
+    """
     console = _console()
     console.print(Text(outcome.title, style="bold"))
     if partial:

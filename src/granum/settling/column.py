@@ -1,9 +1,10 @@
 """One-dimensional hindered settling with compression in batch columns and continuous clarifier-thickeners.
 
-The scheme of Bürger, Diehl and co-workers: Godunov flux for settling, upwind bulk flow, central differences of the
-primitive of the compression diffusivity, explicit steps at the limit of stability, compression in several short ones per step. It is monotone and conservative:
-shocks and fans appear where they must, concentrations stay between zero and the packed limit, and the mass of solids
-closes to rounding. First order in the cell size.
+The scheme of Bürger, Diehl and co-workers: Godunov flux for settling, upwind bulk flow, central differences
+of the primitive of the compression diffusivity, explicit steps at the limit of stability, compression in
+several short ones per step. It is monotone and conservative: shocks and fans appear where they must,
+concentrations stay between zero and the packed limit, and the mass of solids closes to rounding. First order
+in the cell size.
 """
 
 from __future__ import annotations
@@ -23,9 +24,12 @@ from granum.core.i18n import _
 from granum.settling.flux import least
 
 COURANT = 0.98  # of a cell crossed in one step
-BED_COURANT = 0.4  # the same where compression acts too: what flows out and what is squeezed out together stay below what is there
+# the same where compression acts too: what flows out and what is squeezed out together stay below what is
+# there
+BED_COURANT = 0.4
 FRONT = 3  # cells above and below a front within which it is smeared
-FADE = 0.05  # of the packed concentration: a law that has no limit of its own is brought to zero over this last stretch
+# of the packed concentration: a law that has no limit of its own is brought to zero over this last stretch
+FADE = 0.05
 
 
 class Suspension(eqx.Module):
@@ -36,7 +40,8 @@ class Suspension(eqx.Module):
     settling: settling velocity against concentration.
     compression: effective stress against concentration; None for none.
     solid_density, liquid_density: kg/m³, for the buoyant weight that compresses.
-    packed_concentration: kg/m³, where solids no longer move against each other; the solid density when not given.
+    packed_concentration: kg/m³, where solids no longer move against each other; the solid density when not
+        given.
     """
 
     settling: Any
@@ -74,11 +79,17 @@ class Suspension(eqx.Module):
         """Concentration of the greatest settling flux."""
         share = jnp.geomspace(1e-4, 1.0, 400)
         best = share[jnp.argmax(self.flux(share * self.packed))] * self.packed
-        return lax.stop_gradient(least(lambda C: -self.flux(C), 0.97 * best, jnp.minimum(1.03 * best, self.packed))[1])
+        return lax.stop_gradient(
+            least(lambda C: -self.flux(C), 0.97 * best, jnp.minimum(1.03 * best, self.packed))[1]
+        )
 
     def fastest(self) -> tuple[Any, Any, Any]:
-        """Greatest speed of a wave, m/s, the same where the bed is compressed, and greatest compression diffusivity, m²/s."""
-        C = self.packed * jnp.concatenate([jnp.zeros(1), jnp.geomspace(1e-5, 1.0, 800), jnp.linspace(1 - FADE, 1.0, 40)])
+        """Greatest speed of a wave, m/s, the same where the bed is compressed, and greatest compression
+        diffusivity, m²/s.
+        """
+        C = self.packed * jnp.concatenate(
+            [jnp.zeros(1), jnp.geomspace(1e-5, 1.0, 800), jnp.linspace(1 - FADE, 1.0, 40)]
+        )
         speed = jnp.abs(jax.jvp(self.flux, (C,), (jnp.ones_like(C),))[1])
         if self.compression is None:
             return jnp.max(speed), jnp.zeros(()), jnp.zeros(())
@@ -87,20 +98,26 @@ class Suspension(eqx.Module):
         return jnp.max(speed), slow, jnp.max(self.velocity(bed) * self.stiffness(bed))
 
     def check(self) -> None:
-        """Raise when the flux has more than one hump, for which this scheme's flux is not made; only for known numbers."""
+        """Raise when the flux has more than one hump, for which this scheme's flux is not made; only for
+        known numbers.
+        """
         if any(is_tracer(leaf) for leaf in jax.tree.leaves(self)):
             return
         f = np.asarray(self.flux(jnp.geomspace(1e-4, 1.0, 1500) * self.packed))
         turns = np.diff(np.sign(np.diff(f)[np.abs(np.diff(f)) > 1e-12 * f.max()]))
         if np.count_nonzero(turns) > 1:
             raise ApplicabilityError(
-                _("The settling flux of this law rises and falls more than once below {limit} kg/m³; give a lower 'packed_concentration'.")
-                .format(limit=round(float(self.packed), 3))
-            )  # fmt: skip
+                _(
+                    "The settling flux of this law rises and falls more than once below {limit} kg/m³; "
+                    "give a lower 'packed_concentration'."
+                ).format(limit=round(float(self.packed), 3))
+            )
 
 
 class Operation(NamedTuple):
-    """What is done with a column, piecewise constant: one value per interval between the times, volume flows per area in m/s."""
+    """What is done with a column, piecewise constant: one value per interval between the times, volume flows
+    per area in m/s.
+    """
 
     times: Any
     feed_velocity: Any
@@ -145,8 +162,9 @@ class Simulation(eqx.Module):
     def interface_height(self, threshold: Any) -> Any:
         """Height above the bottom of the first crossing of a concentration from the top, one per time.
 
-        The front is where two even layers, of the concentrations just above and just below, would hold the solids of the
-        cells around the crossing: a front smeared over them, or one that fills part of a cell, is placed without bias.
+        The front is where two even layers, of the concentrations just above and just below, would hold the
+        solids of the cells around the crossing: a front smeared over them, or one that fills part of a cell,
+        is placed without bias.
         """
         cell = self.depths[1] - self.depths[0]
         bottom = self.depths[-1] + 0.5 * cell
@@ -194,18 +212,26 @@ class Cone(NamedTuple):
 
 
 def simulate(
-    suspension: Suspension, depth: Any, initial: Any, operation: Operation, *, feed_depth: Any = 0.5, steps: Steps | None = None,
+    suspension: Suspension,
+    depth: Any,
+    initial: Any,
+    operation: Operation,
+    *,
+    feed_depth: Any = 0.5,
+    steps: Steps | None = None,
     cone: Cone | None = None,
-) -> Simulation:  # fmt: skip
+) -> Simulation:
     """Follow a column through an operation.
 
     Parameters
     ----------
-    depth: of the column, m. ``initial``: concentration of the cells from the top, kg/m³; its length is the number of cells.
+    depth: of the column, m. ``initial``: concentration of the cells from the top, kg/m³; its length is the
+        number of cells.
     operation: times (edges of the intervals, s) and what is done in each.
     feed_depth: share of the depth at which the feed enters.
-    steps: whole numbers of time steps; as many as stability asks for when not given. Fix them (see ``steps_needed``) for
-        ``vmap`` and for reverse-mode derivatives; forward-mode derivatives need nothing.
+    steps: whole numbers of time steps; as many as stability asks for when not given. Fix them (see
+        ``steps_needed``) for ``vmap`` and for reverse-mode derivatives; forward-mode derivatives need
+        nothing.
     cone: narrowing of the lower part; flows stay those per area at the top.
     """
     suspension.check()
@@ -217,13 +243,27 @@ def simulate(
 
 
 def settle(
-    suspension: Suspension, height: Any, concentration: Any, times: Any, *, cells: int = 100, steps: Steps | None = None
+    suspension: Suspension,
+    height: Any,
+    concentration: Any,
+    times: Any,
+    *,
+    cells: int = 100,
+    steps: Steps | None = None,
 ) -> Simulation:
-    """Batch settling of a uniform suspension of a height and concentration, at given times (the first being the start)."""
+    """Batch settling of a uniform suspension of a height and concentration, at given times (the first being
+    the start).
+    """
     intervals = jnp.shape(jnp.asarray(times))[0] - 1
     still = jnp.zeros(intervals)
     initial = jnp.broadcast_to(jnp.asarray(concentration, dtype=float), (cells,))
-    return simulate(suspension, height, initial, Operation(jnp.asarray(times, dtype=float), still, still, still), steps=steps)
+    return simulate(
+        suspension,
+        height,
+        initial,
+        Operation(jnp.asarray(times, dtype=float), still, still, still),
+        steps=steps,
+    )
 
 
 class Steps(NamedTuple):
@@ -233,20 +273,36 @@ class Steps(NamedTuple):
     compression: Any
 
 
-def steps_needed(suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None = None) -> Steps:
+def steps_needed(
+    suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None = None
+) -> Steps:
     """Steps that keep the scheme monotone in every interval."""
-    return Steps(*(jnp.ceil(jnp.max(count)).astype(int) for count in _steps_by_interval(suspension, depth, cells, operation, cone)))
+    return Steps(
+        *(
+            jnp.ceil(jnp.max(count)).astype(int)
+            for count in _steps_by_interval(suspension, depth, cells, operation, cone)
+        )
+    )
 
 
-def _steps_by_interval(suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None) -> Steps:
-    """Steps as real numbers: the last one is shorter, so that a course has no jumps where a parameter asks for one step more."""
+def _steps_by_interval(
+    suspension: Suspension, depth: Any, cells: int, operation: Operation, cone: Cone | None
+) -> Steps:
+    """Steps as real numbers: the last one is shorter, so that a course has no jumps where a parameter asks
+    for one step more.
+    """
     speed, dense_speed, spread = suspension.fastest()
     size = depth / cells
     span, bulk = jnp.diff(operation.times), jnp.max(operation.feed_velocity)
     if cone is not None:
         faces, areas = cone.areas(cells)
         wider = jnp.max(faces[:-1] / areas)
-        speed, dense_speed, spread, bulk = speed * wider, dense_speed * wider, spread * wider, bulk / jnp.min(areas)
+        speed, dense_speed, spread, bulk = (
+            speed * wider,
+            dense_speed * wider,
+            spread * wider,
+            bulk / jnp.min(areas),
+        )
     crossed = jnp.maximum((speed + bulk) / COURANT, (dense_speed + bulk) / BED_COURANT)
     steps = jnp.maximum(span * crossed / size, 1.0)
     return Steps(steps, jnp.maximum(2.0 * spread * span / (steps * size**2), 1.0))
@@ -263,7 +319,13 @@ def _whole(count: Any) -> Any:
 
 @eqx.filter_jit
 def _run(
-    suspension: Suspension, depth: Any, initial: Any, operation: Operation, feed_depth: Any, steps: Steps | None, cone: Cone | None
+    suspension: Suspension,
+    depth: Any,
+    initial: Any,
+    operation: Operation,
+    feed_depth: Any,
+    steps: Steps | None,
+    cone: Cone | None,
 ) -> Simulation:
     cells = initial.shape[0]
     wide: Any
@@ -282,7 +344,11 @@ def _run(
     critical = jnp.asarray(0.0 if compression is None else compression.critical_concentration, dtype=float)
     at_critical = 0.0 if compression is None else velocity(critical)
     # Whole numbers that are given stay outside the scan: a loop of known length has reverse-mode derivatives.
-    counts = lax.stop_gradient(_steps_by_interval(suspension, depth, cells, operation, cone)) if steps is None else None
+    counts = (
+        lax.stop_gradient(_steps_by_interval(suspension, depth, cells, operation, cone))
+        if steps is None
+        else None
+    )
 
     def interval(carry: Any, given: Any) -> Any:
         stable, span, q, qu, Cf = given
@@ -294,28 +360,50 @@ def _run(
         def step(i: Any, C: Any) -> Any:
             share = span * _part(i, count.steps) / size
             down, up, source = share * downward, share * upward, share * fed_here
-            # The first and the last element are not cells: they gather what left over the weir and with the underflow.
+            # The first and the last element are not cells: they gather what left over the weir and with the
+            # underflow.
             v = velocity(C)
             f = C * v
             supply, demand = jnp.where(peak > C, f, top_flux), jnp.where(peak < C, f, top_flux)
-            inner = share * inner_wide * jnp.minimum(supply[1:-2], demand[2:-1]) + down[1:-1] * C[1:-2] + up[1:-1] * C[2:-1]
-            # Joined from pieces, so that the compiler computes each face once and not anew for every neighbor.
+            inner = (
+                share * inner_wide * jnp.minimum(supply[1:-2], demand[2:-1])
+                + down[1:-1] * C[1:-2]
+                + up[1:-1] * C[2:-1]
+            )
+            # Joined from pieces, so that the compiler computes each face once and not anew for every
+            # neighbor.
             faces = jnp.concatenate([up[:1] * C[1:2], inner, down[-1:] * C[-2:-1]])
             change = (source + jnp.concatenate([-faces[:1], faces[:-1] - faces[1:], faces[-1:]])) / roomy
             if compression is None:
                 return C + change
-            # Compression takes several short steps, each with its share of the change by flow, so that steady states are
-            # exact; its coefficient is kept meanwhile, but not what lies above the critical concentration: the top of a bed
+            # Compression takes several short steps, each with its share of the change by flow, so that steady
+            # states are
+            # exact; its coefficient is kept meanwhile, but not what lies above the critical concentration:
+            # the top of a bed
             # would come and go from step to step and never rest.
-            # Where the bed is at rest the velocity cancels against that of the settling flux, which is the one of the denser
+            # Where the bed is at rest the velocity cancels against that of the settling flux, which is the
+            # one of the denser
             # cell: taken alike here, the bed does not stand too high on coarse grids.
-            stiff, slow = suspension.stiffness(jnp.maximum(C, critical)), jnp.where(critical < C, v, at_critical)
-            spread = 0.5 * share / size * wide * inside * jnp.minimum(slow[1:], slow[:-1]) * (stiff[1:] + stiff[:-1])
+            stiff, slow = (
+                suspension.stiffness(jnp.maximum(C, critical)),
+                jnp.where(critical < C, v, at_critical),
+            )
+            spread = (
+                0.5
+                * share
+                / size
+                * wide
+                * inside
+                * jnp.minimum(slow[1:], slow[:-1])
+                * (stiff[1:] + stiff[:-1])
+            )
 
             def compress(j: Any, C: Any) -> Any:
                 bed = jnp.maximum(C, critical)
                 rise = spread * (bed[1:] - bed[:-1])
-                return C + _part(j, count.compression) * (change + (jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))) / roomy)
+                return C + _part(j, count.compression) * (
+                    change + (jnp.pad(rise, (0, 1)) - jnp.pad(rise, (1, 0))) / roomy
+                )
 
             return lax.fori_loop(0, _whole(count.compression), compress, C)
 
@@ -324,7 +412,10 @@ def _run(
         gone_over, gone_under = state[0] * size, state[-1] * size
         after = (state[1:-1], over + gone_over, under + gone_under, fed + q * Cf * span)
         qe = q - qu
-        means = (gone_over / jnp.where(qe > 0, qe * span, jnp.inf), gone_under / jnp.where(qu > 0, qu * span, jnp.inf))
+        means = (
+            gone_over / jnp.where(qe > 0, qe * span, jnp.inf),
+            gone_under / jnp.where(qu > 0, qu * span, jnp.inf),
+        )
         return after, (after, means)
 
     spans = jnp.diff(operation.times)
@@ -334,4 +425,6 @@ def _run(
     _last, (states, means) = lax.scan(interval, first, (counts, spans, *given))
     course = jax.tree.map(lambda a, b: jnp.concatenate([a[None], b]), first, states)
     depths = (jnp.arange(cells) + 0.5) * size
-    return Simulation(operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3], areas)
+    return Simulation(
+        operation.times, depths, course[0], means[0], means[1], course[1], course[2], course[3], areas
+    )

@@ -1,7 +1,8 @@
-"""Compression of a settled bed: effective stress of the solids network, the laws of the family ``solids_stress``.
+"""Compression of a settled bed: effective stress of the solids network, the laws of the family
+``solids_stress``.
 
-Above a critical concentration flocs touch and carry weight. A law gives the slope of the effective stress with
-concentration; the bed spreads with the diffusivity ``d = v ρ_s σ'/(g Δρ)``.
+Above a critical concentration flocs touch and carry weight. A law gives the slope of the effective stress
+with concentration; the bed spreads with the diffusivity ``d = v ρ_s σ'/(g Δρ)``.
 """
 
 from __future__ import annotations
@@ -17,9 +18,12 @@ from granum.numerics import safe_power
 
 
 @law(
-    "solids_stress", name="logarithmic_stress", source="burger2011; declercq2008",
-    equation=r"\sigma_e = \alpha\,\ln\frac{C - C_c + \beta}{\beta},\quad C > C_c", title="Logarithmic effective stress",
-)  # fmt: skip
+    "solids_stress",
+    name="logarithmic_stress",
+    source="burger2011; declercq2008",
+    equation=r"\sigma_e = \alpha\,\ln\frac{C - C_c + \beta}{\beta},\quad C > C_c",
+    title="Logarithmic effective stress",
+)
 class LogarithmicStress(eqx.Module):
     """Effective stress of activated sludge growing as a logarithm above the critical concentration.
 
@@ -42,9 +46,12 @@ class LogarithmicStress(eqx.Module):
 
 
 @law(
-    "solids_stress", name="power_stress", source="burger2000",
-    equation=r"\sigma_e = \sigma_0\left[(C/C_c)^m - 1\right],\quad C > C_c", title="Power-law effective stress",
-)  # fmt: skip
+    "solids_stress",
+    name="power_stress",
+    source="burger2000",
+    equation=r"\sigma_e = \sigma_0\left[(C/C_c)^m - 1\right],\quad C > C_c",
+    title="Power-law effective stress",
+)
 class PowerStress(eqx.Module):
     """Effective stress of mineral slurries growing as a power above the critical (gel) concentration.
 
@@ -66,4 +73,9 @@ class PowerStress(eqx.Module):
     def slope(self, concentration: Any) -> Any:
         """``dσ/dC`` just above the given concentration, which is at least the critical one, m²/s²."""
         ratio = concentration / self.critical_concentration
-        return self.stress_scale * self.stress_exponent / self.critical_concentration * safe_power(ratio, self.stress_exponent - 1.0)
+        return (
+            self.stress_scale
+            * self.stress_exponent
+            / self.critical_concentration
+            * safe_power(ratio, self.stress_exponent - 1.0)
+        )

@@ -1,8 +1,9 @@
-"""Solids-flux theory of a continuous thickener: limiting flux, state point, steady state of the ideal (Kynch) unit.
+"""Solids-flux theory of a continuous thickener: limiting flux, state point, steady state of the ideal (Kynch)
+unit.
 
-The flux of solids through a layer of the thickening zone is ``f(C) + q C``: settling and withdrawal. Whatever layer
-between the feed and the underflow passes least decides. That one statement holds Coe–Clevenger's greatest area,
-Yoshioka's tangent, Keinath's state point and Diehl's steady states.
+The flux of solids through a layer of the thickening zone is ``f(C) + q C``: settling and withdrawal. Whatever
+layer between the feed and the underflow passes least decides. That one statement holds Coe–Clevenger's
+greatest area, Yoshioka's tangent, Keinath's state point and Diehl's steady states.
 """
 
 from __future__ import annotations
@@ -19,7 +20,11 @@ from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Rati
 SAMPLES = 400
 MORE_BELOW = "The underflow would take more than the feed brings."
 Settling = Annotated[Any, Law("settling_velocity")]
-_SLUDGE = {"solids_concentration": (1.0, 10.0), "feed_concentration": (2.0, 4.0), "underflow_concentration": (6.0, 12.0)}
+_SLUDGE = {
+    "solids_concentration": (1.0, 10.0),
+    "feed_concentration": (2.0, 4.0),
+    "underflow_concentration": (6.0, 12.0),
+}
 
 
 def settling_flux(concentration: Any, settling: Any) -> Any:
@@ -28,9 +33,11 @@ def settling_flux(concentration: Any, settling: Any) -> Any:
 
 
 def least(function: Any, lower: Any, upper: Any) -> tuple[Any, Any]:
-    """Smallest value of an elementwise function on ``[lower, upper]`` and where it is, the best of a fine scan refined.
+    """Smallest value of an elementwise function on ``[lower, upper]`` and where it is, the best of a fine
+    scan refined.
 
-    The last Newton step on the slope is the one that carries derivatives: value and place have exact first derivatives.
+    The last Newton step on the slope is the one that carries derivatives: value and place have exact first
+    derivatives.
     """
     low, high = jnp.asarray(lower, dtype=float), jnp.asarray(upper, dtype=float)
     share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((SAMPLES,) + (1,) * jnp.ndim(low + high))
@@ -60,15 +67,21 @@ def least(function: Any, lower: Any, upper: Any) -> tuple[Any, Any]:
     curvature = lax.stop_gradient(jax.jvp(slope, (middle,), (jnp.ones_like(middle),))[1])
     step = slope(middle) / jnp.where(curvature > 0, curvature, jnp.inf)
     middle = jnp.clip(middle - jnp.where(jnp.abs(step) < 1e-3 * (high - low), step, 0.0), low, high)
-    # The ends belong to the interval, and the best of a scan may lie on one; there the end itself moves with its own derivative.
-    candidates = jnp.stack([jnp.broadcast_to(low, middle.shape), middle, jnp.broadcast_to(high, middle.shape)])
+    # The ends belong to the interval, and the best of a scan may lie on one; there the end itself moves with
+    # its own derivative.
+    candidates = jnp.stack(
+        [jnp.broadcast_to(low, middle.shape), middle, jnp.broadcast_to(high, middle.shape)]
+    )
     found = function(candidates)
     which = jnp.argmin(found, axis=0)[None]
     return jnp.take_along_axis(found, which, axis=0)[0], jnp.take_along_axis(candidates, which, axis=0)[0]
 
 
-def passing_flux(feed_concentration: Any, underflow_velocity: Any, settling: Any, densest: Any) -> tuple[Any, Any]:
-    """Greatest flux that a thickening zone passes at an underflow velocity, and the concentration of the layer that limits it.
+def passing_flux(
+    feed_concentration: Any, underflow_velocity: Any, settling: Any, densest: Any
+) -> tuple[Any, Any]:
+    """Greatest flux that a thickening zone passes at an underflow velocity, and the concentration of the
+    layer that limits it.
 
     The minimum of ``f + q C`` over all layers from the feed concentration up.
     """
@@ -98,21 +111,32 @@ class StatePoint(NamedTuple):
 def solids_flux_settling(solids_concentration: Concentration, settling: Settling = "takacs") -> MassFlux:
     """Flux of solids by settling alone: concentration times settling velocity.
 
-    >>> round(solids_flux_settling(2.0, {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}) * 3600, 4)
+    >>> round(
+    ...     solids_flux_settling(
+    ...         2.0, {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}
+    ...     )
+    ...     * 3600,
+    ...     4,
+    ... )
     3.6788
     """
     return settling_flux(solids_concentration, settling)
 
 
-@formula(source="yoshioka1957; jernqvist1965", equation=r"G_L = \min_{C_F \le C < C_u} \frac{C\,v(C)}{1 - C/C_u}", typical=_SLUDGE,
-         title="Limiting flux for an underflow concentration")  # fmt: skip
+@formula(
+    source="yoshioka1957; jernqvist1965",
+    equation=r"G_L = \min_{C_F \le C < C_u} \frac{C\,v(C)}{1 - C/C_u}",
+    typical=_SLUDGE,
+    title="Limiting flux for an underflow concentration",
+)
 def limiting_flux_underflow(
     underflow_concentration: Concentration, feed_concentration: Concentration, settling: Settling = "takacs"
 ) -> Limit:
-    """Greatest solids flux that a thickener can bring to an underflow concentration: Yoshioka's tangent, found numerically.
+    """Greatest solids flux that a thickener can bring to an underflow concentration: Yoshioka's tangent,
+    found numerically.
 
-    Inside the range the limiting layer is where a line from the underflow concentration touches the flux curve; otherwise it is
-    the feed layer itself. The same minimum is Coe and Clevenger's greatest unit area.
+    Inside the range the limiting layer is where a line from the underflow concentration touches the flux
+    curve; otherwise it is the feed layer itself. The same minimum is Coe and Clevenger's greatest unit area.
 
     >>> sludge = {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}
     >>> limit = limiting_flux_underflow(10.0, 2.5, sludge)
@@ -132,8 +156,12 @@ def limiting_flux_underflow(
     return Limit(jnp.where(possible, value, jnp.nan), jnp.where(possible, where, jnp.nan))
 
 
-@formula(source="jernqvist1965; diehl2001", equation=r"G_L = \min_{C \ge C_F} \left[C\,v(C) + q_u C\right]", typical=_SLUDGE,
-         title="Limiting flux at an underflow velocity")  # fmt: skip
+@formula(
+    source="jernqvist1965; diehl2001",
+    equation=r"G_L = \min_{C \ge C_F} \left[C\,v(C) + q_u C\right]",
+    typical=_SLUDGE,
+    title="Limiting flux at an underflow velocity",
+)
 def limiting_flux_withdrawal(
     underflow_velocity: Speed,
     feed_concentration: Concentration,
@@ -154,7 +182,8 @@ def limiting_flux_withdrawal(
 def steady_state(
     feed_concentration: Any, feed_velocity: Any, underflow_velocity: Any, settling: Any, densest: Any
 ) -> tuple[Any, Any, Any, Any]:
-    """Ideal continuous thickener at rest: flux to the underflow, concentrations of underflow and overflow, limiting layer.
+    """Ideal continuous thickener at rest: flux to the underflow, concentrations of underflow and overflow,
+    limiting layer.
 
     Velocities are volume flows per area. What the thickening zone cannot pass leaves with the overflow.
     """
@@ -166,9 +195,13 @@ def steady_state(
     return down, down / underflow_velocity, jnp.where(over > 0, (applied - down) / safe, 0.0), where
 
 
-@formula(source="keinath1985; diehl2001", equation=r"C_F\frac{Q_F}{A} \le \min_{C \ge C_F}\left[C v(C) + \frac{Q_u}{A} C\right]",
-         title="State point of a clarifier or thickener",
-         typical=_SLUDGE | {"volume_flow": (0.1, 0.3), "underflow_volume_flow": (0.04, 0.09), "area": (500.0, 1500.0)})  # fmt: skip
+@formula(
+    source="keinath1985; diehl2001",
+    equation=r"C_F\frac{Q_F}{A} \le \min_{C \ge C_F}\left[C v(C) + \frac{Q_u}{A} C\right]",
+    title="State point of a clarifier or thickener",
+    typical=_SLUDGE
+    | {"volume_flow": (0.1, 0.3), "underflow_volume_flow": (0.04, 0.09), "area": (500.0, 1500.0)},
+)
 def state_point_clarifier(
     volume_flow: VolumeFlow,
     feed_concentration: Concentration,
@@ -177,18 +210,30 @@ def state_point_clarifier(
     concentration_maximum: Concentration = 100.0,
     settling: Settling = "takacs",
 ) -> StatePoint:
-    """State point of a clarifier or thickener: loading of both zones and the steady state an ideal unit settles at.
+    """State point of a clarifier or thickener: loading of both zones and the steady state an ideal unit
+    settles at.
 
-    ``volume_flow`` is the whole feed, recycle included. A loading ratio above one means that the thickening zone is overloaded:
-    the blanket rises until the excess leaves over the weir. A clarification ratio above one means that feed-strength suspension
-    settles slower than the overflow rises.
+    ``volume_flow`` is the whole feed, recycle included. A loading ratio above one means that the thickening
+    zone is overloaded: the blanket rises until the excess leaves over the weir. A clarification ratio above
+    one means that feed-strength suspension settles slower than the overflow rises.
 
     >>> sludge = {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}
     >>> state = state_point_clarifier("800 m^3/hour", 2.5, "300 m^3/hour", "1000 m^2", settling=sludge)
-    >>> round(state.underflow_concentration, 4), round(state.overflow_concentration, 6), round(state.loading_ratio, 3)
+    >>> (
+    ...     round(state.underflow_concentration, 4),
+    ...     round(state.overflow_concentration, 6),
+    ...     round(state.loading_ratio, 3),
+    ... )
     (6.6667, 0.0, 0.639)
     """
-    impossible(underflow_volume_flow > volume_flow, underflow_volume_flow, "underflow_volume_flow", 0.0, volume_flow, MORE_BELOW)
+    impossible(
+        underflow_volume_flow > volume_flow,
+        underflow_volume_flow,
+        "underflow_volume_flow",
+        0.0,
+        volume_flow,
+        MORE_BELOW,
+    )
     q, qu = volume_flow / area, underflow_volume_flow / area
     C, top = jnp.asarray(feed_concentration), jnp.asarray(concentration_maximum)
     _down, Cu, Ce, where = steady_state(C, q, qu, settling, jnp.maximum(top, C))
@@ -196,10 +241,17 @@ def state_point_clarifier(
     return StatePoint(q * C, limit, q * C / limit, (q - qu) / settling(C), Cu, Ce, where)
 
 
-@formula(source="yoshioka1957", equation=r"A = \frac{\dot m_s}{G_L}", title="Area of a thickener by solids flux",
-         typical=_SLUDGE | {"mass_flow": (0.1, 1.0)})  # fmt: skip
+@formula(
+    source="yoshioka1957",
+    equation=r"A = \frac{\dot m_s}{G_L}",
+    title="Area of a thickener by solids flux",
+    typical=_SLUDGE | {"mass_flow": (0.1, 1.0)},
+)
 def thickener_area_flux(
-    mass_flow: MassFlow, feed_concentration: Concentration, underflow_concentration: Concentration, settling: Settling = "takacs"
+    mass_flow: MassFlow,
+    feed_concentration: Concentration,
+    underflow_concentration: Concentration,
+    settling: Settling = "takacs",
 ) -> Area:
     """Area at which an ideal thickener just reaches an underflow concentration with a solids flow.
 
@@ -207,4 +259,7 @@ def thickener_area_flux(
     >>> round(thickener_area_flux("3512.8 kg/hour", 2.5, 10.0, sludge), 1)
     1000.0
     """
-    return mass_flow / limiting_flux_underflow(underflow_concentration, feed_concentration, settling).limiting_flux
+    return (
+        mass_flow
+        / limiting_flux_underflow(underflow_concentration, feed_concentration, settling).limiting_flux
+    )

@@ -6,4 +6,12 @@ from typing import Annotated, Any
 
 from granum.core.kinds import Kind
 
-UnitArea = Annotated[Any, Kind("area per solids flow", "m^2*s/kg", lower=0.0, display=("m^2*day/tonne", "m^2*hour/kg", "m^2*hour/tonne"))]
+UnitArea = Annotated[
+    Any,
+    Kind(
+        "area per solids flow",
+        "m^2*s/kg",
+        lower=0.0,
+        display=("m^2*day/tonne", "m^2*hour/kg", "m^2*hour/tonne"),
+    ),
+]

@@ -1,4 +1,6 @@
-"""Settling curve of a uniform suspension by Kynch's theory: shock or fan reaching the interface, in closed form on characteristics."""
+"""Settling curve of a uniform suspension by Kynch's theory: shock or fan reaching the interface, in closed
+form on characteristics.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,9 @@ import jax.numpy as jnp
 from granum.numerics import find_root
 
 
-def kynch_height(time: Any, settling: Any, initial_concentration: Any, initial_height: Any, inflection: Any, densest: Any) -> Any:
+def kynch_height(
+    time: Any, settling: Any, initial_concentration: Any, initial_height: Any, inflection: Any, densest: Any
+) -> Any:
     """Height of the interface above the bottom at given times, without compression.
 
     Parameters
@@ -19,8 +23,9 @@ def kynch_height(time: Any, settling: Any, initial_concentration: Any, initial_h
     inflection: concentration where the settling flux turns from concave to convex (0 when convex throughout).
     densest: a concentration above every one that reaches the interface.
 
-    From mass under the interface, the layer C that reaches it does so at ``t = C0 h0 / (−C² v'(C))``, at the height
-    ``h = −f'(C) t``; the first of them follows the shock tangent from C0, or C0 itself past the inflection.
+    From mass under the interface, the layer C that reaches it does so at ``t = C0 h0 / (−C² v'(C))``, at the
+    height ``h = −f'(C) t``; the first of them follows the shock tangent from C0, or C0 itself past the
+    inflection.
     """
     C0, h0, t = initial_concentration, initial_height, jnp.asarray(time, dtype=float)
 

@@ -1,6 +1,8 @@
-"""Settling velocity of a suspension against its solids concentration: the laws of the family ``settling_velocity``.
+"""Settling velocity of a suspension against its solids concentration: the laws of the family
+``settling_velocity``.
 
-Each takes the concentration in kg/m³ and gives the velocity of the solids, downwards, in a vessel closed at the bottom.
+Each takes the concentration in kg/m³ and gives the velocity of the solids, downwards, in a vessel closed at
+the bottom.
 """
 
 from __future__ import annotations
@@ -17,9 +19,13 @@ from granum.particles.formulas.hindered import hindrance_richardson_zaki
 
 
 @law(
-    "settling_velocity", name="vesilind", source="vesilind1968", equation=r"v = v_0\,e^{-k C}", title="Vesilind settling velocity",
+    "settling_velocity",
+    name="vesilind",
+    source="vesilind1968",
+    equation=r"v = v_0\,e^{-k C}",
+    title="Vesilind settling velocity",
     typical={"solids_concentration": (0.5, 12.0)},
-)  # fmt: skip
+)
 class Vesilind(eqx.Module):
     """Settling velocity falling exponentially with the concentration, for activated sludge.
 
@@ -38,15 +44,20 @@ class Vesilind(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="takacs", source="takacs1991, eq. 6; alex2008",
-    equation=r"v = \max\left[0,\ \min\left(v_0',\ v_0\left(e^{-r_h(C-C_{ns})} - e^{-r_p(C-C_{ns})}\right)\right)\right]",
+    "settling_velocity",
+    name="takacs",
+    source="takacs1991, eq. 6; alex2008",
+    equation=(
+        r"v = \max\left[0,\ \min\left(v_0',\ v_0\left(e^{-r_h(C-C_{ns})} - "
+        r"e^{-r_p(C-C_{ns})}\right)\right)\right]"
+    ),
     title="Takács settling velocity",
-)  # fmt: skip
+)
 class Takacs(eqx.Module):
     """Settling velocity as the difference of two exponentials, from dilute flocs to hindered sludge.
 
-    The defaults are those of the IWA benchmark plant (Alex et al. 2008); ``nonsettleable_concentration`` is there the
-    fraction 0.00228 of the feed.
+    The defaults are those of the IWA benchmark plant (Alex et al. 2008); ``nonsettleable_concentration`` is
+    there the fraction 0.00228 of the feed.
 
     >>> round(float(Takacs()(3.0)) * 86400, 2)
     84.11
@@ -61,18 +72,24 @@ class Takacs(eqx.Module):
     def __call__(self, solids_concentration: Concentration) -> Speed:
         """Velocity at a concentration."""
         X = jnp.maximum(solids_concentration - self.nonsettleable_concentration, 0.0)
-        rise = jnp.exp(-self.takacs_hindered_coefficient * X) - jnp.exp(-self.takacs_flocculant_coefficient * X)
+        rise = jnp.exp(-self.takacs_hindered_coefficient * X) - jnp.exp(
+            -self.takacs_flocculant_coefficient * X
+        )
         return jnp.clip(self.takacs_velocity * rise, 0.0, self.takacs_velocity_maximum)
 
 
 @law(
-    "settling_velocity", name="cole", source="cole1968", equation=r"v = \min\left[v_{\max},\ v_1\,(C/C_1)^{-n}\right]",
+    "settling_velocity",
+    name="cole",
+    source="cole1968",
+    equation=r"v = \min\left[v_{\max},\ v_1\,(C/C_1)^{-n}\right]",
     title="Cole settling velocity",
-)  # fmt: skip
+)
 class Cole(eqx.Module):
     """Settling velocity as a falling power of the concentration, capped for dilute suspensions.
 
-    Cole's constant ``a = v·Cⁿ`` has odd units; here it is the velocity at a reference concentration, 1 kg/m³ unless given.
+    Cole's constant ``a = v·Cⁿ`` has odd units; here it is the velocity at a reference concentration, 1 kg/m³
+    unless given.
 
     >>> round(float(Cole("7 m/hour", 2.0)(2.5)) * 3600, 3)
     1.12
@@ -91,9 +108,12 @@ class Cole(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="diehl", source="diehl2015", equation=r"v = \frac{v_0}{1 + (C/\bar{C})^q}",
+    "settling_velocity",
+    name="diehl",
+    source="diehl2015",
+    equation=r"v = \frac{v_0}{1 + (C/\bar{C})^q}",
     title="Diehl settling velocity",
-)  # fmt: skip
+)
 class Diehl(eqx.Module):
     """Settling velocity with a plateau for dilute and a power law for dense suspensions.
 
@@ -112,14 +132,17 @@ class Diehl(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="richardson_zaki", source="richardson1954", equation=r"v = v_0\left(1 - C/C_{\max}\right)^n",
+    "settling_velocity",
+    name="richardson_zaki",
+    source="richardson1954",
+    equation=r"v = v_0\left(1 - C/C_{\max}\right)^n",
     title="Richardson–Zaki settling velocity on concentration",
-)  # fmt: skip
+)
 class RichardsonZakiConcentration(eqx.Module):
     """Settling velocity that vanishes at a packed concentration, in the form of Richardson and Zaki.
 
-    For compact particles the packed concentration of the original law is the solid density (volume fraction one); for flocs
-    it is a fitted parameter.
+    For compact particles the packed concentration of the original law is the solid density (volume fraction
+    one); for flocs it is a fitted parameter.
 
     >>> round(float(RichardsonZakiConcentration("1.1 mm/s", 4.65, 1200.0)(240.0)) * 1e3, 4)
     0.3897
@@ -136,11 +159,15 @@ class RichardsonZakiConcentration(eqx.Module):
 
 
 @law(
-    "settling_velocity", name="hindered_particles", source="kynch1952; richardson1954",
-    equation=r"v = v_t\,h(\varphi, \mathrm{Re}),\quad \varphi = C/\rho_s", title="Settling velocity of hindered particles",
-)  # fmt: skip
+    "settling_velocity",
+    name="hindered_particles",
+    source="kynch1952; richardson1954",
+    equation=r"v = v_t\,h(\varphi, \mathrm{Re}),\quad \varphi = C/\rho_s",
+    title="Settling velocity of hindered particles",
+)
 class HinderedParticles(eqx.Module):
-    """Settling velocity of particles of one terminal velocity, slowed by any hindrance law on the volume fraction.
+    """Settling velocity of particles of one terminal velocity, slowed by any hindrance law on the volume
+    fraction.
 
     The Reynolds number is that of one particle at its terminal velocity.
 

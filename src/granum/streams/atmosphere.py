@@ -1,4 +1,6 @@
-"""Whether a gas that holds the vapor of a solvent may burn: by how little vapor there is in air, or by how little oxygen beside an inert gas."""
+"""Whether a gas that holds the vapor of a solvent may burn: by how little vapor there is in air, or by how
+little oxygen beside an inert gas.
+"""
 
 from __future__ import annotations
 
@@ -25,20 +27,30 @@ FLAMMABLE: Limits = {
         "dimensionless",
         "nfpa86",
     ),
-    "inert": Limit("oxygen in the exhaust over the limiting oxygen for its flammable vapor", 0.0, MOST_OXYGEN, "dimensionless", "nfpa69"),
+    "inert": Limit(
+        "oxygen in the exhaust over the limiting oxygen for its flammable vapor",
+        0.0,
+        MOST_OXYGEN,
+        "dimensionless",
+        "nfpa69",
+    ),
 }
 
 
 def inerted(mixture: Mixture) -> bool:
-    """Whether a gas that does not burn and brings no oxygen carries the vapor, so that the lack of oxygen is what keeps it safe."""
+    """Whether a gas that does not burn and brings no oxygen carries the vapor, so that the lack of oxygen is
+    what keeps it safe.
+    """
     humid = HumidMixture(mixture)
     others = [gas.name for gas in mixture.gases if gas.name != humid.solvent and gas.name not in OXYGEN]
     return any(mixture.materials.fluid(name).combustion is None for name in others)
 
 
 def flammable(gas: Stream) -> dict[str, Any]:
-    """What is measured of a gas against ``FLAMMABLE``: the vapor in air, and the oxygen where an inert gas is there and its limit is known; nothing
-    of a vapor that does not burn. Limits are those at ambient conditions; hot vapor burns a little leaner."""
+    """What is measured of a gas against ``FLAMMABLE``: the vapor in air, and the oxygen where an inert gas is
+    there and its limit is known; nothing of a vapor that does not burn. Limits are those at ambient
+    conditions; hot vapor burns a little leaner.
+    """
     humid = HumidMixture(gas.mixture)
     burns = humid.fluid.flammability
     if burns is None:

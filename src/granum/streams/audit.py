@@ -29,8 +29,12 @@ def closure(inlets: Iterable[Stream], outlets: Iterable[Stream], power: Any = 0.
     inlets, outlets = list(inlets), list(outlets)
     streams = [*inlets, *outlets]
     entering = jnp.array([[1.0] * len(inlets) + [0.0] * len(outlets)])
-    components, enthalpies = (jnp.stack([getattr(s, name) for s in streams]) for name in ("components", "enthalpy_flow"))
-    found = closures(components, enthalpies, entering, 1.0 - entering, jnp.reshape(jnp.asarray(power, dtype=float), 1))
+    components, enthalpies = (
+        jnp.stack([getattr(s, name) for s in streams]) for name in ("components", "enthalpy_flow")
+    )
+    found = closures(
+        components, enthalpies, entering, 1.0 - entering, jnp.reshape(jnp.asarray(power, dtype=float), 1)
+    )
     return Closure(*(part[0] for part in found))
 
 

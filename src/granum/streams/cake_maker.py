@@ -1,4 +1,6 @@
-"""``CakeMaker``: what filters and filtering centrifuges share beyond the balance: washing by dispersion, dissolution, what is left."""
+"""``CakeMaker``: what filters and filtering centrifuges share beyond the balance: washing by dispersion,
+dissolution, what is left.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,9 @@ from granum.streams.units import Unit
 class CakeMaker(Unit):
     """Abstract machine that holds a cake, washes it and drains it.
 
-    The surface–volume diameter for washing and drainage is that of the solid in the feed unless given. Crystals dissolve in the wash by
-    ``wash_dissolution``, if one is given. Every such machine has a field ``void_fraction``, the voids of its cake.
+    The surface–volume diameter for washing and drainage is that of the solid in the feed unless given.
+    Crystals dissolve in the wash by ``wash_dissolution``, if one is given. Every such machine has a field
+    ``void_fraction``, the voids of its cake.
     """
 
     _: KW_ONLY
@@ -44,14 +47,26 @@ class CakeMaker(Unit):
         return jnp.zeros(()) if wash is None else wash.liquid_volume_flow / jnp.where(void > 0, void, 1.0)
 
     def left_by_washing(self: Any, velocity: Any, thickness: Any, feed: Stream, wash: Stream) -> Any:
-        """Fraction of the mother liquor that wash liquor of a superficial velocity (m/s) leaves in a cake of a thickness (m), by dispersion
-        but never better than practice."""
-        number = practical_number(velocity / self.void_fraction, thickness, self.diameter(feed), self.diffusivity)
+        """Fraction of the mother liquor that wash liquor of a superficial velocity (m/s) leaves in a cake of
+        a thickness (m), by dispersion but never better than practice.
+        """
+        number = practical_number(
+            velocity / self.void_fraction, thickness, self.diameter(feed), self.diffusivity
+        )
         return remaining_fraction(self.wash_ratio(feed, wash), number)
 
     def parted(self: Any, feed: Stream, wash: Stream | None, *, saturation: Any, left: Any) -> Filtered:
-        """The three streams at this saturation of the cake and with this fraction of its mother liquor left in it."""
-        found = part_cake(feed, wash, recovery=self.solids_recovery, void_fraction=self.void_fraction, saturation=saturation, left=left)
+        """The three streams at this saturation of the cake and with this fraction of its mother liquor left
+        in it.
+        """
+        found = part_cake(
+            feed,
+            wash,
+            recovery=self.solids_recovery,
+            void_fraction=self.void_fraction,
+            saturation=saturation,
+            left=left,
+        )
         return found if wash is None or self.wash_dissolution is None else self.wash_dissolution.out_of(found)
 
     def dissolved(self, feed: Stream, cake: Stream) -> Any:

@@ -1,4 +1,6 @@
-"""Parting a slurry into a wet cake, a filtrate and washings: the balance that filters and filtering centrifuges share."""
+"""Parting a slurry into a wet cake, a filtrate and washings: the balance that filters and filtering
+centrifuges share.
+"""
 
 from __future__ import annotations
 
@@ -30,9 +32,12 @@ def solid_diameter(feed: Stream, given: Any = None) -> Any:
     return jnp.where(inverse > 0, 1.0 / jnp.where(inverse > 0, inverse, 1.0), 1e-4)
 
 
-def part_cake(feed: Stream, wash: Stream | None, *, recovery: Any, void_fraction: Any, saturation: Any, left: Any) -> Filtered:
-    """The three streams: the cake takes its voids full of mother liquor, washing leaves the fraction ``left`` of that and puts wash
-    liquor in its place, draining keeps the share ``saturation``. Cake and washings leave at their adiabatic mixing temperature.
+def part_cake(
+    feed: Stream, wash: Stream | None, *, recovery: Any, void_fraction: Any, saturation: Any, left: Any
+) -> Filtered:
+    """The three streams: the cake takes its voids full of mother liquor, washing leaves the fraction ``left``
+    of that and puts wash liquor in its place, draining keeps the share ``saturation``. Cake and washings
+    leave at their adiabatic mixing temperature.
     """
     void, liquid = void_flow(feed, recovery, void_fraction), feed.liquid_volume_flow
     share = jnp.minimum(void, liquid) / jnp.where(liquid > 0, liquid, 1.0)
@@ -40,9 +45,17 @@ def part_cake(feed: Stream, wash: Stream | None, *, recovery: Any, void_fraction
     through = feed.part(solid=1.0 - recovery, liquid=1.0 - share, gas=1.0)
     if wash is None:
         cake = kept.part(solid=1.0, liquid=saturation)
-        return Filtered(cake, through.replace(liquid=feed.liquid - cake.liquid), empty(feed.mixture, feed.temperature, feed.pressure))
+        return Filtered(
+            cake,
+            through.replace(liquid=feed.liquid - cake.liquid),
+            empty(feed.mixture, feed.temperature, feed.pressure),
+        )
     flow = wash.liquid_volume_flow
     stays = jnp.minimum((1.0 - left) * jnp.minimum(void, liquid) / jnp.where(flow > 0, flow, 1.0), 1.0)
     joined = kept + wash
-    cake = joined.replace(liquid=saturation * (left * kept.liquid + stays * wash.liquid), gas=0.0 * joined.gas)
-    return Filtered(cake, through, joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid))
+    cake = joined.replace(
+        liquid=saturation * (left * kept.liquid + stays * wash.liquid), gas=0.0 * joined.gas
+    )
+    return Filtered(
+        cake, through, joined.replace(solid=0.0 * joined.solid, liquid=joined.liquid - cake.liquid)
+    )

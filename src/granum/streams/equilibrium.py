@@ -1,4 +1,5 @@
-"""Vapor and liquid of one substance in a gas stream: which they are, and their equilibrium at a temperature or at the enthalpy of the stream.
+"""Vapor and liquid of one substance in a gas stream: which they are, and their equilibrium at a temperature
+or at the enthalpy of the stream.
 
 Nothing else knows which gas of a mixture is the vapor and which liquid it belongs to.
 """
@@ -32,14 +33,19 @@ NEARLY_PURE = 1e-9  # dry gas over vapor below which there is a boiling point an
 def _pair(materials: Library, carrier: str, vapor: str) -> AbstractPair:
     from granum.humid_gas.solvents import PairOfMixture
 
-    return AIR_WATER if (carrier, vapor) == (AIR, "water") else PairOfMixture(gas=carrier, vapor=vapor, materials=materials)
+    return (
+        AIR_WATER
+        if (carrier, vapor) == (AIR, "water")
+        else PairOfMixture(gas=carrier, vapor=vapor, materials=materials)
+    )
 
 
 class HumidMixture:
-    """The gas–vapor pair in a mixture: the vapor is the gas of the name of its first liquid, wherever it stands; the rest of the gas carries it.
+    """The gas–vapor pair in a mixture: the vapor is the gas of the name of its first liquid, wherever it
+    stands; the rest of the gas carries it.
 
-    Of several carriers the pair is made with dry air, else with the first by name; all of them count in humidity and saturation. A vapor
-    ``alone`` has no carrier: steam.
+    Of several carriers the pair is made with dry air, else with the first by name; all of them count in
+    humidity and saturation. A vapor ``alone`` has no carrier: steam.
     """
 
     def __init__(self, mixture: Mixture, *, alone: bool = False):
@@ -47,7 +53,8 @@ class HumidMixture:
         if not mixture.liquids or mixture.liquids[0].name not in names:
             raise ApplicabilityError(
                 _(
-                    'The mixture needs its first liquid among the gases too, as its vapor: gases = ["dry air", "water"]; it has {gases}.'
+                    "The mixture needs its first liquid among the gases too, as its vapor: gases = "
+                    '["dry air", "water"]; it has {gases}.'
                 ).format(gases=", ".join(names) or _("none"))
             )
         self.mixture = mixture
@@ -56,11 +63,14 @@ class HumidMixture:
         self.carrier = carrier_of(names, self.solvent)
         if self.carrier is None and not alone:
             raise ApplicabilityError(
-                _('The mixture needs a gas that carries the vapor of {liquid}: gases = ["dry air", "{liquid}"].').format(
-                    liquid=self.solvent
-                )
+                _(
+                    'The mixture needs a gas that carries the vapor of {liquid}: gases = ["dry air", '
+                    '"{liquid}"].'
+                ).format(liquid=self.solvent)
             )
-        self.pair = _pair(mixture.materials, self.carrier or AIR, self.solvent)  # alone it saturates as in any gas
+        self.pair = _pair(
+            mixture.materials, self.carrier or AIR, self.solvent
+        )  # alone it saturates as in any gas
         self.molar_masses = np.array([g.molar_mass for g in mixture.gases])
 
     @property
@@ -92,7 +102,9 @@ class HumidMixture:
         return ZERO_CELSIUS if self.solvent == "water" else float(self.pair.freezing_temperature)
 
     def heat_of_vaporization(self, T: Any) -> Any:
-        """Of the real fluid, J/kg; the difference of the enthalpies of the streams lies within their approximation of it."""
+        """Of the real fluid, J/kg; the difference of the enthalpies of the streams lies within their
+        approximation of it.
+        """
         return self.fluid.heat_of_vaporization.value(T)
 
     def dry_flow(self, stream: Stream) -> Any:
@@ -110,10 +122,16 @@ class HumidMixture:
         return moles / jnp.where(total > 0, total, 1.0)
 
     def saturated_vapor(self, stream: Stream, T: Any) -> Any:
-        """Vapor that the dry gas of a stream holds at saturation over liquid, kg/s; more than there is from the boiling point on."""
+        """Vapor that the dry gas of a stream holds at saturation over liquid, kg/s; more than there is from
+        the boiling point on.
+        """
         y = self.pair.saturated_fraction(T, jnp.asarray(stream.pressure, dtype=float), False)
         below = jnp.minimum(y, 1.0 - 1e-9)
-        return jnp.where(y < 1.0, self._dry_moles(stream) * below / (1.0 - below) * self.molar_masses[self.vapor], 1e9 * stream.mass_flow)
+        return jnp.where(
+            y < 1.0,
+            self._dry_moles(stream) * below / (1.0 - below) * self.molar_masses[self.vapor],
+            1e9 * stream.mass_flow,
+        )
 
     def humidity_ratio(self, stream: Stream) -> Any:
         """Vapor per dry gas, by mass; of a vapor without gas its mass flow."""
@@ -128,28 +146,41 @@ class HumidMixture:
 
     def moved(self, stream: Stream, evaporated: Any) -> Stream:
         """The same temperature with some more of the liquid as vapor, kg/s; negative condenses."""
-        return stream.replace(gas=stream.gas.at[self.vapor].add(evaporated), liquid=stream.liquid.at[0].add(-evaporated))
+        return stream.replace(
+            gas=stream.gas.at[self.vapor].add(evaporated), liquid=stream.liquid.at[0].add(-evaporated)
+        )
 
     def at_temperature(self, stream: Stream, T: Any) -> Stream:
         """Equilibrium at a temperature: saturated gas over liquid, or no liquid."""
         total = stream.gas[self.vapor] + stream.liquid[0]
         vapor = jnp.minimum(total, self.saturated_vapor(stream, T))
-        return self.moved(stream, vapor - stream.gas[self.vapor]).replace(temperature=jnp.asarray(T, dtype=float))
+        return self.moved(stream, vapor - stream.gas[self.vapor]).replace(
+            temperature=jnp.asarray(T, dtype=float)
+        )
 
     def at_own_enthalpy(self, stream: Stream) -> Stream:
-        """Equilibrium reached adiabatically: liquid evaporates until it is gone or the gas is saturated; excess vapor condenses."""
+        """Equilibrium reached adiabatically: liquid evaporates until it is gone or the gas is saturated;
+        excess vapor condenses.
+        """
         enthalpy, scale = stream.enthalpy_flow, jnp.maximum(stream.mass_flow, 1e-300) * 1e3
         root = find_root(
-            lambda T: (self.at_temperature(stream, T).enthalpy_flow - enthalpy) / scale, COLDEST, HOTTEST, start=stream.temperature
+            lambda T: (self.at_temperature(stream, T).enthalpy_flow - enthalpy) / scale,
+            COLDEST,
+            HOTTEST,
+            start=stream.temperature,
         )
         known = stream.mass_flow > 0
-        found = self.at_temperature(stream, jnp.where(known, jnp.where(root.converged, root.value, jnp.nan), stream.temperature))
+        found = self.at_temperature(
+            stream, jnp.where(known, jnp.where(root.converged, root.value, jnp.nan), stream.temperature)
+        )
         total = stream.gas[self.vapor] + stream.liquid[0]
         alone = (self.dry_flow(stream) <= NEARLY_PURE * total) & (total > 0)
         return lax.cond(alone, lambda: self._boiling(stream, enthalpy, found), lambda: found)
 
     def _boiling(self, stream: Stream, enthalpy: Any, otherwise: Stream) -> Stream:
-        """A vapor without gas boils at one temperature, at which its enthalpy says how much of it is liquid."""
+        """A vapor without gas boils at one temperature, at which its enthalpy says how much of it is
+        liquid.
+        """
         T = jnp.asarray(self.boiling_temperature(stream.pressure), dtype=float)
         total = stream.gas[self.vapor] + stream.liquid[0]
         liquid = self.moved(stream, -stream.gas[self.vapor]).replace(temperature=T)

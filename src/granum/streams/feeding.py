@@ -1,4 +1,6 @@
-"""``feed``: a stream that enters a line, from words and quantities with units, as a case file gives it under ``[feeds]``."""
+"""``feed``: a stream that enters a line, from words and quantities with units, as a case file gives it under
+``[feeds]``.
+"""
 
 from __future__ import annotations
 
@@ -23,20 +25,33 @@ LEAST_INSIDE = 0.98  # of a feed that its size classes must hold
 
 
 def feed(
-    mixture: Mixture, *, temperature: Given = "25 degC", pressure: Given = "1 atm", mass_flow: Given = None,
-    solids_mass_fraction: Given = None, liquid_flow: Given = None, liquid: Mapping[str, Given] | None = None,
-    solid_flow: Given = None, solid: Mapping[str, Given] | None = None, gas_flow: Given = None,
-    gas: Mapping[str, Given] | None = None, relative_humidity: Given = None, sizes: Any = None, where: str = "",
-) -> Stream:  # fmt: skip
+    mixture: Mixture,
+    *,
+    temperature: Given = "25 degC",
+    pressure: Given = "1 atm",
+    mass_flow: Given = None,
+    solids_mass_fraction: Given = None,
+    liquid_flow: Given = None,
+    liquid: Mapping[str, Given] | None = None,
+    solid_flow: Given = None,
+    solid: Mapping[str, Given] | None = None,
+    gas_flow: Given = None,
+    gas: Mapping[str, Given] | None = None,
+    relative_humidity: Given = None,
+    sizes: Any = None,
+    where: str = "",
+) -> Stream:
     """A stream of given flows. Shares are mass fractions within the phase; flows are of the whole phase.
 
     Parameters
     ----------
-    mass_flow: solid and liquid together, divided by ``solids_mass_fraction``; or ``liquid_flow`` and ``solid_flow``.
+    mass_flow: solid and liquid together, divided by ``solids_mass_fraction``; or ``liquid_flow`` and
+        ``solid_flow``.
     liquid, solid, gas: mass fractions by name; need not be given where there is one species.
-    relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it where there are several.
-    sizes: of the solid: a law of size distribution, the word for one with its parameters (``{"law": "rosin_rammler", …}``), or
-        ``{"fractions": […]}``. where: what a message calls this feed.
+    relative_humidity: of a gas, sets its vapor; ``gas_flow`` is then dry gas, and ``gas`` the shares of it
+        where there are several.
+    sizes: of the solid: a law of size distribution, the word for one with its parameters (``{"law":
+        "rosin_rammler", …}``), or ``{"fractions": […]}``. where: what a message calls this feed.
     """
     where = where or _("in the feed")
 
@@ -58,15 +73,28 @@ def feed(
         return found / found.sum()
 
     solids, liquids = (
-        None if flow is None else quantity(flow, "MassFlow", n) for n, flow in (("solid_flow", solid_flow), ("liquid_flow", liquid_flow))
+        None if flow is None else quantity(flow, "MassFlow", n)
+        for n, flow in (("solid_flow", solid_flow), ("liquid_flow", liquid_flow))
     )
     if mass_flow is not None:
         if solids is not None or liquids is not None:
-            raise InputError(_("{where}: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(where=where))
+            raise InputError(
+                _("{where}: give 'mass_flow', or 'solid_flow' and 'liquid_flow', not both.").format(
+                    where=where
+                )
+            )
         total = quantity(mass_flow, "MassFlow", "mass_flow")
-        share = 0.0 if solids_mass_fraction is None else quantity(solids_mass_fraction, "MassFraction", "solids_mass_fraction")
+        share = (
+            0.0
+            if solids_mass_fraction is None
+            else quantity(solids_mass_fraction, "MassFraction", "solids_mass_fraction")
+        )
         solids, liquids = total * share, total * (1.0 - share)
-    stream = empty(mixture, quantity(temperature, "Temperature", "temperature"), quantity(pressure, "Pressure", "pressure"))
+    stream = empty(
+        mixture,
+        quantity(temperature, "Temperature", "temperature"),
+        quantity(pressure, "Pressure", "pressure"),
+    )
     if liquids:
         stream = stream.replace(liquid=jnp.asarray(liquids * shares("liquids", liquid)))
     if solids:
@@ -86,11 +114,17 @@ def feed(
                 where,
             )
     if float(stream.mass_flow) <= 0:
-        raise InputError(_("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(where=where))
+        raise InputError(
+            _("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(
+                where=where
+            )
+        )
     return stream
 
 
-def _humid(stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humidity: float, where: str) -> Stream:
+def _humid(
+    stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humidity: float, where: str
+) -> Stream:
     """The stream with so much dry gas and the vapor that it then holds, of whatever pair its mixture has."""
     from granum.humid_gas import state
     from granum.streams.equilibrium import HumidMixture
@@ -102,12 +136,16 @@ def _humid(stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humid
     carriers = [g.name for g in stream.mixture.gases if g.name != humid.solvent]
     if of_dry is None and len(carriers) > 1:
         raise InputError(
-            _("{where}: 'relative_humidity' with several dry gases needs the shares of these in 'gas': {names}.").format(
-                where=where, names=", ".join(carriers)
-            )
+            _(
+                "{where}: 'relative_humidity' with several dry gases needs the shares of these in "
+                "'gas': {names}."
+            ).format(where=where, names=", ".join(carriers))
         )
     humidity = state(
-        temperature=float(stream.temperature), pressure=float(stream.pressure), relative_humidity=relative_humidity, pair=humid.pair
+        temperature=float(stream.temperature),
+        pressure=float(stream.pressure),
+        relative_humidity=relative_humidity,
+        pair=humid.pair,
     ).humidity_ratio
     if of_dry is None:
         of_dry = np.array([float(g.name != humid.solvent) for g in stream.mixture.gases])
@@ -119,7 +157,11 @@ def _humid(stream: Stream, dry: float, of_dry: np.ndarray | None, relative_humid
         )
     moles = jnp.sum(dry * of_dry / humid.molar_masses)
     y = humid.pair.fraction(humidity)
-    return stream.replace(gas=jnp.asarray(dry * of_dry).at[humid.vapor].set(moles * y / (1.0 - y) * humid.molar_masses[humid.vapor]))
+    return stream.replace(
+        gas=jnp.asarray(dry * of_dry)
+        .at[humid.vapor]
+        .set(moles * y / (1.0 - y) * humid.molar_masses[humid.vapor])
+    )
 
 
 def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
@@ -127,13 +169,18 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
     count = len(mixture.sizes)
     if sizes is None:
         raise InputError(
-            _('{where}: a feed with solid needs its size distribution, as sizes = {{ law = "rosin_rammler", … }}.').format(where=where)
+            _(
+                "{where}: a feed with solid needs its size distribution, as sizes = {{ law = "
+                '"rosin_rammler", … }}.'
+            ).format(where=where)
         )
     if isinstance(sizes, Mapping) and sizes.get("fractions") is not None:
         shares = np.asarray(sizes["fractions"], dtype=float)
         if shares.shape != (count,) or np.any(shares < 0) or abs(shares.sum() - 1.0) > 1e-6:
             raise InputError(
-                _("{where}: 'sizes.fractions' needs {count} values of zero or more that add up to 1.").format(where=where, count=count)
+                _("{where}: 'sizes.fractions' needs {count} values of zero or more that add up to 1.").format(
+                    where=where, count=count
+                )
             )
         return shares
     if isinstance(sizes, Mapping):
@@ -146,8 +193,8 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
     inside = cumulative[-1] - cumulative[0]
     if inside < LEAST_INSIDE:
         raise InputError(
-            _("{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes].").format(
-                where=where, missing=f"{100 * (1 - inside):.3g}"
-            )
+            _(
+                "{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes]."
+            ).format(where=where, missing=f"{100 * (1 - inside):.3g}")
         )
     return np.asarray(sizes.classes(mixture.edges).to_basis("volume").fractions)

@@ -1,9 +1,9 @@
 """A mixture from material names: what a case file's ``[mixture]`` table means.
 
-A liquid is a fluid of the library (the first one is the solvent) or a solute dissolved in it; a solid is a solid of the library,
-a crystal of one of those solutes when it is one of its branches; a gas is a fluid of the library. Enthalpies are zero for the
-liquid solvent, dissolved solutes and permanent gases at 0 °C, so that vapor carries its heat of vaporization and a crystal lies
-lower by its heat of crystallization.
+A liquid is a fluid of the library (the first one is the solvent) or a solute dissolved in it; a solid is a
+solid of the library, a crystal of one of those solutes when it is one of its branches; a gas is a fluid of
+the library. Enthalpies are zero for the liquid solvent, dissolved solutes and permanent gases at 0 °C, so
+that vapor carries its heat of vaporization and a crystal lies lower by its heat of crystallization.
 """
 
 from __future__ import annotations
@@ -32,9 +32,14 @@ CONDENSED = (COLDEST, HOTTEST)
 
 
 def mixture_of(
-    liquids: Sequence[str], solids: Sequence[str], gases: Sequence[str], size_edges: Iterable[float], *,
-    axes: tuple[tuple[str, tuple[float, ...]], ...] = (), own: Iterable[str | Path] = (),
-) -> Mixture:  # fmt: skip
+    liquids: Sequence[str],
+    solids: Sequence[str],
+    gases: Sequence[str],
+    size_edges: Iterable[float],
+    *,
+    axes: tuple[tuple[str, tuple[float, ...]], ...] = (),
+    own: Iterable[str | Path] = (),
+) -> Mixture:
     """The mixture of named materials.
 
     Parameters
@@ -48,10 +53,14 @@ def mixture_of(
     """
     carrier = carrier_of(gases, liquids[0] if liquids else None) or next(iter(gases), None)
     known = session().with_files(own)
-    systems = {name: system for name in liquids[1:] if (system := _system(known, name, liquids[0])) is not None}
+    systems = {
+        name: system for name in liquids[1:] if (system := _system(known, name, liquids[0])) is not None
+    }
     return Mixture(
         solids=tuple(_crystal(name, systems) or _inert(known, name) for name in solids),
-        liquids=tuple(_dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids),
+        liquids=tuple(
+            _dissolved(name, systems[name]) if name in systems else _liquid(known, name) for name in liquids
+        ),
         gases=tuple(_gas(known, name) for name in gases),
         size_edges=tuple(float(e) for e in np.asarray(list(size_edges))),
         axes=axes,
@@ -83,12 +92,20 @@ def _liquid(known: Library, name: str) -> Species:
         raise unknown_name(_("Liquid"), name, (*known.names("fluid"), *known.names("solute")))
     f = known.fluid(name)
     return Species(
-        f.name, ((f.name, 1.0),), _polynomial(f.liquid_density), _polynomial(f.liquid_heat_capacity), 0.0, float(f.molar_mass), CONDENSED
+        f.name,
+        ((f.name, 1.0),),
+        _polynomial(f.liquid_density),
+        _polynomial(f.liquid_heat_capacity),
+        0.0,
+        float(f.molar_mass),
+        CONDENSED,
     )
 
 
 def _dissolved(name: str, system: SoluteSystem) -> Species:
-    """Apparent density of the solute in the solution saturated at 25 °C; apparent heat capacity from the system."""
+    """Apparent density of the solute in the solution saturated at 25 °C; apparent heat capacity from the
+    system.
+    """
 
     @jax.jit
     def apparent(T: Any) -> Any:
@@ -100,7 +117,13 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
     densities, heat_capacity = apparent(T)
     density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
     return Species(
-        name, ((name, 1.0),), tuple(float(c) for c in density), (float(heat_capacity),), 0.0, float(system.molar_mass), CONDENSED
+        name,
+        ((name, 1.0),),
+        tuple(float(c) for c in density),
+        (float(heat_capacity),),
+        0.0,
+        float(system.molar_mass),
+        CONDENSED,
     )
 
 
@@ -124,27 +147,49 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
 
 def _inert(known: Library, name: str) -> Species:
     s = known.solid(name)
-    return Species(s.name, ((s.name, 1.0),), _polynomial(s.density), _polynomial(s.heat_capacity), 0.0, float(s.molar_mass), CONDENSED)
+    return Species(
+        s.name,
+        ((s.name, 1.0),),
+        _polynomial(s.density),
+        _polynomial(s.heat_capacity),
+        0.0,
+        float(s.molar_mass),
+        CONDENSED,
+    )
 
 
 def _gas(known: Library, name: str) -> Species:
     f = known.fluid(name)
     heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
     made_of = ((f.name, 1.0),)
-    if f.combustion is not None:  # counted as what it burns to, less the air that this takes, so that burning conserves components
+    if (
+        f.combustion is not None
+    ):  # counted as what it burns to, less the air that this takes, so that burning conserves components
         water = f.combustion.water
         made_of, heat = ((AIR, 1.0 - water), ("water", water)), heat + _heat_held(known, f)
-    return Species(f.name, made_of, (), _polynomial(f.vapor_heat_capacity, HOTTEST_GAS), heat, float(f.molar_mass), (COLDEST, HOTTEST_GAS))
+    return Species(
+        f.name,
+        made_of,
+        (),
+        _polynomial(f.vapor_heat_capacity, HOTTEST_GAS),
+        heat,
+        float(f.molar_mass),
+        (COLDEST, HOTTEST_GAS),
+    )
 
 
 def _heat_held(known: Library, fuel: Fluid) -> float:
-    """What a fuel's enthalpy lies above that of the gas it burns to at one temperature, which the heating value is for 25 °C, J/kg."""
+    """What a fuel's enthalpy lies above that of the gas it burns to at one temperature, which the heating
+    value is for 25 °C, J/kg.
+    """
     burns = fuel.combustion
     assert burns is not None
     at = 298.15
 
     def above(T: Any) -> Any:
-        flue = (1.0 - burns.water) * known.fluid(AIR).vapor_enthalpy(T) + burns.water * known.fluid("water").vapor_enthalpy(T)
+        flue = (1.0 - burns.water) * known.fluid(AIR).vapor_enthalpy(T) + burns.water * known.fluid(
+            "water"
+        ).vapor_enthalpy(T)
         return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
 
     return float(jax.jit(above)(at))
@@ -152,7 +197,9 @@ def _heat_held(known: Library, fuel: Fluid) -> float:
 
 @dataclass(frozen=True)
 class SolutionViscosity:
-    """Viscosity of the liquid: the solvent's, raised by each solute as in its binary solution at its own ratio to the solvent."""
+    """Viscosity of the liquid: the solvent's, raised by each solute as in its binary solution at its own
+    ratio to the solvent.
+    """
 
     materials: Library
     liquids: tuple[str, ...]
@@ -168,10 +215,19 @@ class SolutionViscosity:
             if name in self.solutes:
                 system = _system(self.materials, name, self.liquids[0])
                 if system is None:
-                    raise InputError(_("'{name}' is not a solute in '{solvent}'.").format(name=name, solvent=self.liquids[0]))
-                viscosity = viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / pure
+                    raise InputError(
+                        _("'{name}' is not a solute in '{solvent}'.").format(
+                            name=name, solvent=self.liquids[0]
+                        )
+                    )
+                viscosity = (
+                    viscosity * system.solution_viscosity(temperature, mass_fractions[i] / solvent) / pure
+                )
             else:  # a second liquid: logarithmic mixing by mass (Arrhenius), a simplification
-                viscosity = viscosity * (self.materials.fluid(name).liquid_viscosity(temperature) / pure) ** mass_fractions[i]
+                viscosity = (
+                    viscosity
+                    * (self.materials.fluid(name).liquid_viscosity(temperature) / pure) ** mass_fractions[i]
+                )
         return viscosity
 
 

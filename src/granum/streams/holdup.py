@@ -1,4 +1,6 @@
-"""A full, mixed volume of slurry in time, by the trapezoidal rule: what is held changes by exactly what enters and leaves."""
+"""A full, mixed volume of slurry in time, by the trapezoidal rule: what is held changes by exactly what
+enters and leaves.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,8 @@ def at_rest(feed: Stream, volume: Any) -> Held:
 
 
 def trapezoid(held: Any, entered: Any, lost: Any, losing: Any, step: Any) -> Any:
-    """What is held after a step: flows entering at both ends summed, shares lost per second at its start and at its end.
+    """What is held after a step: flows entering at both ends summed, shares lost per second at its start and
+    at its end.
 
     Not a number where the step is longer than twice the time of turnover.
     """
@@ -40,12 +43,22 @@ def trapezoid(held: Any, entered: Any, lost: Any, losing: Any, step: Any) -> Any
 
 
 def mixed(held: Held, then: Stream, now: Stream, volume: Any, step: Any) -> tuple[Held, Stream]:
-    """The contents after a step in which the inlet changed from one stream to another, and what flows out then. Gas passes at once."""
+    """The contents after a step in which the inlet changed from one stream to another, and what flows out
+    then. Gas passes at once.
+    """
     early, late = then.slurry_volume_flow / volume, now.slurry_volume_flow / volume
     solid = trapezoid(held.solid, then.solid + now.solid, early, late, step)
     liquid = trapezoid(held.liquid, then.liquid + now.liquid, early, late, step)
-    before = now.replace(solid=held.solid, liquid=held.liquid, gas=0.0 * now.gas, temperature=held.temperature)
-    heat = trapezoid(before.enthalpy_flow, _condensed(then).enthalpy_flow + _condensed(now).enthalpy_flow, early, late, step)
+    before = now.replace(
+        solid=held.solid, liquid=held.liquid, gas=0.0 * now.gas, temperature=held.temperature
+    )
+    heat = trapezoid(
+        before.enthalpy_flow,
+        _condensed(then).enthalpy_flow + _condensed(now).enthalpy_flow,
+        early,
+        late,
+        step,
+    )
     inside = before.replace(solid=solid, liquid=liquid).at_enthalpy(heat)
     return Held(solid, liquid, inside.temperature), inside.part(late, late).replace(gas=now.gas)
 

@@ -1,4 +1,6 @@
-"""What streams are made of: species in each phase, the conserved components behind them, and the particle size classes."""
+"""What streams are made of: species in each phase, the conserved components behind them, and the particle
+size classes.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +25,16 @@ class Species:
     Parameters
     ----------
     name: name within its phase.
-    composition: conserved components with their mass fractions, ``(("water", 1.0),)``; a hydrate crystal has two.
+    composition: conserved components with their mass fractions, ``(("water", 1.0),)``; a hydrate crystal has
+        two.
     density: kg/m³, polynomial coefficients in temperature above 0 °C, lowest power first; a gas gives none.
     heat_capacity: J/(kg K), polynomial coefficients in temperature above 0 °C, lowest power first.
-    reference_enthalpy: J/kg at 0 °C. Zero for the reference state of each component, so that differences between the
-        species of one component are heats of phase change: 2.501e6 for water vapor against liquid water.
+    reference_enthalpy: J/kg at 0 °C. Zero for the reference state of each component, so that differences
+        between the species of one component are heats of phase change: 2.501e6 for water vapor against liquid
+        water.
     molar_mass: kg/mol.
-    valid: K, between which the heat capacity is taken as given; outside it stays what it is at the end, so that enthalpy always grows
-        with temperature.
+    valid: K, between which the heat capacity is taken as given; outside it stays what it is at the end, so
+        that enthalpy always grows with temperature.
     """
 
     name: str
@@ -56,20 +60,24 @@ AIR = "dry air"
 
 
 def carrier_of(gases: Iterable[str], vapor: str | None) -> str | None:
-    """The gas that carries a vapor: dry air where it is among them, else the first by name, so that their order says nothing."""
+    """The gas that carries a vapor: dry air where it is among them, else the first by name, so that their
+    order says nothing.
+    """
     others = sorted(name for name in gases if name != vapor)
     return AIR if AIR in others else next(iter(others), None)
 
 
 @dataclass(frozen=True, eq=False)
 class Mixture:
-    """The species a set of streams shares. Immutable and hashable, so that compiled code is reused between equal mixtures.
+    """The species a set of streams shares. Immutable and hashable, so that compiled code is reused between
+    equal mixtures.
 
     Parameters
     ----------
     solids, liquids, gases: species of each phase, in the order of the stream's arrays.
     size_edges: class boundaries of the particle size, m, increasing (n + 1 of them).
-    axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis leaves it alone.
+    axes: further axes of the solid: ``(("porosity", edges), …)``; every unit that does not know an axis
+        leaves it alone.
     liquid_viscosity: function of (mass fractions of the liquid species, temperature) → Pa s.
     gas_viscosity, gas_conductivity: functions of temperature → Pa s, W/(m K).
     materials: where the fluids behind the species are found by name.
@@ -90,8 +98,17 @@ class Mixture:
         edges = np.asarray(self.size_edges)
         if edges.size < 2 or np.any(np.diff(edges) <= 0) or edges[0] < 0:
             raise InputError(_("Size classes need at least two increasing boundaries of zero or more."))
-        key = (self.solids, self.liquids, self.gases, self.size_edges, self.axes, self.liquid_viscosity, self.gas_viscosity,
-               self.gas_conductivity, self.materials)  # fmt: skip
+        key = (
+            self.solids,
+            self.liquids,
+            self.gases,
+            self.size_edges,
+            self.axes,
+            self.liquid_viscosity,
+            self.gas_viscosity,
+            self.gas_conductivity,
+            self.materials,
+        )
         object.__setattr__(self, "_key", (hash(key), key))
 
     def __hash__(self) -> int:
@@ -124,7 +141,9 @@ class Mixture:
 
     @cached_property
     def sizes(self) -> np.ndarray:
-        """Representative size of each class, m: the geometric mean of its boundaries (half the upper one when the lower is 0)."""
+        """Representative size of each class, m: the geometric mean of its boundaries (half the upper one when
+        the lower is 0).
+        """
         low, high = self.edges[:-1], self.edges[1:]
         return np.where(low > 0, np.sqrt(low * high), 0.5 * high)
 
@@ -134,7 +153,9 @@ class Mixture:
         return (len(self.solids), len(self.size_edges) - 1, *(len(edges) - 1 for _name, edges in self.axes))
 
     def index(self, phase: str, name: str) -> int:
-        """Position of a species in its phase (``solids``, ``liquids``, ``gases``); a clear error for an unknown name."""
+        """Position of a species in its phase (``solids``, ``liquids``, ``gases``); a clear error for an
+        unknown name.
+        """
         names = [species.name for species in getattr(self, phase)]
         if name not in names:
             raise unknown_name(_("Species"), name, names, _("among the {phase}").format(phase=phase))
@@ -142,11 +163,16 @@ class Mixture:
 
     @cached_property
     def _tables(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Coefficients of enthalpy and density, species × powers of the temperature above 0 °C, for each phase."""
+        """Coefficients of enthalpy and density, species × powers of the temperature above 0 °C, for each
+        phase.
+        """
         tables = {}
         for phase in ("solids", "liquids", "gases"):
             species = getattr(self, phase)
-            heats = [(s.reference_enthalpy, *(c / (power + 1) for power, c in enumerate(s.heat_capacity))) for s in species]
+            heats = [
+                (s.reference_enthalpy, *(c / (power + 1) for power, c in enumerate(s.heat_capacity)))
+                for s in species
+            ]
             tables[phase] = (_table(heats), _table([s.density for s in species]))
         return tables
 

@@ -1,4 +1,6 @@
-"""A stream: solid by species × size class × further axes, liquid and gas by component, temperature, pressure."""
+"""A stream: solid by species × size class × further axes, liquid and gas by component, temperature,
+pressure.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,8 @@ class Stream(eqx.Module):
     pressure: Any
     mixture: Mixture = eqx.field(static=True)
 
-    # -- totals ------------------------------------------------------------------------------------------------
+    # -- totals
+    # ------------------------------------------------------------------------------------------------
     @property
     def solid_flow(self) -> Any:
         """Total solid, kg/s."""
@@ -75,7 +78,8 @@ class Stream(eqx.Module):
         total = total + (self.gas @ m.composition_matrix(m.gases) if m.gases else 0.0)
         return total + (self.solid_by_species @ m.composition_matrix(m.solids) if m.solids else 0.0)
 
-    # -- properties --------------------------------------------------------------------------------------------
+    # -- properties
+    # --------------------------------------------------------------------------------------------
     def enthalpy_at(self, temperature: Any) -> Any:
         """Enthalpy flow if the stream were at another temperature, W."""
         return self._enthalpy(self._by_phase(), temperature)
@@ -108,12 +112,20 @@ class Stream(eqx.Module):
     @property
     def solid_volume_flow(self) -> Any:
         """Volume of the solid, m³/s."""
-        return jnp.sum(self.solid_by_species / self.mixture.densities("solids", self.temperature)) if self.mixture.solids else jnp.zeros(())
+        return (
+            jnp.sum(self.solid_by_species / self.mixture.densities("solids", self.temperature))
+            if self.mixture.solids
+            else jnp.zeros(())
+        )
 
     @property
     def liquid_volume_flow(self) -> Any:
         """Volume of the liquid, m³/s, component volumes being additive."""
-        return jnp.sum(self.liquid / self.mixture.densities("liquids", self.temperature)) if self.mixture.liquids else jnp.zeros(())
+        return (
+            jnp.sum(self.liquid / self.mixture.densities("liquids", self.temperature))
+            if self.mixture.liquids
+            else jnp.zeros(())
+        )
 
     @property
     def slurry_volume_flow(self) -> Any:
@@ -141,7 +153,9 @@ class Stream(eqx.Module):
         """Viscosity of the liquid, Pa s."""
         law = self.mixture.liquid_viscosity
         if law is None:
-            raise InputError(_("The mixture has no liquid viscosity; name its solvent or give 'liquid_viscosity'."))
+            raise InputError(
+                _("The mixture has no liquid viscosity; name its solvent or give 'liquid_viscosity'.")
+            )
         return law(self.liquid_fractions, self.temperature)
 
     @property
@@ -163,7 +177,11 @@ class Stream(eqx.Module):
     @property
     def gas_heat_capacity(self) -> Any:
         """Heat capacity of the gas, J/(kg K)."""
-        slope = jax.jvp(lambda T: self.mixture.enthalpies("gases", T), (jnp.asarray(self.temperature, dtype=float),), (jnp.ones(()),))[1]
+        slope = jax.jvp(
+            lambda T: self.mixture.enthalpies("gases", T),
+            (jnp.asarray(self.temperature, dtype=float),),
+            (jnp.ones(()),),
+        )[1]
         flow = self.gas_flow
         return jnp.sum(self.gas * slope) / jnp.where(flow > 0, flow, 1.0)
 
@@ -193,14 +211,20 @@ class Stream(eqx.Module):
         total = solid + self.liquid_volume_flow
         return solid / jnp.where(total > 0, total, 1.0)
 
-    # -- new streams -------------------------------------------------------------------------------------------
+    # -- new streams
+    # -------------------------------------------------------------------------------------------
     def replace(self, **changes: Any) -> Stream:
-        """The same stream with some fields changed (``solid``, ``liquid``, ``gas``, ``temperature``, ``pressure``)."""
-        fields = {n: getattr(self, n) for n in ("solid", "liquid", "gas", "temperature", "pressure", "mixture")} | changes
+        """The same stream with some fields changed (``solid``, ``liquid``, ``gas``, ``temperature``,
+        ``pressure``).
+        """
+        fields = {
+            n: getattr(self, n) for n in ("solid", "liquid", "gas", "temperature", "pressure", "mixture")
+        } | changes
         return Stream(**fields)
 
     def part(self, solid: Any = 0.0, liquid: Any = 0.0, gas: Any = 0.0) -> Stream:
-        """The share of each phase (or of each species, class) that goes one way; shares broadcast over the arrays.
+        """The share of each phase (or of each species, class) that goes one way; shares broadcast over the
+        arrays.
 
         A share of size class is given as ``share[None, :]`` padded with further axes by ``by_size``.
         """
@@ -211,7 +235,9 @@ class Stream(eqx.Module):
         return jnp.reshape(per_class, (1, -1) + (1,) * len(self.mixture.axes))
 
     def regraded(self, operator: Any) -> Stream:
-        """Move solid between size classes by a transfer operator (target × source, columns summing to 1), all other axes riding along."""
+        """Move solid between size classes by a transfer operator (target × source, columns summing to 1), all
+        other axes riding along.
+        """
         return self.replace(solid=jnp.moveaxis(jnp.tensordot(operator, self.solid, axes=([1], [1])), 0, 1))
 
     def at_enthalpy(self, enthalpy_flow: Any, guess: Any = None) -> Stream:
@@ -265,7 +291,9 @@ def _mean_density(flows: Any, densities: Any) -> Any:
 
 
 def median_of(masses: Any, edges: Any) -> Any:
-    """Size that halves the mass of the classes, m: straight over the logarithm of size, over size itself in a class that starts at 0; 0 without mass."""
+    """Size that halves the mass of the classes, m: straight over the logarithm of size, over size itself in a
+    class that starts at 0; 0 without mass.
+    """
     below = jnp.append(0.0, jnp.cumsum(masses))
     half, edges = 0.5 * below[-1], jnp.asarray(edges)
     size = jnp.exp(jnp.interp(half, below, jnp.log(jnp.where(edges > 0.0, edges, edges[1]))))

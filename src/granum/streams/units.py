@@ -1,4 +1,6 @@
-"""``Unit``: what every piece of equipment is. It solves itself once and hands on one record; whatever else is told of it reads that record."""
+"""``Unit``: what every piece of equipment is. It solves itself once and hands on one record; whatever else is
+told of it reads that record.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +46,10 @@ class Operated(NamedTuple):
 
     Parameters
     ----------
-    outlets: streams and powers. figures: the data sheet (None, as ``checks`` are none, where only outlets were asked for).
-    checks: the limits of the class with what was measured. inside: what was worked out on the way, for charts and holdups.
+    outlets: streams and powers. figures: the data sheet (None, as ``checks`` are none, where only outlets
+        were asked for).
+    checks: the limits of the class with what was measured. inside: what was worked out on the way, for charts
+        and holdups.
     records: what formulas flagged meanwhile.
     """
 
@@ -60,12 +64,14 @@ class Unit(eqx.Module):
     """Abstract equipment. A final subclass is a frozen module declared with ``@equipment``.
 
     * ``inside(self, feed, …)``: the only place that solves anything; its result is handed to the other three.
-    * ``outlets(self, inside, feed, …) -> Outlets``: named inlets in; a ``NamedTuple`` out whose fields are streams, or powers in W
-      that the unit takes up from outside (``heat_duty``, ``shaft_power``; negative when it gives them off). The audit
-      closes enthalpy in + powers = enthalpy out.
+    * ``outlets(self, inside, feed, …) -> Outlets``: named inlets in; a ``NamedTuple`` out whose fields are
+        streams, or powers in W that the unit takes up from outside (``heat_duty``, ``shaft_power``; negative
+        when it gives them off). The audit closes enthalpy in + powers = enthalpy out.
     * ``figures(self, inside, outlets, feed, …) -> NamedTuple`` annotated with kinds: the data sheet.
-    * ``limits``: practical limits by name; ``measured(self, inside, outlets, figures, feed, …)`` gives a number for each that applies.
-    * ``Type.size(...)`` (class method) where sizing has a closed statement: the same equations, another unknown.
+    * ``limits``: practical limits by name; ``measured(self, inside, outlets, figures, feed, …)`` gives a
+        number for each that applies.
+    * ``Type.size(...)`` (class method) where sizing has a closed statement: the same equations, another
+        unknown.
     """
 
     limits: ClassVar[Limits] = {}
@@ -88,7 +94,9 @@ class Unit(eqx.Module):
 
     @final
     def operate(self, whole: bool = True, /, **inlets: Stream) -> Operated:
-        """The one pass: everything about this unit for these inlets; without figures and checks where not ``whole``."""
+        """The one pass: everything about this unit for these inlets; without figures and checks where not
+        ``whole``.
+        """
         figures: Any = None
         checks: tuple[Check, ...] = ()
         with flags.collect() as records:
@@ -117,7 +125,11 @@ class Unit(eqx.Module):
 
     @classmethod
     def _ports(cls) -> list[inspect.Parameter]:
-        return [p for name, p in inspect.signature(cls.outlets).parameters.items() if name not in ("self", "inside")]
+        return [
+            p
+            for name, p in inspect.signature(cls.outlets).parameters.items()
+            if name not in ("self", "inside")
+        ]
 
     @classmethod
     def inlet_names(cls) -> tuple[str, ...] | None:
@@ -152,8 +164,8 @@ class Unit(eqx.Module):
 class Dynamic(abc.ABC):
     """What a unit with a holdup adds for a line in time. Steady state and dynamics are the same equations.
 
-    The state is a pytree of arrays; ``advance`` returns it and the outlets (without powers) at the end of a step in which the inlets
-    change linearly.
+    The state is a pytree of arrays; ``advance`` returns it and the outlets (without powers) at the end of a
+    step in which the inlets change linearly.
     """
 
     @abc.abstractmethod
@@ -173,5 +185,7 @@ class Dynamic(abc.ABC):
         return None
 
     @abc.abstractmethod
-    def advance(self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any) -> tuple[Any, Any]:
+    def advance(
+        self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
+    ) -> tuple[Any, Any]:
         """The state and the outlets after a step."""

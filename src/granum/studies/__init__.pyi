@@ -1,7 +1,9 @@
-"""Studies: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization and Pareto fronts of any line or formula.
+"""Studies: Monte Carlo, Sobol indices, sweeps, maps, scenarios, optimization and Pareto fronts of any line or
+formula.
 
-``monte_carlo(line, {"filter.cake_resistance": fit})`` and its neighbours take a line (``granum.read``), a flowsheet, a formula or the key of
-a card; ``Study`` is a study declared in a table (case file or form). See ``granum.studies.study``."""
+``monte_carlo(line, {"filter.cake_resistance": fit})`` and its neighbours take a line (``granum.read``), a
+flowsheet, a formula or the key of a card; ``Study`` is a study declared in a table (case file or form). See
+``granum.studies.study``."""
 
 from granum.studies.engine import (
     Progress as Progress,

@@ -1,4 +1,6 @@
-"""Charts of studies: histogram with cumulative curve, bars of influence, sweeps, maps, starts and fronts, in the house style."""
+"""Charts of studies: histogram with cumulative curve, bars of influence, sweeps, maps, starts and fronts, in
+the house style.
+"""
 
 from __future__ import annotations
 
@@ -69,20 +71,41 @@ def distribution_chart(outcome: Ensemble, v: Variable) -> go.Figure:
         yaxis="y2",
         line={"color": charts.INK, "width": 2},
     )
-    figure.update_layout(yaxis2={"overlaying": "y", "side": "right", "range": [0, 100], "title": _("cumulative / %"), "showgrid": False, "tickmode": "linear", "dtick": 25}, bargap=0,
-                         showlegend=False, margin={"r": 70})  # fmt: skip
+    figure.update_layout(
+        yaxis2={
+            "overlaying": "y",
+            "side": "right",
+            "range": [0, 100],
+            "title": _("cumulative / %"),
+            "showgrid": False,
+            "tickmode": "linear",
+            "dtick": 25,
+        },
+        bargap=0,
+        showlegend=False,
+        margin={"r": 70},
+    )
     for name, share, side in (("P10", 10, "top left"), ("P50", 50, "top"), ("P90", 90, "top right")):
         place = float(np.percentile(x, share))
         line = {"color": charts.GAS, "width": 1, "dash": "dot"}
         text = f"{name} {format_number(place, 3)}"
-        figure.add_vline(x=place, line=line, annotation_text=text, annotation_font_size=11, annotation_position=side)
+        figure.add_vline(
+            x=place, line=line, annotation_text=text, annotation_font_size=11, annotation_position=side
+        )
     for limit in outcome.limits.get(v.path, (None, None)):
         if limit is not None:
             figure.add_vline(x=float(shown(v.parameter, limit, unit)), line={"color": charts.OUT, "width": 2})
     return figure
 
 
-def _bars(figure: go.Figure, names: list[str], values: list[float], spread: list[float] | None, name: str, color: str) -> None:
+def _bars(
+    figure: go.Figure,
+    names: list[str],
+    values: list[float],
+    spread: list[float] | None,
+    name: str,
+    color: str,
+) -> None:
     error = {"type": "data", "array": spread, "color": charts.INK, "thickness": 1} if spread else None
     figure.add_bar(y=names, x=values, orientation="h", name=name, marker_color=color, error_x=error)
 
@@ -100,9 +123,20 @@ def of_ensemble(outcome: Ensemble) -> dict[str, go.Figure]:
         rows = [(labels[n], r) for n, r in ranks.get(v.path, {}).items() if r is not None]
         if len(rows) > 1:
             rows = sorted(rows, key=lambda row: abs(row[1]))[-SHOWN:]
-            figure = charts.figure(_("rank correlation"), "", title=_("What moves {figure}").format(figure=v.label))
-            _bars(figure, [n for n, _r in rows], [r for _n, r in rows], None, _("rank correlation"), charts.ACCENT)
-            figure.update_layout(xaxis_range=[-1, 1], yaxis_type="category", showlegend=False, margin={"l": 220})
+            figure = charts.figure(
+                _("rank correlation"), "", title=_("What moves {figure}").format(figure=v.label)
+            )
+            _bars(
+                figure,
+                [n for n, _r in rows],
+                [r for _n, r in rows],
+                None,
+                _("rank correlation"),
+                charts.ACCENT,
+            )
+            figure.update_layout(
+                xaxis_range=[-1, 1], yaxis_type="category", showlegend=False, margin={"l": 220}
+            )
             made[f"{v.path} tornado"] = figure
     return made
 
@@ -116,12 +150,22 @@ def of_sensitivity(outcome: Sensitivity) -> dict[str, go.Figure]:
         if not rows:
             continue
         rows = sorted(rows, key=lambda row: row[1]["total"] or 0.0)[-SHOWN:]
-        figure = charts.figure(_("share of the variance"), "", title=_("What moves {figure}").format(figure=v.label))
-        for key, name, color in (("first", _("alone"), charts.ACCENT), ("total", _("with interactions"), charts.GAS)):
+        figure = charts.figure(
+            _("share of the variance"), "", title=_("What moves {figure}").format(figure=v.label)
+        )
+        for key, name, color in (
+            ("first", _("alone"), charts.ACCENT),
+            ("total", _("with interactions"), charts.GAS),
+        ):
             spread = [float(s[f"{key}_interval"] or 0.0) for _n, s in rows]
-            _bars(figure, [n for n, _s in rows], [float(s[key] or 0.0) for _n, s in rows], spread, name, color)
+            _bars(
+                figure, [n for n, _s in rows], [float(s[key] or 0.0) for _n, s in rows], spread, name, color
+            )
         figure.update_layout(
-            barmode="group", yaxis_type="category", margin={"l": 220}, legend={"orientation": "h", "y": 1.02, "yanchor": "bottom"}
+            barmode="group",
+            yaxis_type="category",
+            margin={"l": 220},
+            legend={"orientation": "h", "y": 1.02, "yanchor": "bottom"},
         )
         made[v.path] = figure
     return made
@@ -131,7 +175,12 @@ def of_sweep(outcome: Sweep) -> dict[str, go.Figure]:
     """Each figure along the input."""
     (across,) = outcome.inputs
     x, title = _scaled(across, outcome.column(across.path))
-    log = len(x) > 2 and x.min() > 0 and abs(x[1] / x[0] - x[-1] / x[-2]) < 1e-6 * x[1] / x[0] and x[-1] / x[0] > 10
+    log = (
+        len(x) > 2
+        and x.min() > 0
+        and abs(x[1] / x[0] - x[-1] / x[-2]) < 1e-6 * x[1] / x[0]
+        and x[-1] / x[0] > 10
+    )
     made = {}
     for v in outcome.outputs[:SHOWN]:
         y, upward = _scaled(v, outcome.column(v.path))
@@ -145,7 +194,10 @@ def of_map(outcome: Map) -> dict[str, go.Figure]:
     down, across = outcome.inputs
     first, second = outcome.axes
     (y, upward), (x, title) = _scaled(down, first), _scaled(across, second)
-    logs = [len(a) > 2 and a.min() > 0 and a[-1] / a[0] > 10 and abs(a[1] * a[1] / (a[0] * a[2]) - 1) < 1e-6 for a in (x, y)]
+    logs = [
+        len(a) > 2 and a.min() > 0 and a[-1] / a[0] > 10 and abs(a[1] * a[1] / (a[0] * a[2]) - 1) < 1e-6
+        for a in (x, y)
+    ]
     made = {}
     for v in outcome.outputs[:SHOWN]:
         z, named = _scaled(v, outcome.grid(v.path))
@@ -161,12 +213,16 @@ def of_map(outcome: Map) -> dict[str, go.Figure]:
         )
         for path, limit in outcome.limits.items():
             _forbid(figure, outcome, path, limit, x, y)
-        figure.update_layout(legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1.0, "xanchor": "right"})
+        figure.update_layout(
+            legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1.0, "xanchor": "right"}
+        )
         made[v.path] = figure
     return made
 
 
-def _forbid(figure: go.Figure, outcome: Map, path: str, limit: tuple[float | None, float | None], x: Any, y: Any) -> None:
+def _forbid(
+    figure: go.Figure, outcome: Map, path: str, limit: tuple[float | None, float | None], x: Any, y: Any
+) -> None:
     """Shade where a limit is not kept (a constraint contour fills the side that breaks it)."""
     values = outcome.grid(path)
     v = outcome.cases.subject.output(path)
@@ -176,11 +232,19 @@ def _forbid(figure: go.Figure, outcome: Map, path: str, limit: tuple[float | Non
         unit = v.parameter.display_unit(bound)
         edge = float(shown(v.parameter, bound, unit))
         figure.add_contour(
-            x=x, y=y, z=shown(v.parameter, values, unit), showscale=False, hoverinfo="skip", showlegend=True,
-            name=_("outside {limit}").format(limit=f"{v.label} {sign} {format_number(edge)} {pretty_unit(unit)}"),
-            contours={"type": "constraint", "operation": operation, "value": edge}, line={"color": charts.OUT, "width": 2},
+            x=x,
+            y=y,
+            z=shown(v.parameter, values, unit),
+            showscale=False,
+            hoverinfo="skip",
+            showlegend=True,
+            name=_("outside {limit}").format(
+                limit=f"{v.label} {sign} {format_number(edge)} {pretty_unit(unit)}"
+            ),
+            contours={"type": "constraint", "operation": operation, "value": edge},
+            line={"color": charts.OUT, "width": 2},
             fillcolor="rgba(185,28,28,0.25)",
-        )  # fmt: skip
+        )
 
 
 def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
@@ -188,13 +252,30 @@ def of_optimum(outcome: Optimum) -> dict[str, go.Figure]:
     names = [v.label for v in outcome.inputs]
     places = [100 * outcome.spans[p].place(value) for p, value in outcome.values.items()]
     figure = charts.figure(_("place within its limits / %"), "", title=_("Best inputs"))
-    figure.add_bar(y=names, x=[100.0] * len(names), orientation="h", marker_color=charts.GRID, hoverinfo="skip", showlegend=False)
+    figure.add_bar(
+        y=names,
+        x=[100.0] * len(names),
+        orientation="h",
+        marker_color=charts.GRID,
+        hoverinfo="skip",
+        showlegend=False,
+    )
     texts = []
     for v in outcome.inputs:
         unit = v.parameter.display_unit(outcome.values[v.path])
-        texts.append(f"{format_number(float(shown(v.parameter, outcome.values[v.path], unit)))} {pretty_unit(unit)}")
-    figure.add_scatter(y=names, x=places, mode="markers+text", text=texts, textposition="top center", name=_("optimum"),
-                       marker={"color": charts.ACCENT, "size": 12}, showlegend=False)  # fmt: skip
+        texts.append(
+            f"{format_number(float(shown(v.parameter, outcome.values[v.path], unit)))} {pretty_unit(unit)}"
+        )
+    figure.add_scatter(
+        y=names,
+        x=places,
+        mode="markers+text",
+        text=texts,
+        textposition="top center",
+        name=_("optimum"),
+        marker={"color": charts.ACCENT, "size": 12},
+        showlegend=False,
+    )
     figure.update_layout(barmode="overlay", xaxis_range=[-18, 118], yaxis_type="category", margin={"l": 220})
     return {"optimum": figure}
 
@@ -204,10 +285,19 @@ def of_front(outcome: Front) -> dict[str, go.Figure]:
     one, two = (outcome.cases.subject.output(p) for p in outcome.objectives)
     (x, title), (y, upward) = _scaled(one, outcome.column(one.path)), _scaled(two, outcome.column(two.path))
     figure = charts.figure(title, upward, title=_("Best compromises"))
-    figure.add_scatter(x=x, y=y, mode="lines+markers", line={"color": charts.ACCENT, "width": 2}, marker={"size": 8}, showlegend=False)
+    figure.add_scatter(
+        x=x,
+        y=y,
+        mode="lines+markers",
+        line={"color": charts.ACCENT, "width": 2},
+        marker={"size": 8},
+        showlegend=False,
+    )
     made = {"front": figure}
     for v in outcome.inputs[:SHOWN]:
         along, upward = _scaled(v, outcome.column(v.path))
         made[v.path] = charts.figure(title, upward, title=v.label)
-        made[v.path].add_scatter(x=x, y=along, mode="lines+markers", line={"color": charts.ACCENT}, showlegend=False)
+        made[v.path].add_scatter(
+            x=x, y=along, mode="lines+markers", line={"color": charts.ACCENT}, showlegend=False
+        )
     return made

@@ -19,8 +19,8 @@ MOST_CASES = 5_000_000
 def sources_of(subject: Subject, uncertain: Mapping[str, Any]) -> list[Source]:
     """Independent sources of uncertainty from ``{input: distribution}``.
 
-    A distribution is a table (see ``granum.studies.distributions.distribution``), a ``Fit`` (its estimate of the same
-    name) or ``(fit, "name of the estimate")``.
+    A distribution is a table (see ``granum.studies.distributions.distribution``), a ``Fit`` (its estimate of
+    the same name) or ``(fit, "name of the estimate")``.
     """
     marginals: list[Source] = []
     fits: dict[str, tuple[Fit, str]] = {}
@@ -37,7 +37,8 @@ def sources_of(subject: Subject, uncertain: Mapping[str, Any]) -> list[Source]:
         else:
             raise InputError(
                 _(
-                    "'{name}': write its uncertainty as a table such as {{distribution = \"normal\", mean = …, standard_deviation = …}}."
+                    "'{name}': write its uncertainty as a table such as {{distribution = \"normal\", "
+                    "mean = …, standard_deviation = …}}."
                 ).format(name=path),
                 name=path,
             )
@@ -46,7 +47,9 @@ def sources_of(subject: Subject, uncertain: Mapping[str, Any]) -> list[Source]:
     return marginals + from_fits(fits)
 
 
-def prepare(subject: Subject, outputs: Sequence[str] | None, varied: tuple[str, ...]) -> tuple[Subject, tuple[str, ...]]:
+def prepare(
+    subject: Subject, outputs: Sequence[str] | None, varied: tuple[str, ...]
+) -> tuple[Subject, tuple[str, ...]]:
     """The subject with expressions among the figures resolved, and the figures to compute."""
     if isinstance(outputs, str):
         outputs = [outputs]
@@ -61,21 +64,30 @@ def prepare(subject: Subject, outputs: Sequence[str] | None, varied: tuple[str, 
     return subject, tuple(dict.fromkeys(paths))
 
 
-def limits_of(subject: Subject, declared: Mapping[str, Any], where: str) -> tuple[Subject, dict[str, tuple[float | None, float | None]]]:
+def limits_of(
+    subject: Subject, declared: Mapping[str, Any], where: str
+) -> tuple[Subject, dict[str, tuple[float | None, float | None]]]:
     """Limits of figures from ``{figure: {lower, upper}}`` in any unit, SI."""
     found: dict[str, tuple[float | None, float | None]] = {}
     for text, table in declared.items():
         subject, path = subject.figure(text)
         if not isinstance(table, Mapping) or not table:
             raise InputError(
-                _("{where} '{name}': give 'lower', 'upper' or both, as in {{upper = \"3 %\"}}.").format(where=where, name=text)
+                _("{where} '{name}': give 'lower', 'upper' or both, as in {{upper = \"3 %\"}}.").format(
+                    where=where, name=text
+                )
             )
         for key in table:
             if key not in ("lower", "upper"):
                 raise unknown_name(_("Key"), key, ("lower", "upper"), f"{where} '{text}'")
-        low, high = (si(subject.output(path).parameter, table[k], f"{where} '{text}'") if k in table else None for k in ("lower", "upper"))
+        low, high = (
+            si(subject.output(path).parameter, table[k], f"{where} '{text}'") if k in table else None
+            for k in ("lower", "upper")
+        )
         if low is not None and high is not None and low > high:
-            raise InputError(_("{where} '{name}': 'lower' must be below 'upper'.").format(where=where, name=text))
+            raise InputError(
+                _("{where} '{name}': 'lower' must be below 'upper'.").format(where=where, name=text)
+            )
         found[path] = (low, high)
     return subject, found
 

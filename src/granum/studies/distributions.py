@@ -1,6 +1,8 @@
-"""Uncertain inputs: distributions, and the joint uncertainty of a fit. Each turns numbers between 0 and 1 into SI values.
+"""Uncertain inputs: distributions, and the joint uncertainty of a fit. Each turns numbers between 0 and
+1 into SI values.
 
-Every source takes its own columns of the unit cube, so that random, Latin-hypercube and Sobol points all serve alike.
+Every source takes its own columns of the unit cube, so that random, Latin-hypercube and Sobol points all
+serve alike.
 """
 
 from __future__ import annotations
@@ -79,7 +81,9 @@ class Marginal(Source):
 
 @dataclass(frozen=True)
 class FromFit(Source):
-    """The joint uncertainty of the parameters of a fit (multivariate Student t), and of what is derived from them."""
+    """The joint uncertainty of the parameters of a fit (multivariate Student t), and of what is derived from
+    them.
+    """
 
     names: tuple[str, ...]
     estimates: tuple[str, ...]
@@ -101,18 +105,27 @@ class FromFit(Source):
         return np.array([self.fit[n].value for n in self.estimates])
 
     def as_json(self) -> dict[str, Any]:
-        return {"inputs": list(self.names), "distribution": "fit", "card": self.fit.card, "estimates": list(self.estimates)}
+        return {
+            "inputs": list(self.names),
+            "distribution": "fit",
+            "card": self.fit.card,
+            "estimates": list(self.estimates),
+        }
 
 
 def from_fits(wanted: Mapping[str, tuple[Fit, str]]) -> list[Source]:
-    """Sources for inputs that come from fits; those of one fit stay together, so that their correlation is kept."""
+    """Sources for inputs that come from fits; those of one fit stay together, so that their correlation is
+    kept.
+    """
     sources: list[Source] = []
     for found, mine in by_fit(wanted):
         for name in mine.values():
             estimate = found[name]
             if not np.isfinite(estimate.standard_error):
                 raise InputError(
-                    _("'{name}' of the fit {card} has no standard error: the data do not determine it.").format(name=name, card=found.card)
+                    _(
+                        "'{name}' of the fit {card} has no standard error: the data do not determine it."
+                    ).format(name=name, card=found.card)
                 )
         sources.append(FromFit(tuple(mine), tuple(mine.values()), found))
     return sources
@@ -120,7 +133,15 @@ def from_fits(wanted: Mapping[str, tuple[Fit, str]]) -> list[Source]:
 
 LAWS = {
     "normal": {"mean", "standard_deviation", "relative_standard_deviation", "lower", "upper"},
-    "lognormal": {"median", "geometric_standard_deviation", "mean", "standard_deviation", "relative_standard_deviation", "lower", "upper"},
+    "lognormal": {
+        "median",
+        "geometric_standard_deviation",
+        "mean",
+        "standard_deviation",
+        "relative_standard_deviation",
+        "lower",
+        "upper",
+    },
     "uniform": {"lower", "upper"},
     "loguniform": {"lower", "upper"},
     "triangular": {"lower", "mode", "upper"},
@@ -128,10 +149,13 @@ LAWS = {
 
 
 def distribution(name: str, table: Mapping[str, Any], parameter: Parameter) -> Marginal:
-    """The distribution a table declares for one input, such as ``{distribution = "normal", mean = "28 degC", standard_deviation = "0.5 K"}``.
+    """The distribution a table declares for one input, such as ``{distribution = "normal", mean = "28 degC",
+    standard_deviation = "0.5 K"}``.
 
-    ``normal``: mean and standard_deviation (or relative_standard_deviation), optionally cut at lower and upper.
-    ``lognormal``: median and geometric_standard_deviation, or mean and standard_deviation. ``uniform``, ``loguniform``:
+    ``normal``: mean and standard_deviation (or relative_standard_deviation), optionally cut at lower and
+        upper.
+    ``lognormal``: median and geometric_standard_deviation, or mean and standard_deviation. ``uniform``,
+        ``loguniform``:
     lower, upper. ``triangular``: lower, mode, upper.
     """
     where = _("in [uncertain] for '{name}'").format(name=name)
@@ -149,7 +173,10 @@ def distribution(name: str, table: Mapping[str, Any], parameter: Parameter) -> M
         return _MAKERS[law](name, read, where)
     except KeyError as missing:
         raise InputError(
-            _("{where}: a {law} distribution needs '{key}'.").format(where=where, law=law, key=missing.args[0]), name=name
+            _("{where}: a {law} distribution needs '{key}'.").format(
+                where=where, law=law, key=missing.args[0]
+            ),
+            name=name,
         ) from None
 
 
@@ -159,10 +186,16 @@ def _number(key: str, value: Any, parameter: Parameter, where: str) -> float:
         kind = KINDS["PositiveNumber"]
     elif key == "standard_deviation":
         kind = (
-            KINDS["TemperatureDifference"] if kind.unit == "K" else Kind(kind.name, kind.unit, 0.0, open_lower=True, display=kind.display)
+            KINDS["TemperatureDifference"]
+            if kind.unit == "K"
+            else Kind(kind.name, kind.unit, 0.0, open_lower=True, display=kind.display)
         )
     return float(
-        convert(value, Parameter(f"{parameter.name} ({key})" if key == "standard_deviation" else parameter.name, kind), " " + where)
+        convert(
+            value,
+            Parameter(f"{parameter.name} ({key})" if key == "standard_deviation" else parameter.name, kind),
+            " " + where,
+        )
     )
 
 
@@ -180,7 +213,13 @@ def _limits(read: dict[str, float]) -> dict[str, float]:
 
 def _normal(name: str, read: dict[str, float], where: str) -> Marginal:
     mean, spread = read["mean"], _spread(read, where)
-    return Marginal(name, "normal", {"mean": mean, "standard_deviation": spread}, stats.norm(mean, spread), **_limits(read))
+    return Marginal(
+        name,
+        "normal",
+        {"mean": mean, "standard_deviation": spread},
+        stats.norm(mean, spread),
+        **_limits(read),
+    )
 
 
 def _lognormal(name: str, read: dict[str, float], where: str) -> Marginal:
@@ -191,7 +230,10 @@ def _lognormal(name: str, read: dict[str, float], where: str) -> Marginal:
         median, sigma = read["median"], float(np.log(read["geometric_standard_deviation"]))
     if median <= 0 or sigma <= 0:
         raise InputError(
-            _("{where}: a lognormal distribution needs a positive value and a geometric standard deviation above 1.").format(where=where)
+            _(
+                "{where}: a lognormal distribution needs a positive value and a geometric standard "
+                "deviation above 1."
+            ).format(where=where)
         )
     numbers = {"median": float(median), "geometric_standard_deviation": float(np.exp(sigma))}
     return Marginal(name, "lognormal", numbers, stats.lognorm(sigma, scale=median), **_limits(read))
@@ -205,7 +247,9 @@ def _uniform(name: str, read: dict[str, float], where: str) -> Marginal:
 def _loguniform(name: str, read: dict[str, float], where: str) -> Marginal:
     low, high = read["lower"], read["upper"]
     if low <= 0:
-        raise InputError(_("{where}: 'lower' of a loguniform distribution must be greater than zero.").format(where=where))
+        raise InputError(
+            _("{where}: 'lower' of a loguniform distribution must be greater than zero.").format(where=where)
+        )
     return Marginal(name, "loguniform", {"lower": low, "upper": high}, stats.loguniform(low, high))
 
 
@@ -217,4 +261,10 @@ def _triangular(name: str, read: dict[str, float], where: str) -> Marginal:
     return Marginal(name, "triangular", numbers, stats.triang((mode - low) / (high - low), low, high - low))
 
 
-_MAKERS = {"normal": _normal, "lognormal": _lognormal, "uniform": _uniform, "loguniform": _loguniform, "triangular": _triangular}
+_MAKERS = {
+    "normal": _normal,
+    "lognormal": _lognormal,
+    "uniform": _uniform,
+    "loguniform": _loguniform,
+    "triangular": _triangular,
+}

@@ -1,4 +1,6 @@
-"""Many cases of one subject: in memory-bounded chunks, over threads or Dask workers, with progress, cancelling and restart."""
+"""Many cases of one subject: in memory-bounded chunks, over threads or Dask workers, with progress,
+cancelling and restart.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ from granum.studies.subjects import (
 MEMORY = 512 * 2**20
 """Bytes of working memory that one chunk may take."""
 SLICE = 0.5
-"""Seconds of a slow line after which a study looks around: progress is shown, it can be stopped, and little is lost."""
+"""Seconds of a slow line after which a study looks around: progress is shown, it can be stopped, and little
+is lost.
+"""
 CHUNKS = {"batched": 16384, "line": 64, "accelerator": 2048, "python": 64}
 
 
@@ -55,7 +59,9 @@ Cancel = Callable[[], bool]
 
 @dataclass(frozen=True)
 class Cases:
-    """Inputs and figures of many cases, SI, with a code each (0 = fine) and texts of refusals; ``notes`` tell what else a reader must know."""
+    """Inputs and figures of many cases, SI, with a code each (0 = fine) and texts of refusals; ``notes`` tell
+    what else a reader must know.
+    """
 
     subject: Subject
     inputs: tuple[str, ...]
@@ -86,7 +92,9 @@ class Cases:
     def reason(self, case: int) -> str:
         """Why a case failed; empty when it did not."""
         code = int(self.codes[case])
-        return self.texts.get(case) or ("" if code <= FINE else self.subject.reason(code, self.inputs, self.outputs))
+        return self.texts.get(case) or (
+            "" if code <= FINE else self.subject.reason(code, self.inputs, self.outputs)
+        )
 
     def reasons(self) -> dict[str, int]:
         """How many cases failed for which reason."""
@@ -115,12 +123,19 @@ class Evaluator:
         if isinstance(subject, FormulaSubject) and not subject.pure:
             return Evaluator(subject, inputs, outputs, min(count, CHUNKS["python"]), None, None)
         accelerator = jax.default_backend() != "cpu"
-        sort = "accelerator" if accelerator and not subject.batched else "batched" if subject.batched else "line"
+        sort = (
+            "accelerator" if accelerator and not subject.batched else "batched" if subject.batched else "line"
+        )
         size = min(CHUNKS[sort], 1 << max(count - 1, 0).bit_length())
         arrays = subject.numbers()
         one = subject.traced(inputs, outputs)
-        # one after the other in compiled code beats side by side for a line on a processor: no case waits for the slowest
-        many = _one_after_the_other(one) if sort == "line" else lambda a, x, _count: jax.vmap(one, in_axes=(None, 0))(a, x)
+        # one after the other in compiled code beats side by side for a line on a processor: no case waits for
+        # the slowest
+        many = (
+            _one_after_the_other(one)
+            if sort == "line"
+            else lambda a, x, _count: jax.vmap(one, in_axes=(None, 0))(a, x)
+        )
         while True:
             compiled = jax.jit(many).lower(arrays, jnp.zeros((size, len(inputs))), jnp.int32(size)).compile()
             memory = compiled.memory_analysis()
@@ -129,7 +144,9 @@ class Evaluator:
             size = max(1, int(size * 0.9 * MEMORY / memory.temp_size_in_bytes))
 
     def chunk(self, x: np.ndarray) -> int:
-        """How many cases to compute before the next look around: all at once, or as many slow lines as take about ``SLICE``."""
+        """How many cases to compute before the next look around: all at once, or as many slow lines as take
+        about ``SLICE``.
+        """
         if not self.serial:
             return self.size
         began = time.perf_counter()
@@ -152,7 +169,9 @@ class Evaluator:
         for i, path in enumerate(self.inputs):
             kind = self.subject.input(path).parameter.kind
             if kind is not None:
-                codes[(codes == FINE) & ~np.asarray(kind.contains(x[:, i]) & np.isfinite(x[:, i]))] = OUTSIDE + i
+                codes[(codes == FINE) & ~np.asarray(kind.contains(x[:, i]) & np.isfinite(x[:, i]))] = (
+                    OUTSIDE + i
+                )
         fine = np.flatnonzero(codes == FINE)
         y, rungs = np.full((len(x), len(self.outputs)), np.nan), np.zeros(len(x), np.int8)
         if not len(fine):
@@ -162,7 +181,10 @@ class Evaluator:
         # a chunk that is not full is filled up with a possible case: one shape, one compilation
         padded = np.repeat(x[fine[:1]], self.size, axis=0)
         padded[: len(fine)] = x[fine]
-        figures, found = (np.asarray(part)[: len(fine)] for part in self.compiled(self.arrays, jnp.asarray(padded), jnp.int32(len(fine))))
+        figures, found = (
+            np.asarray(part)[: len(fine)]
+            for part in self.compiled(self.arrays, jnp.asarray(padded), jnp.int32(len(fine)))
+        )
         codes[fine], y[fine] = found, figures
         y[codes > FINE] = np.nan
         harder = self.subject.harder
@@ -171,7 +193,11 @@ class Evaluator:
             again = evaluator(harder, self.inputs, self.outputs, self.size)._some(x[lost])
             solved = again.codes <= FINE
             found = lost[solved]
-            y[found], codes[found], rungs[found] = again.y[solved], again.codes[solved], again.rungs[solved] + 1
+            y[found], codes[found], rungs[found] = (
+                again.y[solved],
+                again.codes[solved],
+                again.rungs[solved] + 1,
+            )
         return Part(y, codes, {}, rungs)
 
     def _one_by_one(self, x: np.ndarray, y: np.ndarray, codes: np.ndarray, fine: np.ndarray) -> Part:
@@ -196,7 +222,9 @@ def _one_after_the_other(one: Any) -> Any:
         def step(i: Any, made: Any) -> Any:
             return tuple(part.at[i].set(new) for part, new in zip(made, one(arrays, x[i]), strict=True))
 
-        return jax.lax.fori_loop(0, count, step, tuple(jnp.zeros((len(x), *new.shape), new.dtype) for new in (figures, code)))
+        return jax.lax.fori_loop(
+            0, count, step, tuple(jnp.zeros((len(x), *new.shape), new.dtype) for new in (figures, code))
+        )
 
     return many
 
@@ -207,37 +235,64 @@ def _possible(y: np.ndarray, kind: Kind | None) -> np.ndarray:
         return np.isfinite(y)
     good = np.isfinite(y)
     usual = float(np.median(np.abs(y[good]))) if good.any() else 0.0
-    slack = 1e-12 + 1e-9 * max(usual, *(abs(bound) for bound in (kind.lower, kind.upper) if np.isfinite(bound)), 0.0)
+    slack = 1e-12 + 1e-9 * max(
+        usual, *(abs(bound) for bound in (kind.lower, kind.upper) if np.isfinite(bound)), 0.0
+    )
     return good & (y >= kind.lower - slack) & (y <= kind.upper + slack)
 
 
 def evaluator(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], count: int) -> Evaluator:
     """The evaluator of a subject, which keeps the last few, compiled."""
     size = min(1 << max(count - 1, 0).bit_length(), max(CHUNKS.values()))
-    return subject.kept(("cases", inputs, outputs, size), lambda: Evaluator.of(subject, inputs, outputs, count))
+    return subject.kept(
+        ("cases", inputs, outputs, size), lambda: Evaluator.of(subject, inputs, outputs, count)
+    )
 
 
-def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], x: np.ndarray, *, progress: Report | None = None,
-             cancel: Cancel | None = None, folder: str | Path | None = None, workers: Any = None, even_none: bool = False) -> Cases:  # fmt: skip
-    """Compute all cases ``x`` (cases × inputs, SI). Raises ``ConvergenceError`` (with the cases as ``last``) when none gives a result.
+def evaluate(
+    subject: Subject,
+    inputs: tuple[str, ...],
+    outputs: tuple[str, ...],
+    x: np.ndarray,
+    *,
+    progress: Report | None = None,
+    cancel: Cancel | None = None,
+    folder: str | Path | None = None,
+    workers: Any = None,
+    even_none: bool = False,
+) -> Cases:
+    """Compute all cases ``x`` (cases × inputs, SI). Raises ``ConvergenceError`` (with the cases as ``last``)
+    when none gives a result.
 
     Parameters
     ----------
     progress: called with a ``Progress`` after every chunk.
     cancel: asked after every chunk; True stops, what is not done is marked so.
     folder: where finished chunks are kept; the same call continues there.
-    workers: number of local Dask workers, or the address of a Dask scheduler; None computes here on all cores.
+    workers: number of local Dask workers, or the address of a Dask scheduler; None computes here on all
+        cores.
     even_none: give the cases back even when none has a result.
     """
     x = np.atleast_2d(np.asarray(x, dtype=float))
     for path in inputs:
         subject.input(path)
-    cases = Cases(subject, inputs, outputs, x, np.full((len(x), len(outputs)), np.nan), np.full(len(x), NOT_RUN, np.int32),
-                  rungs=np.zeros(len(x), np.int8))  # fmt: skip
+    cases = Cases(
+        subject,
+        inputs,
+        outputs,
+        x,
+        np.full((len(x), len(outputs)), np.nan),
+        np.full(len(x), NOT_RUN, np.int32),
+        rungs=np.zeros(len(x), np.int8),
+    )
     store = Store(Path(folder)) if folder is not None else None
     size = store.open(subject.fingerprint(), (inputs, outputs), x) if store is not None else None
     if size is None:
-        size = _chunk(subject, len(x)) if workers is not None else evaluator(subject, inputs, outputs, len(x)).chunk(x)
+        size = (
+            _chunk(subject, len(x))
+            if workers is not None
+            else evaluator(subject, inputs, outputs, len(x)).chunk(x)
+        )
         if store is not None:
             store.begin(size)
     todo = [start for start in range(0, len(x), size) if not _kept(store, cases, start)]
@@ -269,9 +324,14 @@ def evaluate(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...]
 def _some_fine(cases: Cases, even_none: bool) -> Cases:
     if even_none or not cases.complete or cases.fine.any():
         return cases
-    told = [f"{count} × {reason}" for reason, count in sorted(cases.reasons().items(), key=lambda row: -row[1])]
+    told = [
+        f"{count} × {reason}" for reason, count in sorted(cases.reasons().items(), key=lambda row: -row[1])
+    ]
     raise ConvergenceError(
-        _("None of the {count} cases has a result: {reasons}.").format(count=len(cases.codes), reasons="; ".join(told[:3])), last=cases
+        _("None of the {count} cases has a result: {reasons}.").format(
+            count=len(cases.codes), reasons="; ".join(told[:3])
+        ),
+        last=cases,
     )
 
 
@@ -283,7 +343,11 @@ def _kept(store: Store | None, cases: Cases, start: int) -> bool:
         part = store.load(start)
     except ValueError:
         name = store.path(start).name
-        cases.notes.append(_("'{file}' was damaged or belongs to another study: its cases were computed again.").format(file=name))
+        cases.notes.append(
+            _("'{file}' was damaged or belongs to another study: its cases were computed again.").format(
+                file=name
+            )
+        )
         return False
     if part is not None:
         _fill(cases, start, part)
@@ -291,14 +355,16 @@ def _kept(store: Store | None, cases: Cases, start: int) -> bool:
 
 
 def _keep(store: Store, cases: Cases, start: int, part: Part) -> None:
-    """Write a chunk; when the disk is full or gone, what was written before stays, and the message says so."""
+    """Write a chunk; when the disk is full or gone, what was written before stays, and the message says
+    so.
+    """
     try:
         store.save(start, part)
     except InputError as problem:
         done = int((cases.codes != NOT_RUN).sum()) - len(part.codes)
-        told = _("{done} of {total} cases are kept; the same command continues there once it can be written.").format(
-            done=done, total=len(cases.codes)
-        )
+        told = _(
+            "{done} of {total} cases are kept; the same command continues there once it can be written."
+        ).format(done=done, total=len(cases.codes))
         raise InputError(f"{problem.message} {told}", **problem.details) from None
 
 
@@ -342,11 +408,18 @@ def _local(compute: Evaluator, chunks: list[tuple[int, np.ndarray]]) -> Made:
 
 
 def _remote(
-    subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any
+    subject: Subject,
+    inputs: tuple[str, ...],
+    outputs: tuple[str, ...],
+    chunks: list[tuple[int, np.ndarray]],
+    workers: Any,
 ) -> Made:
     if subject.recipe is None:
         raise InputError(
-            _("Workers build the model themselves: they need a study read from a file or a table, not a model made in Python.")
+            _(
+                "Workers build the model themselves: they need a study read from a file or a table, not "
+                "a model made in Python."
+            )
         )
     from granum.studies.workers import computed
 

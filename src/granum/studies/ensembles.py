@@ -55,7 +55,8 @@ class Ensemble(Outcome):
             y = rankdata(self.cases.y[good, j])
             with np.errstate(invalid="ignore", divide="ignore"):
                 rho = [
-                    float(np.corrcoef(ranks[:, i], y)[0, 1]) if np.ptp(y) and np.ptp(ranks[:, i]) else np.nan for i in range(ranks.shape[1])
+                    float(np.corrcoef(ranks[:, i], y)[0, 1]) if np.ptp(y) and np.ptp(ranks[:, i]) else np.nan
+                    for i in range(ranks.shape[1])
                 ]
             found[path] = {name: number(r) for name, r in zip(self.cases.inputs, rho, strict=True)}
         return found
@@ -77,12 +78,25 @@ class Ensemble(Outcome):
 def _chance(kept: np.ndarray, run: np.ndarray) -> dict[str, Any]:
     of = int(run.sum())
     met = int(kept.sum())
-    return {"probability": met / of if of else None, "interval_95": list(wilson(met, of)) if of else [None, None]}
+    return {
+        "probability": met / of if of else None,
+        "interval_95": list(wilson(met, of)) if of else [None, None],
+    }
 
 
-def monte_carlo(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 1000, outputs: Sequence[str] | None = None,
-                limits: Mapping[str, Any] | None = None, method: str = "latin_hypercube", seed: int = 0, title: str = "",
-                fixed: Mapping[str, Any] | None = None, **how: Any) -> Ensemble:  # fmt: skip
+def monte_carlo(
+    thing: Any,
+    uncertain: Mapping[str, Any],
+    *,
+    samples: int = 1000,
+    outputs: Sequence[str] | None = None,
+    limits: Mapping[str, Any] | None = None,
+    method: str = "latin_hypercube",
+    seed: int = 0,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Ensemble:
     """Figures of a line or a formula when inputs are uncertain.
 
     Parameters
@@ -94,8 +108,11 @@ def monte_carlo(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 1000
     how: ``progress``, ``cancel``, ``folder``, ``workers`` of ``granum.studies.engine.evaluate``.
 
     >>> from granum.core.units import from_si
-    >>> found = monte_carlo("particles.terminal_velocity", {"particle_diameter": {"distribution": "normal", "mean": "85 um",
-    ...     "standard_deviation": "5 um"}}, fixed={"particle_density": 2630, "fluid_density": 1020, "dynamic_viscosity": "1.2 cP"})
+    >>> found = monte_carlo(
+    ...     "particles.terminal_velocity",
+    ...     {"particle_diameter": {"distribution": "normal", "mean": "85 um", "standard_deviation": "5 um"}},
+    ...     fixed={"particle_density": 2630, "fluid_density": 1020, "dynamic_viscosity": "1.2 cP"},
+    ... )
     >>> found.counts()["failed"]
     0
     """
@@ -107,9 +124,13 @@ def monte_carlo(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 1000
     subject, paths = prepare(subject, outputs, names)
     paths = tuple(dict.fromkeys((*paths, *kept)))
     count = whole(samples, "samples", 1, MOST_CASES)
-    x = inputs_at(sources, unit_points(method, count, sum(s.dimensions for s in sources), whole(seed, "seed", 0, 2**31)))
+    x = inputs_at(
+        sources, unit_points(method, count, sum(s.dimensions for s in sources), whole(seed, "seed", 0, 2**31))
+    )
     cases = evaluate(subject, names, paths, x, **how)
-    return Ensemble(title or _("Monte Carlo"), cases, tuple(sources), kept, elapsed=time.perf_counter() - began)
+    return Ensemble(
+        title or _("Monte Carlo"), cases, tuple(sources), kept, elapsed=time.perf_counter() - began
+    )
 
 
 @dataclass(frozen=True)
@@ -123,27 +144,44 @@ class Sensitivity(Outcome):
 
     @property
     def blocks(self) -> np.ndarray:
-        """Which blocks of cases are whole: the estimator needs all of a block, so one failed case discards its block."""
+        """Which blocks of cases are whole: the estimator needs all of a block, so one failed case discards
+        its block.
+        """
         return np.all(self.cases.fine.reshape(-1, len(self.groups) + 2), axis=1)
 
     def indices(self) -> dict[str, dict[str, dict[str, float | None]]]:
-        """``{figure: {input or group: {first, first_interval, total, total_interval}}}``; intervals are half widths at 95 %."""
+        """``{figure: {input or group: {first, first_interval, total, total_interval}}}``; intervals are half
+        widths at 95 %.
+        """
         from SALib.analyze import sobol
 
         kept = np.repeat(self.blocks, len(self.groups) + 2)
-        problem = {"num_vars": len(self.groups), "names": list(self.groups), "bounds": [[0.0, 1.0]] * len(self.groups)}
+        problem = {
+            "num_vars": len(self.groups),
+            "names": list(self.groups),
+            "bounds": [[0.0, 1.0]] * len(self.groups),
+        }
         found = {}
         for path in self.cases.outputs:
             y = self.column(path)[kept]
             if len(y) < 4 * (len(self.groups) + 2) or np.ptp(y) <= 1e-12 * np.max(np.abs(y)):
-                found[path] = {g: dict.fromkeys(("first", "first_interval", "total", "total_interval")) for g in self.groups}
+                found[path] = {
+                    g: dict.fromkeys(("first", "first_interval", "total", "total_interval"))
+                    for g in self.groups
+                }
                 continue
-            s = sobol.analyze(problem, y, calc_second_order=False, conf_level=0.95, seed=self.seed, print_to_console=False)
+            s = sobol.analyze(
+                problem, y, calc_second_order=False, conf_level=0.95, seed=self.seed, print_to_console=False
+            )
             found[path] = {
-                g: {"first": number(s["S1"][i]), "first_interval": number(s["S1_conf"][i]),
-                    "total": number(s["ST"][i]), "total_interval": number(s["ST_conf"][i])}
+                g: {
+                    "first": number(s["S1"][i]),
+                    "first_interval": number(s["S1_conf"][i]),
+                    "total": number(s["ST"][i]),
+                    "total_interval": number(s["ST_conf"][i]),
+                }
                 for i, g in enumerate(self.groups)
-            }  # fmt: skip
+            }
         return found
 
     def findings(self) -> dict[str, Any]:
@@ -161,12 +199,21 @@ class Sensitivity(Outcome):
         return charts.of_sensitivity(self)
 
 
-def sobol(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 512, outputs: Sequence[str] | None = None, seed: int = 0,
-          title: str = "", fixed: Mapping[str, Any] | None = None, **how: Any) -> Sensitivity:  # fmt: skip
+def sobol(
+    thing: Any,
+    uncertain: Mapping[str, Any],
+    *,
+    samples: int = 512,
+    outputs: Sequence[str] | None = None,
+    seed: int = 0,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Sensitivity:
     """How much of the variance of each figure comes from each uncertain input (Saltelli's design, SALib).
 
-    ``samples`` is the base number, made a power of two; (inputs + 2) times as many cases are computed. The parameters of one fit are one
-    group, because indices are defined for independent inputs.
+    ``samples`` is the base number, made a power of two; (inputs + 2) times as many cases are computed. The
+    parameters of one fit are one group, because indices are defined for independent inputs.
     """
     from SALib.sample import sobol as design
 
@@ -185,6 +232,10 @@ def sobol(thing: Any, uncertain: Mapping[str, Any], *, samples: int = 512, outpu
         "groups": labels,
         "bounds": [[0.0, 1.0]] * len(labels),
     }
-    points = design.sample(problem, base, calc_second_order=False, scramble=True, seed=whole(seed, "seed", 0, 2**31))
+    points = design.sample(
+        problem, base, calc_second_order=False, scramble=True, seed=whole(seed, "seed", 0, 2**31)
+    )
     cases = evaluate(subject, names, paths, inputs_at(sources, points), **how)
-    return Sensitivity(title or _("Sobol indices"), cases, tuple(sources), groups, seed, elapsed=time.perf_counter() - began)
+    return Sensitivity(
+        title or _("Sobol indices"), cases, tuple(sources), groups, seed, elapsed=time.perf_counter() - began
+    )

@@ -1,7 +1,7 @@
 """Figures computed from other figures: an arithmetic expression, or a formula whose inputs are figures.
 
-``"dryer.heat_duty / crystals.solid_flow"`` is worked out in SI units. Text in quotes is a quantity (``'0.1 USD/kWh'``) or a
-name that is no identifier (``'purged.liquid.potassium nitrate'``).
+``"dryer.heat_duty / crystals.solid_flow"`` is worked out in SI units. Text in quotes is a quantity
+(``'0.1 USD/kWh'``) or a name that is no identifier (``'purged.liquid.potassium nitrate'``).
 """
 
 from __future__ import annotations
@@ -24,11 +24,21 @@ from granum.core.written import read_number
 
 Lookup = Callable[[str], Any]
 
-_BINARY = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow}
+_BINARY = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sqrt": jnp.sqrt, "exp": jnp.exp, "log": jnp.log, "abs": jnp.abs, "min": lambda *x: jnp.min(jnp.stack(x)),
+    "sqrt": jnp.sqrt,
+    "exp": jnp.exp,
+    "log": jnp.log,
+    "abs": jnp.abs,
+    "min": lambda *x: jnp.min(jnp.stack(x)),
     "max": lambda *x: jnp.max(jnp.stack(x)),
-}  # fmt: skip
+}
 LONGEST = 2000
 
 
@@ -48,7 +58,9 @@ class Expression:
             tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError):
             raise InputError(
-                _("'{text}' is not an expression such as 'dryer.heat_duty / crystals.solid_flow'.").format(text=text)
+                _("'{text}' is not an expression such as 'dryer.heat_duty / crystals.solid_flow'.").format(
+                    text=text
+                )
             ) from None
         made = Expression(text, tree)
         made.names()  # complains about what is not allowed
@@ -75,7 +87,11 @@ class Expression:
         return self._walk(self.tree, lookup, compute=True)
 
     def _walk(self, node: ast.expr, lookup: Lookup, compute: bool) -> Any:
-        if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
+        if (
+            isinstance(node, ast.Constant)
+            and isinstance(node.value, (int, float))
+            and not isinstance(node.value, bool)
+        ):
             return float(node.value)
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             return _quantity(node.value) if node.value[:1] in "0123456789.+-\u2212" else lookup(node.value)
@@ -98,7 +114,8 @@ class Expression:
             return _FUNCTIONS[node.func.id](*inner) if compute else 1.0
         raise InputError(
             _(
-                "'{part}' in '{text}' cannot be used: an expression has figures, numbers, + - * / ** and sqrt, exp, log, abs, min, max."
+                "'{part}' in '{text}' cannot be used: an expression has figures, numbers, + - * / ** "
+                "and sqrt, exp, log, abs, min, max."
             ).format(part=ast.unparse(node), text=self.text)
         )
 
@@ -108,9 +125,15 @@ def _path(node: ast.expr, text: str) -> str:
         return node.id
     if isinstance(node, ast.Attribute):
         return f"{_path(node.value, text)}.{node.attr}"
-    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant) and isinstance(node.slice.value, int):
+    if (
+        isinstance(node, ast.Subscript)
+        and isinstance(node.slice, ast.Constant)
+        and isinstance(node.slice.value, int)
+    ):
         return f"{_path(node.value, text)}[{node.slice.value}]"
-    raise InputError(_("'{part}' in '{text}' is not the name of a figure.").format(part=ast.unparse(node), text=text))
+    raise InputError(
+        _("'{part}' in '{text}' is not the name of a figure.").format(part=ast.unparse(node), text=text)
+    )
 
 
 def _quantity(text: str) -> float:
@@ -150,17 +173,23 @@ class Quantity:
         """Its value, SI."""
         if self.card is None:
             return self.inputs[0][1].value(lookup)
-        made = self.card(**dict(self.fixed), **{n: jnp.asarray(e.value(lookup), dtype=float) for n, e in self.inputs})
+        made = self.card(
+            **dict(self.fixed), **{n: jnp.asarray(e.value(lookup), dtype=float) for n, e in self.inputs}
+        )
         return getattr(made, self.output) if hasattr(made, "_fields") else made
 
 
 def quantity(name: str, declared: Any) -> Quantity:
-    """The quantity a case file declares: an expression, ``{expression, kind}``, or ``{card, inputs, output}``."""
+    """The quantity a case file declares: an expression, ``{expression, kind}``, or ``{card, inputs,
+    output}``.
+    """
     where = _("in [quantities] for '{name}'").format(name=name)
     if isinstance(declared, (str, int, float)) and not isinstance(declared, bool):
         declared = {"expression": str(declared)}
     if not isinstance(declared, Mapping):
-        raise InputError(_("{where}: give an expression, or a table with 'expression' or 'card'.").format(where=where))
+        raise InputError(
+            _("{where}: give an expression, or a table with 'expression' or 'card'.").format(where=where)
+        )
     table = dict(declared)
     allowed = ("card", "inputs", "output") if "card" in table else ("expression", "kind")
     for key in table:
@@ -176,7 +205,9 @@ def quantity(name: str, declared: Any) -> Quantity:
 
 def _from_expression(name: str, table: dict[str, Any], where: str) -> Quantity:
     if "expression" not in table:
-        raise InputError(_("{where}: give an expression, or a table with 'expression' or 'card'.").format(where=where))
+        raise InputError(
+            _("{where}: give an expression, or a table with 'expression' or 'card'.").format(where=where)
+        )
     kind = None
     if "kind" in table:
         if table["kind"] not in KINDS:
@@ -188,7 +219,11 @@ def _from_expression(name: str, table: dict[str, Any], where: str) -> Quantity:
 def _from_card(name: str, table: dict[str, Any], where: str) -> Quantity:
     card = registry.find(str(table["card"]))
     if card.card.sort != "formula":
-        raise InputError(_("{where}: '{key}' is a {sort}, not a formula.").format(where=where, key=card.card.key, sort=_(card.card.sort)))
+        raise InputError(
+            _("{where}: '{key}' is a {sort}, not a formula.").format(
+                where=where, key=card.card.key, sort=_(card.card.sort)
+            )
+        )
     outputs = {p.name: p for p in card.card.outputs}
     output = str(table.get("output") or next(iter(outputs)))
     if output not in outputs:
@@ -209,6 +244,10 @@ def _from_card(name: str, table: dict[str, Any], where: str) -> Quantity:
                 raise problem from None
     missing = [n for n, p in known.items() if p.required and n not in dict(fixed) and n not in dict(moving)]
     if missing:
-        raise InputError(_("{where}: {owner} needs {names}.").format(where=where, owner=card.card.key, names=", ".join(missing)))
+        raise InputError(
+            _("{where}: {owner} needs {names}.").format(
+                where=where, owner=card.card.key, names=", ".join(missing)
+            )
+        )
     parameter = outputs[output]
     return Quantity(name, Parameter(name, parameter.kind), tuple(moving), tuple(fixed), card, output)

@@ -39,14 +39,20 @@ class Front(Outcome):
 
     def findings(self) -> dict[str, Any]:
         rows = [
-            {"inputs": {p: number(v) for p, v in zip(self.cases.inputs, x, strict=True)},
-             "outputs": {p: number(v) for p, v in zip(self.cases.outputs, y, strict=True)}}
+            {
+                "inputs": {p: number(v) for p, v in zip(self.cases.inputs, x, strict=True)},
+                "outputs": {p: number(v) for p, v in zip(self.cases.outputs, y, strict=True)},
+            }
             for x, y in zip(self.cases.x, self.cases.y, strict=True)
-        ]  # fmt: skip
+        ]
         return {
-            "objectives": [{"name": n, "sense": s} for n, s in zip(self.objectives, self.senses, strict=True)],
-            "front": rows, "dropped": self.dropped, "evaluations": self.evaluations,
-        }  # fmt: skip
+            "objectives": [
+                {"name": n, "sense": s} for n, s in zip(self.objectives, self.senses, strict=True)
+            ],
+            "front": rows,
+            "dropped": self.dropped,
+            "evaluations": self.evaluations,
+        }
 
     def charts(self) -> dict[str, go.Figure]:
         from granum.studies import charts
@@ -54,21 +60,48 @@ class Front(Outcome):
         return charts.of_front(self)
 
 
-def pareto(thing: Any, over: Mapping[str, Any], objectives: Sequence[Mapping[str, str]], *, limits: Mapping[str, Any] | None = None,
-           outputs: Sequence[str] | None = None, points: int = 11, starts: int = 2, method: str = "slsqp", seed: int = 0, title: str = "",
-           fixed: Mapping[str, Any] | None = None, progress: Report | None = None, cancel: Cancel | None = None) -> Front:  # fmt: skip
-    """The front between two objectives, ``[{"minimize": "…"}, {"maximize": "…"}]``, by limits on the second one (epsilon-constraint).
+def pareto(
+    thing: Any,
+    over: Mapping[str, Any],
+    objectives: Sequence[Mapping[str, str]],
+    *,
+    limits: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] | None = None,
+    points: int = 11,
+    starts: int = 2,
+    method: str = "slsqp",
+    seed: int = 0,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    progress: Report | None = None,
+    cancel: Cancel | None = None,
+) -> Front:
+    """The front between two objectives, ``[{"minimize": "…"}, {"maximize": "…"}]``, by limits on the second
+    one (epsilon-constraint).
 
-    The ends are the optima of each alone; in between the first is optimized while the second keeps an evenly spaced limit. Points
-    that another one beats in both are dropped and counted.
+    The ends are the optima of each alone; in between the first is optimized while the second keeps an evenly
+    spaced limit. Points that another one beats in both are dropped and counted.
     """
     began = time.perf_counter()
     pairs = _pair(objectives)
     count = whole(points, "points", 3, 500)
     (one, sign_one), (two, sign_two) = pairs
     first_sense = {"minimize": one} if sign_one > 0 else {"maximize": one}
-    search, one, _sign, kept, first = search_of(thing, over, first_sense.get("minimize"), first_sense.get("maximize"), limits, outputs, method,
-                                              None, 0, 0.5, seed, fixed, two)  # fmt: skip
+    search, one, _sign, kept, first = search_of(
+        thing,
+        over,
+        first_sense.get("minimize"),
+        first_sense.get("maximize"),
+        limits,
+        outputs,
+        method,
+        None,
+        0,
+        0.5,
+        seed,
+        fixed,
+        two,
+    )
     two = search.outputs[1] if len(search.outputs) > 1 else one
     if one == two:
         raise InputError(_("The two objectives must be different figures."))
@@ -77,7 +110,9 @@ def pareto(thing: Any, over: Mapping[str, Any], objectives: Sequence[Mapping[str
 
     def watch() -> None:
         if progress is not None:
-            progress(Progress(done[0], count, 0, _("evaluation {count}").format(count=search.evaluations + 1)))
+            progress(
+                Progress(done[0], count, 0, _("evaluation {count}").format(count=search.evaluations + 1))
+            )
         if cancel is not None and cancel():
             raise Stopped
 
@@ -87,8 +122,12 @@ def pareto(thing: Any, over: Mapping[str, Any], objectives: Sequence[Mapping[str
         return lambda p: (sign * float(p.figures[index]), sign * p.slopes[index])
 
     def best(index: int, sign: float, extra: list[Constraint], places: Sequence[np.ndarray]) -> Found | None:
-        ends = [descend(search, weighing(index, sign), [*constraints, *extra], place, method) for place in places]
-        ends = sorted((e for e in ends if e.point.code == FINE and e.violation <= FEASIBLE), key=lambda e: e.objective)
+        ends = [
+            descend(search, weighing(index, sign), [*constraints, *extra], place, method) for place in places
+        ]
+        ends = sorted(
+            (e for e in ends if e.point.code == FINE and e.violation <= FEASIBLE), key=lambda e: e.objective
+        )
         return ends[0] if ends else None
 
     places = starts_of(search.spans, first, whole(starts, "starts", 1, 100), seed)
@@ -107,7 +146,10 @@ def pareto(thing: Any, over: Mapping[str, Any], objectives: Sequence[Mapping[str
             share = (k + 1) / (count - 1)
             between = (1 - share) * left.z + share * right.z
             step = best(
-                0, sign_one, [Constraint(two, 1, float(limit), -sign_two, scale)], [previous.z, between, right.z][: 1 + len(places)]
+                0,
+                sign_one,
+                [Constraint(two, 1, float(limit), -sign_two, scale)],
+                [previous.z, between, right.z][: 1 + len(places)],
             )
             if step is not None:
                 found.append(step)
@@ -121,11 +163,21 @@ def pareto(thing: Any, over: Mapping[str, Any], objectives: Sequence[Mapping[str
     order = sorted(found, key=lambda e: sign_one * float(e.point.figures[0]))
     front: list[Found] = []
     for e in order:  # sorted by the first: a point stays when it is better in the second than all before it
-        if not front or sign_two * float(e.point.figures[1]) < sign_two * float(front[-1].point.figures[1]) - 1e-9 * scale_of(front):
+        if not front or sign_two * float(e.point.figures[1]) < sign_two * float(
+            front[-1].point.figures[1]
+        ) - 1e-9 * scale_of(front):
             front.append(e)
     senses = tuple("minimize" if s > 0 else "maximize" for s in (sign_one, sign_two))
-    return Front(title or _("Pareto front"), as_cases(search, front), (one, two), senses, search.evaluations, len(found) - len(front),  # type: ignore[arg-type]
-                 finished, elapsed=time.perf_counter() - began)  # fmt: skip
+    return Front(
+        title or _("Pareto front"),
+        as_cases(search, front),
+        (one, two),
+        senses,
+        search.evaluations,
+        len(found) - len(front),  # type: ignore[arg-type]
+        finished,
+        elapsed=time.perf_counter() - began,
+    )
 
 
 def scale_of(front: Sequence[Found]) -> float:
@@ -135,11 +187,15 @@ def scale_of(front: Sequence[Found]) -> float:
 
 def _pair(objectives: Sequence[Mapping[str, str]]) -> list[tuple[str, float]]:
     if not isinstance(objectives, Sequence) or isinstance(objectives, str) or len(objectives) != 2:
-        raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format())
+        raise InputError(
+            _('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format()
+        )
     pairs = []
     for table in objectives:
         if not isinstance(table, Mapping):
-            raise InputError(_('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format())
+            raise InputError(
+                _('A Pareto front needs two objectives: [{{minimize = "…"}}, {{maximize = "…"}}].').format()
+            )
         for key in table:
             if key not in ("minimize", "maximize"):
                 raise unknown_name(_("Key"), key, ("minimize", "maximize"), _("in 'objectives'"))

@@ -28,7 +28,9 @@ def values_of(subject: Subject, path: str, table: Any) -> np.ndarray:
     if isinstance(table, (list, tuple, np.ndarray)):
         return np.array([si(parameter, v, where) for v in table])
     if not isinstance(table, Mapping):
-        raise InputError(_("'{name}': give a list of values, or {{from, to, steps}}.").format(name=path), name=path)
+        raise InputError(
+            _("'{name}': give a list of values, or {{from, to, steps}}.").format(name=path), name=path
+        )
     allowed = ("from", "to", "steps", "spacing")
     for key in table:
         if key not in allowed:
@@ -42,7 +44,9 @@ def values_of(subject: Subject, path: str, table: Any) -> np.ndarray:
     if spacing not in ("linear", "log"):
         raise unknown_name(_("Spacing"), str(spacing), ("linear", "log"), where)
     if spacing == "log" and (low <= 0 or high <= 0):
-        raise InputError(_("'{name}': logarithmic spacing needs limits above zero.").format(name=path), name=path)
+        raise InputError(
+            _("'{name}': logarithmic spacing needs limits above zero.").format(name=path), name=path
+        )
     return np.geomspace(low, high, steps) if spacing == "log" else np.linspace(low, high, steps)
 
 
@@ -62,9 +66,18 @@ class Sweep(Outcome):
         return charts.of_sweep(self)
 
 
-def sweep(thing: Any, over: Mapping[str, Any], *, outputs: Sequence[str] | None = None, title: str = "",
-          fixed: Mapping[str, Any] | None = None, **how: Any) -> Sweep:  # fmt: skip
-    """Figures along one input: ``sweep(line, {"crystallizer.temperature": {"from": "20 degC", "to": "40 degC", "steps": 21}})``."""
+def sweep(
+    thing: Any,
+    over: Mapping[str, Any],
+    *,
+    outputs: Sequence[str] | None = None,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Sweep:
+    """Figures along one input: ``sweep(line, {"crystallizer.temperature": {"from": "20 degC", "to":
+    "40 degC", "steps": 21}})``.
+    """
     began = time.perf_counter()
     subject = subject_of(thing, fixed)
     if len(over) != 1:
@@ -72,7 +85,9 @@ def sweep(thing: Any, over: Mapping[str, Any], *, outputs: Sequence[str] | None 
     subject, paths = prepare(subject, outputs, tuple(over))
     (path, table), *_rest = over.items()
     x = values_of(subject, path, table)[:, None]
-    return Sweep(title or _("Sweep"), evaluate(subject, (path,), paths, x, **how), elapsed=time.perf_counter() - began)
+    return Sweep(
+        title or _("Sweep"), evaluate(subject, (path,), paths, x, **how), elapsed=time.perf_counter() - began
+    )
 
 
 @dataclass(frozen=True)
@@ -103,7 +118,10 @@ class Map(Outcome):
     def findings(self) -> dict[str, Any]:
         first, second = self.axes
         return {
-            "axes": {self.cases.inputs[0]: [number(v) for v in first], self.cases.inputs[1]: [number(v) for v in second]},
+            "axes": {
+                self.cases.inputs[0]: [number(v) for v in first],
+                self.cases.inputs[1]: [number(v) for v in second],
+            },
             "maps": {p: [[number(v) for v in row] for row in self.grid(p)] for p in self.cases.outputs},
             "limits": {p: {"lower": low, "upper": high} for p, (low, high) in self.limits.items()},
             "share_allowed": float(self.allowed().mean()),
@@ -115,8 +133,16 @@ class Map(Outcome):
         return charts.of_map(self)
 
 
-def parameter_map(thing: Any, over: Mapping[str, Any], *, outputs: Sequence[str] | None = None, limits: Mapping[str, Any] | None = None,
-                  title: str = "", fixed: Mapping[str, Any] | None = None, **how: Any) -> Map:  # fmt: skip
+def parameter_map(
+    thing: Any,
+    over: Mapping[str, Any],
+    *,
+    outputs: Sequence[str] | None = None,
+    limits: Mapping[str, Any] | None = None,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Map:
     """Figures over two inputs, with the region where ``limits`` are kept."""
     began = time.perf_counter()
     subject = subject_of(thing, fixed)
@@ -153,9 +179,18 @@ class Scenarios(Outcome):
         return {}
 
 
-def scenarios(thing: Any, cases: Mapping[str, Mapping[str, Any]], *, outputs: Sequence[str] | None = None, title: str = "",
-              fixed: Mapping[str, Any] | None = None, **how: Any) -> Scenarios:  # fmt: skip
-    """Figures of named cases: ``{"as built": {}, "cold": {"crystallizer.temperature": "20 degC"}}``; what is not named keeps its value."""
+def scenarios(
+    thing: Any,
+    cases: Mapping[str, Mapping[str, Any]],
+    *,
+    outputs: Sequence[str] | None = None,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Scenarios:
+    """Figures of named cases: ``{"as built": {}, "cold": {"crystallizer.temperature": "20 degC"}}``; what is
+    not named keeps its value.
+    """
     began = time.perf_counter()
     subject = subject_of(thing, fixed)
     if not cases:
@@ -167,10 +202,14 @@ def scenarios(thing: Any, cases: Mapping[str, Mapping[str, Any]], *, outputs: Se
     rows = []
     for name, changes in cases.items():
         where = _("in scenario '{name}'").format(name=name)
-        row = {path: subject.nominal(path) for path in varied} | {p: si(known[p].parameter, v, where) for p, v in changes.items()}
+        row = {path: subject.nominal(path) for path in varied} | {
+            p: si(known[p].parameter, v, where) for p, v in changes.items()
+        }
         for path, value in row.items():
             if not np.isfinite(value):
-                raise InputError(_("{where}: '{name}' has no value.").format(where=where, name=path), name=path)
+                raise InputError(
+                    _("{where}: '{name}' has no value.").format(where=where, name=path), name=path
+                )
         rows.append([row[p] for p in varied])
     subject, paths = prepare(subject, outputs, varied)
     found = evaluate(subject, varied, paths, np.array(rows), **how)

@@ -1,10 +1,12 @@
-"""A process line as the subject of a study: any unit parameter or feed figure in, any result or stream figure out.
+"""A process line as the subject of a study: any unit parameter or feed figure in, any result or stream figure
+out.
 
 Inputs: ``unit.parameter`` (also inside a law: ``crystallizer.growth.growth_order``, or one element of a list:
-``crystallizer.profile[2]``), ``feed.temperature``, ``feed.liquid_flow``, ``feed.solid_flow``, ``feed.gas_flow``,
-``feed.mass_flow`` (all phases in proportion) and ``feed.liquid.NAME`` (mass fraction in its phase, the others keeping
-their proportions). Figures: ``unit.result``, ``unit.parameter``, ``stream.mass_flow``, ``stream.temperature``,
-``stream.moisture_dry_basis``, ``stream.median_size``, ``stream.liquid.NAME`` and so on.
+``crystallizer.profile[2]``), ``feed.temperature``, ``feed.liquid_flow``, ``feed.solid_flow``,
+``feed.gas_flow``, ``feed.mass_flow`` (all phases in proportion) and ``feed.liquid.NAME`` (mass fraction in
+its phase, the others keeping their proportions). Figures: ``unit.result``, ``unit.parameter``,
+``stream.mass_flow``, ``stream.temperature``, ``stream.moisture_dry_basis``, ``stream.median_size``,
+``stream.liquid.NAME`` and so on.
 """
 
 from __future__ import annotations
@@ -46,10 +48,17 @@ from granum.studies.subjects import (
 PHASES = {"liquid": "liquids", "solid": "solids", "gas": "gases"}
 FLOWS = ("mass_flow", "liquid_flow", "solid_flow", "gas_flow")
 STREAM = {
-    **dict.fromkeys(FLOWS, "MassFlow"), "temperature": "Temperature", "pressure": "Pressure", "moisture_dry_basis": "MoistureDryBasis",
-    "solids_mass_fraction": "MassFraction", "solids_volume_fraction": "VolumeFraction", "slurry_volume_flow": "VolumeFlow",
-    "gas_volume_flow": "VolumeFlow", "enthalpy_flow": "Power", "median_size": "Length",
-}  # fmt: skip
+    **dict.fromkeys(FLOWS, "MassFlow"),
+    "temperature": "Temperature",
+    "pressure": "Pressure",
+    "moisture_dry_basis": "MoistureDryBasis",
+    "solids_mass_fraction": "MassFraction",
+    "solids_volume_fraction": "VolumeFraction",
+    "slurry_volume_flow": "VolumeFlow",
+    "gas_volume_flow": "VolumeFlow",
+    "enthalpy_flow": "Power",
+    "median_size": "Length",
+}
 
 
 @dataclass(frozen=True)
@@ -96,10 +105,18 @@ class LineSubject(Subject):
         parameter = _declared(self.sheet.units[keys[0]], keys[1:])
         value = self.sheet.value(plain)
         if value is None:
-            raise InputError(_("'{name}' has no value in the case: give it one to start from.").format(name=plain), name=plain)
-        if isinstance(value, (bool, int, str)) or not (np.issubdtype(np.asarray(value).dtype, np.floating) if _numeric(value) else False):
             raise InputError(
-                _("'{name}' is not a quantity that can vary continuously: it is a choice, a law or a whole number.").format(name=plain),
+                _("'{name}' has no value in the case: give it one to start from.").format(name=plain),
+                name=plain,
+            )
+        if isinstance(value, (bool, int, str)) or not (
+            np.issubdtype(np.asarray(value).dtype, np.floating) if _numeric(value) else False
+        ):
+            raise InputError(
+                _(
+                    "'{name}' is not a quantity that can vary continuously: it is a choice, a law or a "
+                    "whole number."
+                ).format(name=plain),
                 name=plain,
             )
         if (index is None) != (np.ndim(value) == 0):
@@ -110,22 +127,39 @@ class LineSubject(Subject):
             )
         if index is not None and not -len(value) <= index < len(value):
             raise InputError(
-                _("'{name}' has {count} elements: index {index} is none of them.").format(name=plain, count=len(value), index=index)
+                _("'{name}' has {count} elements: index {index} is none of them.").format(
+                    name=plain, count=len(value), index=index
+                )
             )
         if any(t.vary == plain for t in self.targets):
-            raise InputError(_("'{name}' is found by a design specification of the case: it cannot be varied as well.").format(name=plain))
+            raise InputError(
+                _(
+                    "'{name}' is found by a design specification of the case: it cannot be varied as well."
+                ).format(name=plain)
+            )
         return Variable(path, parameter if index is None else replace(parameter, series=None))
 
     def _feed_input(self, feed: Stream, head: str, rest: list[str]) -> Parameter:
         where = _("of feed '{feed}'").format(feed=head)
-        fields = ["temperature", "pressure", *FLOWS, *(f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(feed.mixture, own))]
+        fields = [
+            "temperature",
+            "pressure",
+            *FLOWS,
+            *(f"{p}.{s.name}" for p, own in PHASES.items() for s in getattr(feed.mixture, own)),
+        ]
         word = ".".join(rest)
         if word not in fields:
             raise unknown_name(_("Input"), word, fields, where)
         phase = rest[0].removesuffix("_flow")
         if (len(rest) == 2 or phase in PHASES) and float(getattr(feed, f"{phase}_flow")) <= 0:
-            raise InputError(_("Feed '{feed}' carries no {phase}: its flow cannot be varied.").format(feed=head, phase=_(phase)))
-        return Parameter(rest[-1] if len(rest) == 2 else word, KINDS["MassFraction" if len(rest) == 2 else STREAM[word]])
+            raise InputError(
+                _("Feed '{feed}' carries no {phase}: its flow cannot be varied.").format(
+                    feed=head, phase=_(phase)
+                )
+            )
+        return Parameter(
+            rest[-1] if len(rest) == 2 else word, KINDS["MassFraction" if len(rest) == 2 else STREAM[word]]
+        )
 
     def nominal(self, path: str) -> Any:
         plain, index = split_index(path)
@@ -145,10 +179,16 @@ class LineSubject(Subject):
         if unit in self.sheet.units:
             card = type(self.sheet.units[unit]).card
             known = {p.name: p for p in (*card.parameters, *card.outputs) if p.kind is not None}
-            known |= {n: Parameter(n, KINDS["Power"]) for n in self.sheet.units[unit].power_names() if n not in known}
+            known |= {
+                n: Parameter(n, KINDS["Power"])
+                for n in self.sheet.units[unit].power_names()
+                if n not in known
+            }
             if name in known:
                 if known[name].series and index is None:
-                    raise InputError(_("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=plain))
+                    raise InputError(
+                        _("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=plain)
+                    )
                 return Variable(path, known[name])
         streams = {k.name for k in self.sheet.links}
         for cut in (plain.rpartition("."), _before_species(plain)):
@@ -164,7 +204,9 @@ class LineSubject(Subject):
         if word in species:
             return Parameter(word.partition(".")[2], KINDS["MassFraction"])
         if word not in STREAM:
-            raise unknown_name(_("Figure"), word, (*STREAM, *species), _("of stream '{stream}'").format(stream=stream))
+            raise unknown_name(
+                _("Figure"), word, (*STREAM, *species), _("of stream '{stream}'").format(stream=stream)
+            )
         return Parameter(word, KINDS[STREAM[word]])
 
     def outputs(self) -> tuple[str, ...]:
@@ -226,22 +268,31 @@ class LineSubject(Subject):
         sheet = sheet.with_values(plain)
         if not feeds:
             return sheet
-        changed = {name: refed(stream, feeds[name]) if name in feeds else stream for name, stream in sheet.feeds.items()}
+        changed = {
+            name: refed(stream, feeds[name]) if name in feeds else stream
+            for name, stream in sheet.feeds.items()
+        }
         import equinox as eqx
 
         return eqx.tree_at(lambda s: s.feeds, sheet, changed)
 
 
 def verdict(found: Designed) -> Any:
-    """Whether a solved line counts as a solution: ``FINE``, or the code of the reason why its figures are none."""
+    """Whether a solved line counts as a solution: ``FINE``, or the code of the reason why its figures are
+    none.
+    """
     met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
     measured = findings(found.line, found.solution)
-    code = jnp.where(jnp.all((measured.mass <= CLOSURE) & (measured.energy <= CLOSURE)), FINE, NOT_CLOSED)  # false when not finite
+    code = jnp.where(
+        jnp.all((measured.mass <= CLOSURE) & (measured.energy <= CLOSURE)), FINE, NOT_CLOSED
+    )  # false when not finite
     code = jnp.where(jnp.all(measured.finite) & ~known_temperatures(measured), TOO_HOT, code)
     code = jnp.where(jnp.any(measured.saturation > SATURATED), OVERSATURATED, code)
     code = jnp.where(jnp.any(measured.lowest < LEAST), NEGATIVE, code)
     code = jnp.where(jnp.any(measured.lost), LOST + jnp.argmax(measured.lost), code)
-    unsettled = jnp.where(jnp.any(measured.lost) & met, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET))
+    unsettled = jnp.where(
+        jnp.any(measured.lost) & met, code, jnp.where(met & ~found.solution.converged, NOT_CONVERGED, UNMET)
+    )
     return jnp.where(found.converged, code, unsettled)
 
 
@@ -265,7 +316,9 @@ def refed(stream: Stream, values: Mapping[str, Any]) -> Stream:
             new = new.at[place].set(jnp.stack([jnp.asarray(v) for v in shares.values()]) * total)
             if phase == "solid":
                 ratio = jnp.where(flows > 0, new / jnp.where(flows > 0, flows, 1.0), 0.0)
-                stream = stream.replace(solid=stream.solid * ratio.reshape((-1,) + (1,) * (stream.solid.ndim - 1)))
+                stream = stream.replace(
+                    solid=stream.solid * ratio.reshape((-1,) + (1,) * (stream.solid.ndim - 1))
+                )
             else:
                 stream = stream.replace(**{phase: new})
     for word in FLOWS:
@@ -311,7 +364,9 @@ def _declared(thing: Any, names: tuple[str, ...]) -> Parameter:
     return found.get(names[-1], Parameter(names[-1]))
 
 
-def subject_of(thing: Any, fixed: Mapping[str, Any] | None = None, quantities: Mapping[str, Any] | None = None) -> Subject:
+def subject_of(
+    thing: Any, fixed: Mapping[str, Any] | None = None, quantities: Mapping[str, Any] | None = None
+) -> Subject:
     """The subject of a study: a line (``granum.read``), a flowsheet, a formula or the key of a card."""
     if isinstance(thing, Subject):
         made: Subject = thing

@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Optimum(Outcome):
-    """The best point, what limits it, and where each start ended. ``cases`` holds the starts' end points, the best first."""
+    """The best point, what limits it, and where each start ended. ``cases`` holds the starts' end points, the
+    best first.
+    """
 
     objective: str
     maximize: bool
@@ -60,13 +62,22 @@ class Optimum(Outcome):
         return dict(zip(self.cases.outputs, map(float, self.cases.y[0]), strict=True))
 
     def active(self) -> list[dict[str, Any]]:
-        """What holds the optimum back: limits of figures, with what a unit more of each would give, and limits of inputs."""
+        """What holds the optimum back: limits of figures, with what a unit more of each would give, and
+        limits of inputs.
+        """
         rows: list[dict[str, Any]] = []
         for path, (low, high) in self.limits.items():
             for side, limit in (("lower", low), ("upper", high)):
                 if limit is None or f"{path} {side}" not in self.prices:
                     continue
-                rows.append({"name": path, "side": side, "limit": limit, "price": number(self.prices[f"{path} {side}"])})
+                rows.append(
+                    {
+                        "name": path,
+                        "side": side,
+                        "limit": limit,
+                        "price": number(self.prices[f"{path} {side}"]),
+                    }
+                )
         for path, value in self.values.items():
             span = self.spans[path]
             for side, limit, place in (("lower", span.lower, 0.0), ("upper", span.upper, 1.0)):
@@ -76,18 +87,28 @@ class Optimum(Outcome):
 
     def findings(self) -> dict[str, Any]:
         return {
-            "objective": {"name": self.objective, "sense": "maximize" if self.maximize else "minimize",
-                          "value": number(self.figures[self.objective]), "before": number(self.base.get(self.objective, np.nan))},
+            "objective": {
+                "name": self.objective,
+                "sense": "maximize" if self.maximize else "minimize",
+                "value": number(self.figures[self.objective]),
+                "before": number(self.base.get(self.objective, np.nan)),
+            },
             "feasible": self.feasible,
-            "inputs": {p: {"value": number(v), "lower": self.spans[p].lower, "upper": self.spans[p].upper} for p, v in self.values.items()},
-            "outputs": {p: {"value": number(v), "before": number(self.base.get(p, np.nan))} for p, v in self.figures.items()},
+            "inputs": {
+                p: {"value": number(v), "lower": self.spans[p].lower, "upper": self.spans[p].upper}
+                for p, v in self.values.items()
+            },
+            "outputs": {
+                p: {"value": number(v), "before": number(self.base.get(p, np.nan))}
+                for p, v in self.figures.items()
+            },
             "active": self.active(),
             "limits": {p: {"lower": low, "upper": high} for p, (low, high) in self.limits.items()},
             "stationarity": number(self.stationarity),
             "evaluations": self.evaluations,
             "starts": list(self.ends),
             "chance": self.chance,
-        }  # fmt: skip
+        }
 
     def charts(self) -> dict[str, go.Figure]:
         from granum.studies import charts
@@ -95,11 +116,26 @@ class Optimum(Outcome):
         return charts.of_optimum(self)
 
 
-def optimize(thing: Any, over: Mapping[str, Any], *, minimize: str | None = None, maximize: str | None = None,
-             limits: Mapping[str, Any] | None = None, outputs: Sequence[str] | None = None, starts: int = 3, method: str = "slsqp",
-             uncertain: Mapping[str, Any] | None = None, samples: int = 0, probability: float = 0.95, seed: int = 0, title: str = "",
-             fixed: Mapping[str, Any] | None = None, progress: Report | None = None, cancel: Cancel | None = None,
-             **how: Any) -> Optimum:  # fmt: skip
+def optimize(
+    thing: Any,
+    over: Mapping[str, Any],
+    *,
+    minimize: str | None = None,
+    maximize: str | None = None,
+    limits: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] | None = None,
+    starts: int = 3,
+    method: str = "slsqp",
+    uncertain: Mapping[str, Any] | None = None,
+    samples: int = 0,
+    probability: float = 0.95,
+    seed: int = 0,
+    title: str = "",
+    fixed: Mapping[str, Any] | None = None,
+    progress: Report | None = None,
+    cancel: Cancel | None = None,
+    **how: Any,
+) -> Optimum:
     """The best inputs inside their limits, with exact derivatives.
 
     Parameters
@@ -109,11 +145,17 @@ def optimize(thing: Any, over: Mapping[str, Any], *, minimize: str | None = None
     limits: ``{figure: {lower, upper}}``.
     starts: runs from different places (the first from the values of the case); the best feasible end counts.
     method: ``slsqp`` or ``trust_constr``.
-    uncertain, samples, probability: with samples > 0 the mean of the objective is optimized and each limit kept with
-        the probability wanted (robust design); the chance is then checked on four times as many fresh samples.
+    uncertain, samples, probability: with samples > 0 the mean of the objective is optimized and each limit
+        kept with the probability wanted (robust design); the chance is then checked on four times as many
+        fresh samples.
 
-    >>> found = optimize("particles.richardson_zaki", {"solids_volume_fraction": (0.01, 0.5)}, starts=1,
-    ...     maximize="solids_volume_fraction * hindrance", fixed={"exponent": 4.65, "reynolds": 0.01})
+    >>> found = optimize(
+    ...     "particles.richardson_zaki",
+    ...     {"solids_volume_fraction": (0.01, 0.5)},
+    ...     starts=1,
+    ...     maximize="solids_volume_fraction * hindrance",
+    ...     fixed={"exponent": 4.65, "reynolds": 0.01},
+    ... )
     >>> round(found.values["solids_volume_fraction"], 3)  # the settling flux peaks at 1/(n + 1)
     0.177
     """
@@ -134,7 +176,12 @@ def optimize(thing: Any, over: Mapping[str, Any], *, minimize: str | None = None
         if progress is not None:
             progress(
                 Progress(
-                    done[0], total, 0, _("start {number}, evaluation {count}").format(number=done[0] + 1, count=search.evaluations + 1)
+                    done[0],
+                    total,
+                    0,
+                    _("start {number}, evaluation {count}").format(
+                        number=done[0] + 1, count=search.evaluations + 1
+                    ),
                 )
             )
         if cancel is not None and cancel():
@@ -155,36 +202,84 @@ def optimize(thing: Any, over: Mapping[str, Any], *, minimize: str | None = None
         finished = False
     if not ends:
         raise InputError(_("The study was stopped before the first start ended."))
-    ends.sort(key=lambda e: (e.violation > FEASIBLE, e.violation if e.violation > FEASIBLE else 0.0, e.objective))
+    ends.sort(
+        key=lambda e: (e.violation > FEASIBLE, e.violation if e.violation > FEASIBLE else 0.0, e.objective)
+    )
     best = ends[0]
     if best.point.code != FINE:
-        raise InputError(_("No start gave a result: {reason}. Change the starting values or the limits.").format(reason=best.message))
+        raise InputError(
+            _("No start gave a result: {reason}. Change the starting values or the limits.").format(
+                reason=best.message
+            )
+        )
     prices, rest = multipliers(best.point, weight, constraints, best.z)
-    shadow = {f"{c.path} {'lower' if c.sign > 0 else 'upper'}": sign * c.sign * p / c.scale
-              for c, p in zip(constraints, prices, strict=True) if c.value(best.point) <= 10 * FEASIBLE}  # fmt: skip
+    shadow = {
+        f"{c.path} {'lower' if c.sign > 0 else 'upper'}": sign * c.sign * p / c.scale
+        for c, p in zip(constraints, prices, strict=True)
+        if c.value(best.point) <= 10 * FEASIBLE
+    }
     size = float(np.linalg.norm(weight(best.point)[1]))
     cases = as_cases(search, ends)
-    told = tuple({"inputs": search.values(e.z), "objective": number(sign * e.objective), "feasible": e.violation <= FEASIBLE,
-                  "violation": number(e.violation), "converged": e.converged, "steps": e.steps, "message": e.message} for e in ends)  # fmt: skip
+    told = tuple(
+        {
+            "inputs": search.values(e.z),
+            "objective": number(sign * e.objective),
+            "feasible": e.violation <= FEASIBLE,
+            "violation": number(e.violation),
+            "converged": e.converged,
+            "steps": e.steps,
+            "message": e.message,
+        }
+        for e in ends
+    )
     chance = _checked(search, best, kept, seed, samples, how) if search.samples is not None else None
-    return Optimum(title or _("Optimization"), cases, objective, sign < 0, kept, search.spans, told, base, shadow,
-                   rest if size else 0.0, search.evaluations, chance, finished, elapsed=time.perf_counter() - began)  # fmt: skip
+    return Optimum(
+        title or _("Optimization"),
+        cases,
+        objective,
+        sign < 0,
+        kept,
+        search.spans,
+        told,
+        base,
+        shadow,
+        rest if size else 0.0,
+        search.evaluations,
+        chance,
+        finished,
+        elapsed=time.perf_counter() - began,
+    )
 
 
-def _checked(search: Search, best: Found, kept: Limits, seed: int, samples: int, how: Mapping[str, Any]) -> dict[str, Any]:
+def _checked(
+    search: Search, best: Found, kept: Limits, seed: int, samples: int, how: Mapping[str, Any]
+) -> dict[str, Any]:
     """The probability of keeping the limits at the optimum, on fresh samples."""
     sources = search.sources
     points = unit_points("latin_hypercube", 4 * samples, sum(s.dimensions for s in sources), seed + 1)
     drawn = inputs_at(sources, points)
     decided = np.tile(list(search.values(best.z).values()), (len(drawn), 1))
-    cases = evaluate(search.subject, (*search.spans, *search.uncertain), search.outputs, np.hstack([decided, drawn]), even_none=True, **how)
+    cases = evaluate(
+        search.subject,
+        (*search.spans, *search.uncertain),
+        search.outputs,
+        np.hstack([decided, drawn]),
+        even_none=True,
+        **how,
+    )
     together = cases.fine.copy()
     rows = {}
     for path, limit in kept.items():
         fine = meets(cases.y[:, search.outputs.index(path)], limit)
         together &= fine
-        rows[path] = {"probability": float(fine.mean()), "interval_95": list(wilson(int(fine.sum()), len(fine)))}
-    rows[""] = {"probability": float(together.mean()), "interval_95": list(wilson(int(together.sum()), len(together)))}
+        rows[path] = {
+            "probability": float(fine.mean()),
+            "interval_95": list(wilson(int(fine.sum()), len(fine))),
+        }
+    rows[""] = {
+        "probability": float(together.mean()),
+        "interval_95": list(wilson(int(together.sum()), len(together))),
+    }
     return {
         "wanted": search.probability,
         "samples": len(drawn),

@@ -48,7 +48,8 @@ def variable_json(v: Variable) -> dict[str, Any]:
 class Outcome(abc.ABC):
     """The outcome of a study.
 
-    ``cases`` holds every case computed, the failed ones included with their reason; ``complete`` is False when the study was stopped.
+    ``cases`` holds every case computed, the failed ones included with their reason; ``complete`` is False
+    when the study was stopped.
     """
 
     title: str
@@ -86,12 +87,16 @@ class Outcome(abc.ABC):
         """Charts by name."""
 
     def statistics(self) -> dict[str, dict[str, float | int | None]]:
-        """Mean, spread and percentiles of each figure over the cases that gave a result; how many were run and failed stands beside them."""
+        """Mean, spread and percentiles of each figure over the cases that gave a result; how many were run
+        and failed stands beside them.
+        """
         run = self.cases.codes != NOT_RUN
         return {path: statistics(self.column(path)[run]) for path in self.cases.outputs}
 
     def counts(self) -> dict[str, Any]:
-        """How many cases ran, how many failed and why, and in how many some correlation was used outside its range."""
+        """How many cases ran, how many failed and why, and in how many some correlation was used outside its
+        range.
+        """
         run = int(np.sum(self.cases.codes != NOT_RUN))
         return {
             "cases": len(self.cases.codes),
@@ -104,7 +109,9 @@ class Outcome(abc.ABC):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Inputs, figures, ``code`` and ``reason`` along ``case``; attributes hold unit and label. SI units."""
+        """Inputs, figures, ``code`` and ``reason`` along ``case``; attributes hold unit and label. SI
+        units.
+        """
         import xarray as xr
 
         columns: dict[str, Any] = {}
@@ -126,7 +133,9 @@ class Outcome(abc.ABC):
         )
         columns["reason"] = ("case", np.array([self.cases.reason(i) for i in range(len(codes))], dtype=str))
         return xr.Dataset(
-            columns, {"case": np.arange(len(codes))}, {"title": self.title, "study": self.kind, "model": self.cases.subject.title}
+            columns,
+            {"case": np.arange(len(codes))},
+            {"title": self.title, "study": self.kind, "model": self.cases.subject.title},
         )
 
     def to_pandas(self) -> pd.DataFrame:
@@ -137,7 +146,9 @@ class Outcome(abc.ABC):
         return notebooks.shown("granum.studies.report:print_study", self)
 
     def save(self, path: str | Path) -> None:
-        """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow) or ``.csv``, whole or not at all."""
+        """Write all cases to ``.nc`` (NetCDF), ``.parquet`` (needs pyarrow) or ``.csv``, whole or not at
+        all.
+        """
         path = Path(path)
         check_file(path)
         data = self.dataset
@@ -150,7 +161,10 @@ class Outcome(abc.ABC):
             os.replace(name, path)
         except OSError as problem:
             raise InputError(
-                _("'{path}' cannot be written: {reason}.").format(path=path, reason=problem.strerror or problem), path=str(path)
+                _("'{path}' cannot be written: {reason}.").format(
+                    path=path, reason=problem.strerror or problem
+                ),
+                path=str(path),
             ) from None
         finally:
             if name:
@@ -159,7 +173,9 @@ class Outcome(abc.ABC):
     def to_netcdf(self, path: str | Path) -> None:
         """Write all cases as NetCDF."""
         if Path(path).suffix != ".nc":
-            raise InputError(_("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path))
+            raise InputError(
+                _("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path)
+            )
         self.save(path)
 
     def as_json(self, *, cases: int = 0) -> dict[str, Any]:
@@ -186,10 +202,15 @@ class Outcome(abc.ABC):
 def check_file(path: Path) -> None:
     """Complain early about a file that cannot be written."""
     if path.suffix not in FILES:
-        raise InputError(_("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path))
+        raise InputError(
+            _("'{path}': results are written as .nc, .parquet or .csv.").format(path=path), path=str(path)
+        )
     if not (path.parent or Path()).is_dir():
         raise InputError(
-            _("'{path}' cannot be written: there is no folder '{folder}'.").format(path=path, folder=path.parent), path=str(path)
+            _("'{path}' cannot be written: there is no folder '{folder}'.").format(
+                path=path, folder=path.parent
+            ),
+            path=str(path),
         )
     check_writable(path)
 
@@ -209,16 +230,27 @@ def _write(data: Any, name: str, suffix: str) -> None:
 
 
 def statistics(values: np.ndarray) -> dict[str, float | int | None]:
-    """Mean, standard deviation and percentiles of the cases that gave a result; ``cases`` were run, ``failed`` gave none."""
+    """Mean, standard deviation and percentiles of the cases that gave a result; ``cases`` were run,
+    ``failed`` gave none.
+    """
     good = values[np.isfinite(values)]
     counts: dict[str, float | int | None] = {"cases": len(values), "failed": len(values) - len(good)}
     if not len(good):
-        return counts | dict.fromkeys(("mean", "standard_deviation", "p5", "p10", "p50", "p90", "p95", "least", "most"))
+        return counts | dict.fromkeys(
+            ("mean", "standard_deviation", "p5", "p10", "p50", "p90", "p95", "least", "most")
+        )
     p5, p10, p50, p90, p95 = np.percentile(good, [5, 10, 50, 90, 95])
     found = {
-        "mean": good.mean(), "standard_deviation": good.std(ddof=1) if len(good) > 1 else np.nan,
-        "p5": p5, "p10": p10, "p50": p50, "p90": p90, "p95": p95, "least": good.min(), "most": good.max(),
-    }  # fmt: skip
+        "mean": good.mean(),
+        "standard_deviation": good.std(ddof=1) if len(good) > 1 else np.nan,
+        "p5": p5,
+        "p10": p10,
+        "p50": p50,
+        "p90": p90,
+        "p95": p95,
+        "least": good.min(),
+        "most": good.max(),
+    }
     return counts | {name: number(v) for name, v in found.items()}
 
 

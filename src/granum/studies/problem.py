@@ -25,14 +25,22 @@ WIDE = 100.0
 
 def decisions(subject: Subject, over: Mapping[str, Any]) -> tuple[dict[str, Span], dict[str, float]]:
     if not over:
-        raise InputError(_("The optimization has nothing to vary: name inputs with their limits under 'over'."))
+        raise InputError(
+            _("The optimization has nothing to vary: name inputs with their limits under 'over'.")
+        )
     spans, starts = {}, {}
     for path, declared in over.items():
         parameter = subject.input(path).parameter
         where = _("in 'over' for '{name}'").format(name=path)
-        table: Any = dict(zip(("lower", "upper"), declared, strict=False)) if isinstance(declared, (list, tuple)) else declared
+        table: Any = (
+            dict(zip(("lower", "upper"), declared, strict=False))
+            if isinstance(declared, (list, tuple))
+            else declared
+        )
         if not isinstance(table, Mapping) or "lower" not in table or "upper" not in table:
-            raise InputError(_("{where}: give its limits as {{lower = …, upper = …}}.").format(where=where), name=path)
+            raise InputError(
+                _("{where}: give its limits as {{lower = …, upper = …}}.").format(where=where), name=path
+            )
         for key in table:
             if key not in ("lower", "upper", "start"):
                 raise unknown_name(_("Key"), key, ("lower", "upper", "start"), where)
@@ -61,16 +69,30 @@ def constraints_of(limits: Limits, outputs: tuple[str, ...]) -> list[Constraint]
     return made
 
 
-def starts_of(spans: Mapping[str, Span], first: Mapping[str, float], count: int, seed: int) -> list[np.ndarray]:
+def starts_of(
+    spans: Mapping[str, Span], first: Mapping[str, float], count: int, seed: int
+) -> list[np.ndarray]:
     places = [np.array([spans[p].place(v) for p, v in first.items()])]
     if count > 1:
         places += list(qmc.LatinHypercube(len(spans), rng=np.random.default_rng(seed)).random(count - 1))
     return places
 
 
-def search_of(thing: Any, over: Mapping[str, Any], minimize: str | None, maximize: str | None, limits: Mapping[str, Any] | None,
-            outputs: Sequence[str] | None, method: str, uncertain: Mapping[str, Any] | None, samples: int, probability: float, seed: int,
-            fixed: Mapping[str, Any] | None, second: str = "") -> tuple[Search, str, float, Limits, dict[str, float]]:  # fmt: skip
+def search_of(
+    thing: Any,
+    over: Mapping[str, Any],
+    minimize: str | None,
+    maximize: str | None,
+    limits: Mapping[str, Any] | None,
+    outputs: Sequence[str] | None,
+    method: str,
+    uncertain: Mapping[str, Any] | None,
+    samples: int,
+    probability: float,
+    seed: int,
+    fixed: Mapping[str, Any] | None,
+    second: str = "",
+) -> tuple[Search, str, float, Limits, dict[str, float]]:
     if method not in METHODS:
         raise unknown_name(_("Method"), method, METHODS)
     if not 0.0 < probability < 1.0:
@@ -78,7 +100,9 @@ def search_of(thing: Any, over: Mapping[str, Any], minimize: str | None, maximiz
     subject = subject_of(thing, fixed)
     if isinstance(subject, FormulaSubject) and not subject.pure:
         raise InputError(
-            _("'{key}' is a {sort}: it has no derivatives and cannot be optimized.").format(key=subject.thing.card.key, sort=_("procedure"))
+            _("'{key}' is a {sort}: it has no derivatives and cannot be optimized.").format(
+                key=subject.thing.card.key, sort=_("procedure")
+            )
         )
     name, sign = objective_of(minimize, maximize)
     subject, name = subject.figure(name)
@@ -96,11 +120,18 @@ def search_of(thing: Any, over: Mapping[str, Any], minimize: str | None, maximiz
     drawn = None
     if samples:
         count = whole(samples, "samples", 10, 100_000)
-        drawn = inputs_at(sources, unit_points("latin_hypercube", count, sum(s.dimensions for s in sources), seed))
+        drawn = inputs_at(
+            sources, unit_points("latin_hypercube", count, sum(s.dimensions for s in sources), seed)
+        )
     signs = np.zeros(len(paths))
     for path, (low, high) in kept.items():
         if samples and low is not None and high is not None:
-            raise InputError(_("'{name}': under uncertainty a figure takes one limit, 'lower' or 'upper'.").format(name=path), name=path)
+            raise InputError(
+                _("'{name}': under uncertainty a figure takes one limit, 'lower' or 'upper'.").format(
+                    name=path
+                ),
+                name=path,
+            )
         signs[paths.index(path)] = -1.0 if high is None else 1.0
     search = Search(subject, spans, paths, doubtful, drawn, probability, 2 if second else 1, sources, signs)
 
@@ -111,5 +142,10 @@ def as_cases(search: Search, ends: Sequence[Found]) -> Cases:
     x = np.array([list(search.values(e.z).values()) for e in ends])
     codes = [EXTRAPOLATED if e.point.extrapolated else e.point.code for e in ends]
     return Cases(
-        search.subject, tuple(search.spans), search.outputs, x, np.array([e.point.figures for e in ends]), np.array(codes, np.int32)
+        search.subject,
+        tuple(search.spans),
+        search.outputs,
+        x,
+        np.array([e.point.figures for e in ends]),
+        np.array(codes, np.int32),
     )

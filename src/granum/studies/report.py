@@ -55,13 +55,27 @@ def _known(outcome: Outcome) -> dict[str, Variable]:
 
 
 def _statistics(outcome: Outcome, found: dict[str, Any]) -> Rows:
-    heads = [(_("figure"), "left"), ("P10", "right"), ("P50", "right"), ("P90", "right"), (_("mean"), "right"), (_("unit"), "left"),
-             (_("failed cases"), "right")]  # fmt: skip
+    heads = [
+        (_("figure"), "left"),
+        ("P10", "right"),
+        ("P50", "right"),
+        ("P90", "right"),
+        (_("mean"), "right"),
+        (_("unit"), "left"),
+        (_("failed cases"), "right"),
+    ]
     cells = []
     for v in outcome.outputs:
         row = found["statistics"][v.path]
         unit = v.parameter.display_unit(row["p50"] if row["p50"] is not None else 0.0)
-        cells.append([v.path, *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")), pretty_unit(unit), str(row["failed"])])
+        cells.append(
+            [
+                v.path,
+                *(_cell(v, row[k], unit) for k in ("p10", "p50", "p90", "mean")),
+                pretty_unit(unit),
+                str(row["failed"]),
+            ]
+        )
     return Rows(_("Figures"), heads, cells)
 
 
@@ -84,7 +98,9 @@ def _chances(outcome: Outcome, rows: dict[str, Any], limits: dict[str, Any]) -> 
         span = " … ".join(_percent(x) for x in row["interval_95"])
         cells.append([_limit_text(known.get(path), low, high), _percent(row["probability"]), span])
     return Rows(
-        _("Probability of keeping the limits"), [(_("limit"), "left"), (_("probability"), "right"), (_("95 % interval"), "right")], cells
+        _("Probability of keeping the limits"),
+        [(_("limit"), "left"), (_("probability"), "right"), (_("95 % interval"), "right")],
+        cells,
     )
 
 
@@ -141,11 +157,25 @@ def _map(outcome: Any, found: dict[str, Any]) -> list[Rows]:
         if not np.isfinite(values).any():
             continue
         for word, place in ((_("least"), int(np.nanargmin(values))), (_("most"), int(np.nanargmax(values)))):
-            at = "; ".join(f"{u.path} = {_with_unit(u, outcome.cases.x[place, i])}" for i, u in enumerate(outcome.inputs))
+            at = "; ".join(
+                f"{u.path} = {_with_unit(u, outcome.cases.x[place, i])}" for i, u in enumerate(outcome.inputs)
+            )
             cells.append([v.path, word, _with_unit(v, values[place]), at])
-    tables = [Rows(_("Extremes of the map"), [(_("figure"), "left"), ("", "left"), (_("value"), "right"), (_("where"), "left")], cells)]
+    tables = [
+        Rows(
+            _("Extremes of the map"),
+            [(_("figure"), "left"), ("", "left"), (_("value"), "right"), (_("where"), "left")],
+            cells,
+        )
+    ]
     if found["limits"]:
-        tables.append(Rows("", [(_("share of the map that keeps all limits"), "left")], [[_percent(found["share_allowed"])]]))
+        tables.append(
+            Rows(
+                "",
+                [(_("share of the map that keeps all limits"), "left")],
+                [[_percent(found["share_allowed"])]],
+            )
+        )
     return tables
 
 
@@ -165,23 +195,42 @@ def _price(price: float, goal: Variable, found: dict[str, Any], v: Variable, lim
 def _optimum(outcome: Any, found: dict[str, Any]) -> list[Rows]:
     known = _known(outcome)
     inputs = [
-        [p, _with_unit(known[p], row["value"]), f"{_with_unit(known[p], row['lower'])} … {_with_unit(known[p], row['upper'])}"]
+        [
+            p,
+            _with_unit(known[p], row["value"]),
+            f"{_with_unit(known[p], row['lower'])} … {_with_unit(known[p], row['upper'])}",
+        ]
         for p, row in found["inputs"].items()
     ]
-    figures = [[p, _with_unit(known[p], row["value"]), _with_unit(known[p], row["before"])] for p, row in found["outputs"].items()]
+    figures = [
+        [p, _with_unit(known[p], row["value"]), _with_unit(known[p], row["before"])]
+        for p, row in found["outputs"].items()
+    ]
     active = []
     for row in found["active"]:
         v = known[row["name"]]
         sign = "≥" if row["side"] == "lower" else "≤"
-        price = "—" if row["price"] is None else _price(row["price"], known[found["objective"]["name"]], found, v, row["limit"])
+        price = (
+            "—"
+            if row["price"] is None
+            else _price(row["price"], known[found["objective"]["name"]], found, v, row["limit"])
+        )
         active.append([f"{row['name']} {sign} {_with_unit(v, row['limit'])}", price])
     tables = [
         Rows(_("Best inputs"), [(_("input"), "left"), (_("value"), "right"), (_("allowed"), "left")], inputs),
-        Rows(_("Figures at the optimum"), [(_("figure"), "left"), (_("value"), "right"), (_("before"), "right")], figures),
+        Rows(
+            _("Figures at the optimum"),
+            [(_("figure"), "left"), (_("value"), "right"), (_("before"), "right")],
+            figures,
+        ),
     ]
     if active:
         tables.append(
-            Rows(_("Active limits"), [(_("limit"), "left"), (_("change of the objective per unit of the limit"), "right")], active)
+            Rows(
+                _("Active limits"),
+                [(_("limit"), "left"), (_("change of the objective per unit of the limit"), "right")],
+                active,
+            )
         )
     if found["chance"]:
         tables.append(_chances(outcome, found["chance"]["limits"], found["limits"]))
@@ -205,25 +254,47 @@ def tables_of(outcome: Outcome) -> list[Rows]:
 
 
 def warnings_of(outcome: Outcome) -> list[str]:
-    """What a reader must know: failed cases with their reasons, a study that was stopped, an infeasible end."""
+    """What a reader must know: failed cases with their reasons, a study that was stopped, an infeasible
+    end.
+    """
     counts = outcome.counts()
     rows = list(outcome.cases.notes)
     if counts["failed"]:
-        rows.append(_("{failed} of {run} cases failed; they are kept with their reason and left out of the figures.").format(**counts))
-    rows += [f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])]
+        rows.append(
+            _(
+                "{failed} of {run} cases failed; they are kept with their reason and left out of the figures."
+            ).format(**counts)
+        )
+    rows += [
+        f"{count} × {reason}" for reason, count in sorted(counts["reasons"].items(), key=lambda row: -row[1])
+    ]
     if counts["patient"]:
-        rows.append(_("{patient} of {run} cases were solved by a more patient solver than the first.").format(**counts))
+        rows.append(
+            _("{patient} of {run} cases were solved by a more patient solver than the first.").format(
+                **counts
+            )
+        )
     if counts["extrapolated"]:
-        rows.append(_("In {extrapolated} of {run} cases some correlation is used outside its range.").format(**counts))
+        rows.append(
+            _("In {extrapolated} of {run} cases some correlation is used outside its range.").format(**counts)
+        )
     if not outcome.complete:
         rows.append(_("The study was stopped: {run} of {cases} cases were run.").format(**counts))
     found = outcome.findings()
     if outcome.kind == "optimize" and not found["feasible"]:
         rows.append(_("No start keeps every limit: this is the least violation found, not a solution."))
-    if outcome.kind == "optimize" and found["feasible"] and not any(s["converged"] and s["feasible"] for s in found["starts"]):
+    if (
+        outcome.kind == "optimize"
+        and found["feasible"]
+        and not any(s["converged"] and s["feasible"] for s in found["starts"])
+    ):
         rows.append(_("No start converged: the best point found may not be the optimum."))
     if outcome.kind == "sobol" and found["blocks_used"] < found["blocks"]:
-        rows.append(_("{blocks_used} of {blocks} blocks of cases are whole and were used for the indices.").format(**found))
+        rows.append(
+            _("{blocks_used} of {blocks} blocks of cases are whole and were used for the indices.").format(
+                **found
+            )
+        )
     if outcome.kind == "pareto" and found["dropped"]:
         rows.append(_("{dropped} points that others beat in both objectives were dropped.").format(**found))
     return rows
@@ -235,15 +306,25 @@ def stoppable(parts: Path | None) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        kept = _("Stopped. The cases computed so far are kept in '{folder}': the same command continues there.").format(folder=parts)
-        print(kept if parts is not None else _("Stopped. With --out FILE a study that is stopped can be continued."), file=sys.stderr)
+        kept = _(
+            "Stopped. The cases computed so far are kept in '{folder}': the same command continues there."
+        ).format(folder=parts)
+        print(
+            kept
+            if parts is not None
+            else _("Stopped. With --out FILE a study that is stopped can be continued."),
+            file=sys.stderr,
+        )
         raise
 
 
 def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
     """The outcome of ``granum study``."""
     console = _console()
-    console.print(Text(outcome.title, style="bold"), Text(f"  {outcome.kind} · {outcome.cases.subject.title}", style="dim"))
+    console.print(
+        Text(outcome.title, style="bold"),
+        Text(f"  {outcome.kind} · {outcome.cases.subject.title}", style="dim"),
+    )
     for rows in tables_of(outcome):
         if rows.title:
             console.print(Text(rows.title, style="bold"))
@@ -258,15 +339,24 @@ def print_study(outcome: Outcome, saved: Sequence[Path] = ()) -> None:
         goal = _known(outcome)[name]
         console.print(
             Text(
-                _("{sense} {name}: {value} (before: {before}); {evaluations} evaluations from {starts} starts").format(
-                    sense=sense, name=name, value=_with_unit(goal, found["objective"]["value"]), before=_with_unit(goal, found["objective"]["before"]),
-                    evaluations=found["evaluations"], starts=len(found["starts"]),
+                _(
+                    "{sense} {name}: {value} (before: {before}); {evaluations} evaluations from "
+                    "{starts} starts"
+                ).format(
+                    sense=sense,
+                    name=name,
+                    value=_with_unit(goal, found["objective"]["value"]),
+                    before=_with_unit(goal, found["objective"]["before"]),
+                    evaluations=found["evaluations"],
+                    starts=len(found["starts"]),
                 ),
                 style=OK if found["feasible"] else OUT,
             )
-        )  # fmt: skip
+        )
     counts = outcome.counts()
-    words = _("{run} cases in {seconds} s").format(run=counts["run"], seconds=format_number(outcome.elapsed, 3))
+    words = _("{run} cases in {seconds} s").format(
+        run=counts["run"], seconds=format_number(outcome.elapsed, 3)
+    )
     console.print(Text(words, style="dim"))
     for line in warnings_of(outcome):
         console.print(Text("! " + line, style=CAUTION))
@@ -287,16 +377,31 @@ def study_report(outcomes: Sequence[Outcome], text: str = "", title: str = "") -
             drawn.append(as_html(figure, plotly=first))
             first = False
         counts = outcome.counts()
-        sections.append({
-            "title": outcome.title, "kind": outcome.kind, "tables": tables_of(outcome), "warnings": warnings_of(outcome), "charts": drawn,
-            "cases": _("{run} cases in {seconds} s").format(run=counts["run"], seconds=format_number(outcome.elapsed, 3)),
-        })  # fmt: skip
+        sections.append(
+            {
+                "title": outcome.title,
+                "kind": outcome.kind,
+                "tables": tables_of(outcome),
+                "warnings": warnings_of(outcome),
+                "charts": drawn,
+                "cases": _("{run} cases in {seconds} s").format(
+                    run=counts["run"], seconds=format_number(outcome.elapsed, 3)
+                ),
+            }
+        )
     block = [
         (_("Model"), outcomes[0].cases.subject.title),
         (_("Date"), datetime.date.today().isoformat()),
         (_("Program"), f"Granum {granum.__version__}"),
     ]
-    environment = Environment(loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    environment = Environment(
+        loader=PackageLoader("granum.reports"), autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
     return environment.get_template("study.html.j2").render(
-        _=_, lang=current_language(), title=title or outcomes[0].title, title_block=block, sections=sections, case_text=text
+        _=_,
+        lang=current_language(),
+        title=title or outcomes[0].title,
+        title_block=block,
+        sections=sections,
+        case_text=text,
     )

@@ -1,4 +1,6 @@
-"""The search for an optimum: figures with exact derivatives at any place, one descent from one start, multipliers."""
+"""The search for an optimum: figures with exact derivatives at any place, one descent from one start,
+multipliers.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ class Span(NamedTuple):
 
 
 class Point(NamedTuple):
-    """Figures at one place, their derivatives with respect to the places, the code of the outcome, whether a correlation left its range."""
+    """Figures at one place, their derivatives with respect to the places, the code of the outcome, whether a
+    correlation left its range.
+    """
 
     figures: np.ndarray
     slopes: np.ndarray
@@ -52,8 +56,12 @@ class Stopped(Exception):
     """The study was cancelled."""
 
 
-def _compiled(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], logs: tuple[bool, ...], sampled: bool) -> Any:
-    """Figures, exact derivatives and code at a place, compiled; the subject keeps the last few, so that other limits or ranges start at once."""
+def _compiled(
+    subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...], logs: tuple[bool, ...], sampled: bool
+) -> Any:
+    """Figures, exact derivatives and code at a place, compiled; the subject keeps the last few, so that other
+    limits or ranges start at once.
+    """
 
     def build() -> Any:
         run = subject.traced(inputs, outputs)
@@ -79,7 +87,9 @@ def _compiled(subject: Subject, inputs: tuple[str, ...], outputs: tuple[str, ...
 
 @dataclass
 class Search:
-    """A subject with its decisions: figures and exact derivatives at any place, computed together and remembered."""
+    """A subject with its decisions: figures and exact derivatives at any place, computed together and
+    remembered.
+    """
 
     subject: Subject
     spans: dict[str, Span]
@@ -90,17 +100,23 @@ class Search:
     objectives: int = 1
     sources: Sequence[Source] = ()
     signs: np.ndarray = field(default_factory=lambda: np.ones(0))
-    """+1 where a figure is best small or kept below a limit, −1 where it is best large, 0 where neither tells."""
+    """+1 where a figure is best small or kept below a limit, −1 where it is best large, 0 where neither
+    tells.
+    """
     watch: Callable[[], None] = lambda: None
     evaluations: int = 0
 
     def __post_init__(self) -> None:
         logs = tuple(span.logarithmic for span in self.spans.values())
-        self._compiled = _compiled(self.subject, (*self.spans, *self.uncertain), self.outputs, logs, self.samples is not None)
+        self._compiled = _compiled(
+            self.subject, (*self.spans, *self.uncertain), self.outputs, logs, self.samples is not None
+        )
         self._arguments = (
-            self.subject.numbers(), jnp.array([s.lower for s in self.spans.values()]), jnp.array([s.upper for s in self.spans.values()]),
+            self.subject.numbers(),
+            jnp.array([s.lower for s in self.spans.values()]),
+            jnp.array([s.upper for s in self.spans.values()]),
             jnp.zeros(0) if self.samples is None else jnp.asarray(self.samples),
-        )  # fmt: skip
+        )
         self._known: dict[bytes, Point] = {}
 
     def values(self, z: np.ndarray) -> dict[str, float]:
@@ -108,12 +124,16 @@ class Search:
         return {path: float(span.at(z[i])) for i, (path, span) in enumerate(self.spans.items())}
 
     def at(self, z: np.ndarray) -> Point:
-        """Figures and derivatives; under uncertainty the mean of objectives and the wanted quantile of the others."""
+        """Figures and derivatives; under uncertainty the mean of objectives and the wanted quantile of the
+        others.
+        """
         z = np.clip(np.asarray(z, dtype=float), 0.0, 1.0)
         key = z.tobytes()
         if key not in self._known:
             self.watch()
-            found, slopes, codes = (np.asarray(part) for part in self._compiled(jnp.asarray(z), *self._arguments))
+            found, slopes, codes = (
+                np.asarray(part) for part in self._compiled(jnp.asarray(z), *self._arguments)
+            )
             self.evaluations += 1
             self._known[key] = (
                 Point(found, slopes, max(int(codes), FINE), int(codes) < FINE)
@@ -171,12 +191,29 @@ class Found(NamedTuple):
     steps: int
 
 
-def descend(search: Search, weight: Callable[[Point], tuple[float, np.ndarray]], constraints: Sequence[Constraint], start: np.ndarray,
-             method: str, tolerance: float = 1e-9, steps: int = 200) -> Found:  # fmt: skip
-    """One run of SLSQP or trust-constr; places where the model fails are made unattractive rather than fatal."""
+def descend(
+    search: Search,
+    weight: Callable[[Point], tuple[float, np.ndarray]],
+    constraints: Sequence[Constraint],
+    start: np.ndarray,
+    method: str,
+    tolerance: float = 1e-9,
+    steps: int = 200,
+) -> Found:
+    """One run of SLSQP or trust-constr; places where the model fails are made unattractive rather than
+    fatal.
+    """
     first = search.at(start)
     if first.code != FINE:
-        return Found(start, first, np.inf, np.inf, False, search.subject.reason(first.code, tuple(search.spans), search.outputs), 0)
+        return Found(
+            start,
+            first,
+            np.inf,
+            np.inf,
+            False,
+            search.subject.reason(first.code, tuple(search.spans), search.outputs),
+            0,
+        )
     value0, slope0 = weight(first)
     scale = max(abs(value0), float(np.max(np.abs(slope0), initial=0.0)), 1e-300)
     last = [first]
@@ -204,37 +241,75 @@ def descend(search: Search, weight: Callable[[Point], tuple[float, np.ndarray]],
     bounds = [(0.0, 1.0)] * len(start)
     if method == "slsqp":
         limits: Any = [{"type": "ineq", "fun": slack, "jac": slack_slope}] if constraints else []
-        ended = scipy_optimize.minimize(objective, start, jac=True, bounds=bounds, constraints=limits, method="SLSQP",
-                                        options={"maxiter": steps, "ftol": tolerance})  # fmt: skip
+        ended = scipy_optimize.minimize(
+            objective,
+            start,
+            jac=True,
+            bounds=bounds,
+            constraints=limits,
+            method="SLSQP",
+            options={"maxiter": steps, "ftol": tolerance},
+        )
     else:
         limits = (
-            [scipy_optimize.NonlinearConstraint(slack, 0.0, np.inf, jac=slack_slope, hess=scipy_optimize.BFGS())]  # type: ignore[arg-type]
+            [
+                scipy_optimize.NonlinearConstraint(
+                    slack, 0.0, np.inf, jac=slack_slope, hess=scipy_optimize.BFGS()
+                )
+            ]  # type: ignore[arg-type]
             if constraints
             else []
         )
-        ended = scipy_optimize.minimize(objective, start, jac=True, hess=scipy_optimize.BFGS(), bounds=bounds, constraints=limits,
-                                        method="trust-constr", options={"maxiter": 5 * steps, "gtol": tolerance, "xtol": 1e-12})  # fmt: skip
+        ended = scipy_optimize.minimize(
+            objective,
+            start,
+            jac=True,
+            hess=scipy_optimize.BFGS(),
+            bounds=bounds,
+            constraints=limits,
+            method="trust-constr",
+            options={"maxiter": 5 * steps, "gtol": tolerance, "xtol": 1e-12},
+        )
     z = np.clip(ended.x, 0.0, 1.0)
     final = search.at(z)
     if final.code != FINE:
         return Found(
-            z, final, np.inf, np.inf, False, search.subject.reason(final.code, tuple(search.spans), search.outputs), int(ended.nit)
+            z,
+            final,
+            np.inf,
+            np.inf,
+            False,
+            search.subject.reason(final.code, tuple(search.spans), search.outputs),
+            int(ended.nit),
         )
     violation = max((-c.value(final) for c in constraints), default=0.0)
-    fine = bool(ended.success) or (method == "trust_constr" and ended.status in (1, 2)) or _stationary(final, weight, constraints, z) < 1e-4
+    fine = (
+        bool(ended.success)
+        or (method == "trust_constr" and ended.status in (1, 2))
+        or _stationary(final, weight, constraints, z) < 1e-4
+    )
     return Found(z, final, weight(final)[0], max(violation, 0.0), fine, str(ended.message), int(ended.nit))
 
 
 def _stationary(
-    point: Point, weight: Callable[[Point], tuple[float, np.ndarray]], constraints: Sequence[Constraint], z: np.ndarray
+    point: Point,
+    weight: Callable[[Point], tuple[float, np.ndarray]],
+    constraints: Sequence[Constraint],
+    z: np.ndarray,
 ) -> float:
     """How far the derivatives are from those of an optimum, relative to that of the objective."""
     return multipliers(point, weight, constraints, z)[1]
 
 
-def multipliers(point: Point, weight: Callable[[Point], tuple[float, np.ndarray]], constraints: Sequence[Constraint],
-                 z: np.ndarray) -> tuple[np.ndarray, float]:  # fmt: skip
-    """Multipliers of the constraints (zero where not active) and the part of the objective's slope that they do not explain."""
+def multipliers(
+    point: Point,
+    weight: Callable[[Point], tuple[float, np.ndarray]],
+    constraints: Sequence[Constraint],
+    z: np.ndarray,
+) -> tuple[np.ndarray, float]:
+    """Multipliers of the constraints (zero where not active) and the part of the objective's slope that they
+    do not explain.
+    """
     _value, slope = weight(point)
     active = [i for i, c in enumerate(constraints) if c.value(point) <= 10 * FEASIBLE]
     columns = [constraints[i].slope(point) for i in active]

@@ -1,4 +1,6 @@
-"""Finished cases of a study on disk, so that a study that was stopped continues where it was and never with cases that are not its own."""
+"""Finished cases of a study on disk, so that a study that was stopped continues where it was and never with
+cases that are not its own.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ class Part(NamedTuple):
 
 
 class Store:
-    """Chunks on disk, each written whole or not at all and sealed with a digest of its content, its place and the study it belongs to."""
+    """Chunks on disk, each written whole or not at all and sealed with a digest of its content, its place and
+    the study it belongs to.
+    """
 
     def __init__(self, folder: Path):
         """Claim a folder, before anything is computed: it is empty or holds a study, and can be written."""
@@ -37,14 +41,19 @@ class Store:
         self._study = ""
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            strange = any(not p.name.startswith(f".{MANIFEST}.") for p in folder.iterdir()) and not (folder / MANIFEST).exists()
+            strange = (
+                any(not p.name.startswith(f".{MANIFEST}.") for p in folder.iterdir())
+                and not (folder / MANIFEST).exists()
+            )
         except OSError as problem:
             raise InputError(
-                _("'{path}' cannot be written: {reason}.").format(path=folder, reason=problem.strerror), path=str(folder)
+                _("'{path}' cannot be written: {reason}.").format(path=folder, reason=problem.strerror),
+                path=str(folder),
             ) from None
         if strange:
             raise InputError(
-                _("'{folder}' is not empty and holds no study: choose another folder.").format(folder=folder), path=str(folder)
+                _("'{folder}' is not empty and holds no study: choose another folder.").format(folder=folder),
+                path=str(folder),
             )
         check_writable(folder / MANIFEST)
 
@@ -64,13 +73,16 @@ class Store:
         if not sound:
             raise InputError(
                 _(
-                    "'{path}' is damaged and no longer says which study its cases belong to: delete the folder '{folder}' and start again."
+                    "'{path}' is damaged and no longer says which study its cases belong to: delete the "
+                    "folder '{folder}' and start again."
                 ).format(path=path, folder=self.folder),
                 path=str(path),
             )
         if found["study"] != self._study:
             raise InputError(
-                _("'{folder}' holds the cases of another study: choose another folder, or delete it.").format(folder=self.folder),
+                _("'{folder}' holds the cases of another study: choose another folder, or delete it.").format(
+                    folder=self.folder
+                ),
                 path=str(self.folder),
             )
         return int(found["chunk"])
@@ -84,7 +96,9 @@ class Store:
         return self.folder / f"cases-{start:09d}.npz"
 
     def load(self, start: int) -> Part | None:
-        """A finished chunk, None when there is none; one that is damaged or of another study is a ``ValueError``."""
+        """A finished chunk, None when there is none; one that is damaged or of another study is a
+        ``ValueError``.
+        """
         path = self.path(start)
         if not path.exists():
             return None
@@ -95,7 +109,12 @@ class Store:
         if content[-SEAL:] != self._seal(start, content[:-SEAL]):
             raise ValueError(path.name)
         with np.load(io.BytesIO(content), allow_pickle=False) as kept:
-            return Part(kept["y"], kept["codes"], {int(k): v for k, v in json.loads(str(kept["texts"])).items()}, kept["rungs"])
+            return Part(
+                kept["y"],
+                kept["codes"],
+                {int(k): v for k, v in json.loads(str(kept["texts"])).items()},
+                kept["rungs"],
+            )
 
     def save(self, start: int, part: Part) -> None:
         """Keep a finished chunk."""

@@ -3,12 +3,12 @@
 A study is a table with a ``kind``::
 
     [study.sizes]
-    kind = "monte_carlo"            # or sobol, sweep, map, scenarios, optimize, pareto
+    kind = "monte_carlo"  # or sobol, sweep, map, scenarios, optimize, pareto
     samples = 2000
     outputs = ["filter.moisture_dry_basis", "product = crystals.solid_flow"]
 
-``Study.of(name, table, subject, uncertain)`` checks the table; ``study.run(progress=…, cancel=…)`` computes it and gives an
-``Outcome`` with ``findings()``, ``as_json()``, ``charts()`` and ``save(path)``.
+``Study.of(name, table, subject, uncertain)`` checks the table; ``study.run(progress=…, cancel=…)`` computes
+it and gives an ``Outcome`` with ``findings()``, ``as_json()``, ``charts()`` and ``save(path)``.
 """
 
 from __future__ import annotations
@@ -29,7 +29,9 @@ from granum.studies.subjects import Subject
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of study: the function that runs it, the keys of its table, and whether it takes uncertain inputs."""
+    """A kind of study: the function that runs it, the keys of its table, and whether it takes uncertain
+    inputs.
+    """
 
     run: Callable[..., Outcome]
     uncertain: bool = False
@@ -70,8 +72,12 @@ class Study:
     uncertain: Mapping[str, Any] = field(default_factory=dict)
 
     @staticmethod
-    def of(name: str, table: Mapping[str, Any], subject: Subject, uncertain: Mapping[str, Any] | None = None) -> Study:
-        """The study a table declares. ``uncertain`` are the distributions shared by all studies of a file; the table's own come on top."""
+    def of(
+        name: str, table: Mapping[str, Any], subject: Subject, uncertain: Mapping[str, Any] | None = None
+    ) -> Study:
+        """The study a table declares. ``uncertain`` are the distributions shared by all studies of a file;
+        the table's own come on top.
+        """
         where = _("in [study.{name}]").format(name=name)
         options = dict(table)
         kind = options.pop("kind", name if name in KINDS else None)
@@ -87,7 +93,10 @@ class Study:
             _check_form(key, options[key], where)
         for key in known.needed:
             if key not in options:
-                raise InputError(_("{where}: a {kind} study needs '{key}'.").format(where=where, kind=kind, key=key), name=key)
+                raise InputError(
+                    _("{where}: a {kind} study needs '{key}'.").format(where=where, kind=kind, key=key),
+                    name=key,
+                )
         return Study(name, kind, subject, options, doubts)
 
     @property
@@ -109,11 +118,19 @@ class Study:
         given = {k: v for k, v in changes.items() if v is not None}
         for key in given:
             if key not in KINDS[self.kind].keys:
-                raise InputError(_("A {kind} study has no '{key}'.").format(kind=self.kind, key=key), name=key)
+                raise InputError(
+                    _("A {kind} study has no '{key}'.").format(kind=self.kind, key=key), name=key
+                )
         return replace(self, options={**self.options, **given})
 
-    def run(self, *, progress: Report | None = None, cancel: Cancel | None = None, folder: str | Path | None = None,
-            workers: Any = None) -> Outcome:  # fmt: skip
+    def run(
+        self,
+        *,
+        progress: Report | None = None,
+        cancel: Cancel | None = None,
+        folder: str | Path | None = None,
+        workers: Any = None,
+    ) -> Outcome:
         """Compute the study.
 
         Parameters
@@ -128,7 +145,9 @@ class Study:
         if known.uncertain:
             options["uncertain"] = self.uncertain
         if workers is not None and not known.chunks:
-            raise InputError(_("A {kind} study has no '{key}'.").format(kind=self.kind, key="workers"), name="workers")
+            raise InputError(
+                _("A {kind} study has no '{key}'.").format(kind=self.kind, key="workers"), name="workers"
+            )
         if known.chunks:
             options |= {"folder": folder, "workers": workers}
         try:
@@ -142,15 +161,30 @@ class Study:
 
 
 _FORMS: dict[str, tuple[Any, str]] = {
-    "title": (str, "text"), "outputs": (list, "list of figures"), "over": (Mapping, "table"), "limits": (Mapping, "table"),
-    "cases": (Mapping, "table"), "method": (str, "text"), "minimize": (str, "text"), "maximize": (str, "text"),
-    "objectives": (list, "list of tables"), "probability": (float, "number"), "uncertain": (Mapping, "table"),
-}  # fmt: skip
+    "title": (str, "text"),
+    "outputs": (list, "list of figures"),
+    "over": (Mapping, "table"),
+    "limits": (Mapping, "table"),
+    "cases": (Mapping, "table"),
+    "method": (str, "text"),
+    "minimize": (str, "text"),
+    "maximize": (str, "text"),
+    "objectives": (list, "list of tables"),
+    "probability": (float, "number"),
+    "uncertain": (Mapping, "table"),
+}
 
 
 def _check_form(key: str, value: Any, where: str) -> None:
     """Complain when a key holds a value of the wrong sort; counts are checked where they are used."""
     wanted, word = _FORMS.get(key, (object, ""))
-    inner = key == "cases" and isinstance(value, Mapping) and not all(isinstance(v, Mapping) for v in value.values())
+    inner = (
+        key == "cases"
+        and isinstance(value, Mapping)
+        and not all(isinstance(v, Mapping) for v in value.values())
+    )
     if not isinstance(value, wanted) or isinstance(value, bool) or inner:
-        raise InputError(_("{where}: '{key}' must be a {form}.").format(where=where, key=key, form=_(word or "table")), name=key)
+        raise InputError(
+            _("{where}: '{key}' must be a {form}.").format(where=where, key=key, form=_(word or "table")),
+            name=key,
+        )

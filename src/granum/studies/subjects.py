@@ -1,4 +1,6 @@
-"""What is studied: a formula, a procedure or a process line, seen as numbers in and numbers out with a reason for each failure."""
+"""What is studied: a formula, a procedure or a process line, seen as numbers in and numbers out with a reason
+for each failure.
+"""
 
 from __future__ import annotations
 
@@ -23,11 +25,14 @@ from granum.core.i18n import _
 from granum.core.parameters import Parameter
 from granum.studies.expressions import Expression, Lookup, Quantity, quantity
 
-EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE, OVERSATURATED, TOO_HOT = range(-1, 9)
+EXTRAPOLATED, FINE, NOT_CONVERGED, UNMET, RAISED, NOT_RUN, NOT_CLOSED, NEGATIVE, OVERSATURATED, TOO_HOT = (
+    range(-1, 9)
+)
 NOT_FINITE, OUTSIDE, IMPOSSIBLE, LOST = 1000, 2000, 3000, 4000
-"""Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it has none; from 1000 the result
-that is not finite, from 2000 the input at fault, from 3000 the result that is not possible, from 4000 the unit that has no
-solution."""
+"""Codes of a case: up to 0 it has a result (-1: some correlation was used outside its range), above 0 why it
+has none; from 1000 the result that is not finite, from 2000 the input at fault, from 3000 the result that is
+not possible, from 4000 the unit that has no solution.
+"""
 
 _ADDRESS = re.compile(r"0x[0-9a-f]+")
 _DECIMALS = re.compile(r"\d+\.\d{8,}(e[+-]?\d+)?")
@@ -38,7 +43,9 @@ Traced = Callable[[Any, Any], tuple[Any, Any]]
 
 @dataclass(frozen=True)
 class Variable:
-    """An input or a figure of a study: its path and its declaration; ``named`` when the author of the study named it."""
+    """An input or a figure of a study: its path and its declaration; ``named`` when the author of the study
+    named it.
+    """
 
     path: str
     parameter: Parameter
@@ -61,11 +68,15 @@ class Variable:
 
 @dataclass(frozen=True)
 class Subject(abc.ABC):
-    """A model with inputs and figures by path. ``traced`` is pure: it may be compiled, batched and differentiated."""
+    """A model with inputs and figures by path. ``traced`` is pure: it may be compiled, batched and
+    differentiated.
+    """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict, kw_only=True)
     recipe: Any = field(default=None, kw_only=True, compare=False)
-    """How another process can make the same subject: an object with ``build()``; None when it was made in Python."""
+    """How another process can make the same subject: an object with ``build()``; None when it was made in
+    Python.
+    """
     _kept: OrderedDict[Any, Any] = field(default_factory=OrderedDict, init=False, repr=False, compare=False)
 
     @property
@@ -75,12 +86,16 @@ class Subject(abc.ABC):
 
     @property
     def batched(self) -> bool:
-        """Whether many cases are best computed side by side (``vmap``) rather than one after the other in compiled code."""
+        """Whether many cases are best computed side by side (``vmap``) rather than one after the other in
+        compiled code.
+        """
         return True
 
     @property
     def harder(self) -> Subject | None:
-        """The same with a solver that takes more pains, for the cases that this one leaves unsolved; None when there is none."""
+        """The same with a solver that takes more pains, for the cases that this one leaves unsolved; None
+        when there is none.
+        """
         return None
 
     @abc.abstractmethod
@@ -101,14 +116,18 @@ class Subject(abc.ABC):
 
     @abc.abstractmethod
     def arrays(self) -> Any:
-        """The model as a pytree; its numbers are handed to ``traced``, so that compiled code is reused when they change."""
+        """The model as a pytree; its numbers are handed to ``traced``, so that compiled code is reused when
+        they change.
+        """
 
     @abc.abstractmethod
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         """Solves for given inputs: a function that looks up figures, and the code of the outcome. Pure."""
 
     def kept(self, key: Any, build: Callable[[], Any]) -> Any:
-        """What was compiled for this subject, made when it is first asked for; the last few are kept, as long as the subject is."""
+        """What was compiled for this subject, made when it is first asked for; the last few are kept, as long
+        as the subject is.
+        """
         if key not in self._kept:
             self._kept[key] = build()
             while len(self._kept) > MOST_KEPT:
@@ -121,9 +140,11 @@ class Subject(abc.ABC):
         return self.title
 
     def fingerprint(self) -> str:
-        """A digest of the model and the version, the same in every process, so that a stored study is never continued with another model.
+        """A digest of the model and the version, the same in every process, so that a stored study is never
+        continued with another model.
 
-        Numbers count with nine digits: what a material's constants are beyond that depends on how they were compiled.
+        Numbers count with nine digits: what a material's constants are beyond that depends on how they were
+        compiled.
         """
         leaves, tree = jax.tree.flatten(self.arrays())
         parts = [
@@ -145,7 +166,8 @@ class Subject(abc.ABC):
                 digest.update(np.ldexp(np.round(mantissa, 9), exponent).tobytes())
         return digest.hexdigest()
 
-    # -- common to all -----------------------------------------------------------------------------------------
+    # -- common to all
+    # -----------------------------------------------------------------------------------------
     def with_quantities(self, declared: Mapping[str, Any]) -> Subject:
         """The same subject with further figures, see ``granum.studies.expressions.quantity``."""
         made = dict(self.quantities)
@@ -167,7 +189,9 @@ class Subject(abc.ABC):
         return Variable(path, self.quantities[path].parameter, named=True)
 
     def figure(self, text: str) -> tuple[Subject, str]:
-        """A figure given by path, by quantity or as an expression; the subject gains the expression as a quantity."""
+        """A figure given by path, by quantity or as an expression; the subject gains the expression as a
+        quantity.
+        """
         try:
             self.output(text)
             return self, text
@@ -200,7 +224,9 @@ class Subject(abc.ABC):
 
         def run(numbers: Any, vector: Any) -> tuple[Any, Any]:
             given = iter(numbers)
-            model = tree.unflatten([next(given) if moves else leaf for leaf, moves in zip(leaves, moving, strict=True)])
+            model = tree.unflatten(
+                [next(given) if moves else leaf for leaf, moves in zip(leaves, moving, strict=True)]
+            )
             values = {path: vector[i] for i, path in enumerate(inputs)}
             with flags.collect() as records:
                 own, code = self.compute(model, values, self._needed(outputs))
@@ -238,7 +264,9 @@ class Subject(abc.ABC):
 
 
 def _is_number(leaf: Any) -> bool:
-    return isinstance(leaf, (float, np.floating)) or (isinstance(leaf, (np.ndarray, jax.Array)) and np.issubdtype(leaf.dtype, np.floating))
+    return isinstance(leaf, (float, np.floating)) or (
+        isinstance(leaf, (np.ndarray, jax.Array)) and np.issubdtype(leaf.dtype, np.floating)
+    )
 
 
 def split_index(path: str) -> tuple[str, int | None]:
@@ -249,7 +277,8 @@ def split_index(path: str) -> tuple[str, int | None]:
 
 @dataclass(frozen=True)
 class FormulaSubject(Subject):
-    """A formula, a law, or a procedure (computed one by one, without derivatives), with the inputs that stay fixed.
+    """A formula, a law, or a procedure (computed one by one, without derivatives), with the inputs that stay
+    fixed.
 
     The inputs of a law are its parameters and the arguments of its call.
     """
@@ -268,9 +297,10 @@ class FormulaSubject(Subject):
         thing = registry.find(thing) if isinstance(thing, str) else thing
         if thing.card.sort not in ("formula", "law", "procedure"):
             raise InputError(
-                _("'{key}' is a {sort}: a study takes a formula, a law, a procedure, or a case file with the equipment in it.").format(
-                    key=thing.card.key, sort=_(thing.card.sort)
-                )
+                _(
+                    "'{key}' is a {sort}: a study takes a formula, a law, a procedure, or a case file "
+                    "with the equipment in it."
+                ).format(key=thing.card.key, sort=_(thing.card.sort))
             )
         known = thing.card.inputs
         where = _("for {owner}").format(owner=thing.card.key)
@@ -278,7 +308,9 @@ class FormulaSubject(Subject):
         for name in fixed:
             if name not in known:
                 raise unknown_name(_("Input"), name, known, where)
-        return FormulaSubject(thing, {n: convert(v, known[n], " " + where) for n, v in fixed.items()}, recipe=recipe)
+        return FormulaSubject(
+            thing, {n: convert(v, known[n], " " + where) for n, v in fixed.items()}, recipe=recipe
+        )
 
     @property
     def title(self) -> str:
@@ -315,27 +347,40 @@ class FormulaSubject(Subject):
 
     def own_output(self, path: str) -> Variable:
         name, index = split_index(path)
-        known = {p.name: p for p in (*self.thing.card.outputs, *self.parameters.values()) if p.kind is not None}
+        known = {
+            p.name: p for p in (*self.thing.card.outputs, *self.parameters.values()) if p.kind is not None
+        }
         if name not in known:
             raise unknown_name(_("Result"), name, known, _("for {owner}").format(owner=self.thing.card.key))
         if known[name].series and index is None:
-            raise InputError(_("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=name))
+            raise InputError(
+                _("'{name}' is a list: ask for one element, as in '{name}[0]'.").format(name=name)
+            )
         return Variable(path, known[name])
 
     def outputs(self) -> tuple[str, ...]:
-        return tuple(p.name for p in self.thing.card.outputs if not p.series and p.kind is not None) + tuple(self.quantities)
+        return tuple(p.name for p in self.thing.card.outputs if not p.series and p.kind is not None) + tuple(
+            self.quantities
+        )
 
     def arrays(self) -> Any:
         numbers = {n for n, p in self.parameters.items() if p.kind is not None and p.sort is not int}
-        return {n: np.asarray(v, dtype=float) for n, v in self.fixed.items() if n in numbers and v is not None}
+        return {
+            n: np.asarray(v, dtype=float) for n, v in self.fixed.items() if n in numbers and v is not None
+        }
 
     def complete(self, varied: tuple[str, ...]) -> None:
         """Raise one clear error when inputs are neither fixed nor varied."""
         varied = tuple(split_index(v)[0] for v in varied)
-        missing = [p for n, p in self.parameters.items() if p.required and n not in self.fixed and n not in varied]
+        missing = [
+            p for n, p in self.parameters.items() if p.required and n not in self.fixed and n not in varied
+        ]
         if missing:
             names = ", ".join(f"'{p.name}' ({p.label})" for p in missing)
-            raise InputError(_("{owner} needs {names}.").format(owner=self.thing.card.key, names=names), missing=[p.name for p in missing])
+            raise InputError(
+                _("{owner} needs {names}.").format(owner=self.thing.card.key, names=names),
+                missing=[p.name for p in missing],
+            )
 
     def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
         given = {**self.fixed, **{n: jnp.asarray(v) for n, v in arrays.items()}}

@@ -1,4 +1,6 @@
-"""Chunks computed by Dask workers, local or behind a scheduler; a worker that dies loses nothing, its chunks go to others."""
+"""Chunks computed by Dask workers, local or behind a scheduler; a worker that dies loses nothing, its chunks
+go to others.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,11 @@ def chunk(recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], size: 
 
 
 def computed(
-    recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], chunks: list[tuple[int, np.ndarray]], workers: Any
+    recipe: Any,
+    inputs: tuple[str, ...],
+    outputs: tuple[str, ...],
+    chunks: list[tuple[int, np.ndarray]],
+    workers: Any,
 ) -> Generator[tuple[int, Part], None, None]:
     """Finished chunks with their first case, in the order in which they finish.
 
@@ -43,9 +49,23 @@ def computed(
         raise InputError(_("Workers need Dask: pip install 'granum[distributed]'.")) from None
     size, own = max(len(x) for _start, x in chunks), uuid4().hex
     with ExitStack() as stack:
-        client = workers if isinstance(workers, distributed.Client) else stack.enter_context(_connect(distributed, workers, stack))
+        client = (
+            workers
+            if isinstance(workers, distributed.Client)
+            else stack.enter_context(_connect(distributed, workers, stack))
+        )
         futures = {
-            client.submit(chunk, recipe, inputs, outputs, size, x, key=f"granum-{start}-{own}", retries=RETRIES, pure=False): start
+            client.submit(
+                chunk,
+                recipe,
+                inputs,
+                outputs,
+                size,
+                x,
+                key=f"granum-{start}-{own}",
+                retries=RETRIES,
+                pure=False,
+            ): start
             for start, x in chunks
         }
         try:
@@ -53,7 +73,9 @@ def computed(
                 yield futures[done], result
         except distributed.KilledWorker as problem:
             raise InputError(
-                _("A chunk killed its worker again and again ({problem}): too little memory?").format(problem=problem)
+                _("A chunk killed its worker again and again ({problem}): too little memory?").format(
+                    problem=problem
+                )
             ) from None
         finally:
             client.cancel(list(futures), force=True)
@@ -66,12 +88,17 @@ def _connect(distributed: Any, workers: Any, stack: ExitStack) -> Any:
             raise InputError(_("'workers' must be at least 1."))
         try:
             cluster = distributed.LocalCluster(
-                n_workers=int(text), threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=logging.ERROR
+                n_workers=int(text),
+                threads_per_worker=1,
+                processes=True,
+                dashboard_address=None,
+                silence_logs=logging.ERROR,
             )
         except RuntimeError as problem:
             raise InputError(
                 _(
-                    'Local workers did not start ({problem}). In a script of your own, call the study under: if __name__ == "__main__":'
+                    "Local workers did not start ({problem}). In a script of your own, call the study "
+                    'under: if __name__ == "__main__":'
                 ).format(problem=problem)
             ) from None
         stack.enter_context(cluster)
@@ -80,4 +107,6 @@ def _connect(distributed: Any, workers: Any, stack: ExitStack) -> Any:
         return distributed.Client(text, timeout=10)
     except (OSError, ValueError) as problem:
         reason = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
-        raise InputError(_("No Dask scheduler answers at '{address}': {reason}").format(address=text, reason=reason)) from None
+        raise InputError(
+            _("No Dask scheduler answers at '{address}': {reason}").format(address=text, reason=reason)
+        ) from None

@@ -97,7 +97,9 @@ class Flash(_Made):
 
         inside = (jnp.sum(z * k) > 1.0) & (jnp.sum(z / k) > 1.0)
         root = find_root(balance, 0.0, 1.0).value
-        v = jnp.where(inside, jnp.where(jnp.isfinite(root), root, 0.5), jnp.where(jnp.sum(z * k) > 1.0, 1.0, 0.0))
+        v = jnp.where(
+            inside, jnp.where(jnp.isfinite(root), root, 0.5), jnp.where(jnp.sum(z * k) > 1.0, 1.0, 0.0)
+        )
         vapor = feed.replace(liquid=moles * v * k / (1.0 + v * (k - 1.0)))
         return TwoWays(feed.replace(liquid=moles - vapor.liquid), vapor)
 
@@ -111,7 +113,9 @@ class Case(NamedTuple):
 
 
 def mixture(count: int) -> Mixture:
-    species = tuple(Species(f"c{i}", ((f"c{i}", 1.0),), (1000.0,), (4000.0,), 0.0, 0.02) for i in range(count))
+    species = tuple(
+        Species(f"c{i}", ((f"c{i}", 1.0),), (1000.0,), (4000.0,), 0.0, 0.02) for i in range(count)
+    )
     return Mixture((), species, (), (1e-6, 1e-3))
 
 
@@ -126,7 +130,9 @@ def simple(fraction: float) -> Case:
 
 
 def nested(*fractions: float) -> Case:
-    """A chain of mixers, each fed back from a splitter behind all inner ones: flow multiplied at each level."""
+    """A chain of mixers, each fed back from a splitter behind all inner ones: flow multiplied at each
+    level.
+    """
     n = len(fractions)
     units = {f"mix{i}": Mixer() for i in range(n)} | {f"split{i}": Splitter(fractions[i]) for i in range(n)}
     links = {"f": ("", "mix0.f")}
@@ -135,7 +141,11 @@ def nested(*fractions: float) -> Case:
         links[f"out{i}"] = (f"split{i + 1}.product", f"split{i}")
     links["core"] = (f"mix{n - 1}", f"split{n - 1}")
     links |= {f"back{i}": (f"split{i}.side", f"mix{i}.back") for i in range(n)}
-    return Case(Flowsheet(units, {"f": feed(1.0)}, links), "core", float(np.prod([1.0 / (1.0 - x) for x in fractions])))
+    return Case(
+        Flowsheet(units, {"f": feed(1.0)}, links),
+        "core",
+        float(np.prod([1.0 / (1.0 - x) for x in fractions])),
+    )
 
 
 def crossed() -> Case:
@@ -156,20 +166,40 @@ def crossed() -> Case:
 def figure_eight() -> Case:
     """Two loops that share one splitter."""
     units = {"m1": Mixer(), "s": Splitter(0.5), "m2": Mixer(), "s2": Splitter(0.8), "s1": Splitter(0.9)}
-    links = {"f": ("", "m1.f"), "x": ("m1", "s"), "up": ("s.side", "s1"), "back1": ("s1.side", "m1.back"), "down": ("s.product", "m2.f"),
-             "y": ("m2", "s2"), "back2": ("s2.side", "m2.back")}  # fmt: skip
+    links = {
+        "f": ("", "m1.f"),
+        "x": ("m1", "s"),
+        "up": ("s.side", "s1"),
+        "back1": ("s1.side", "m1.back"),
+        "down": ("s.product", "m2.f"),
+        "y": ("m2", "s2"),
+        "back2": ("s2.side", "m2.back"),
+    }
     return Case(Flowsheet(units, {"f": feed(1.0)}, links), "y", 0.5 / (1.0 - 0.45) / (1.0 - 0.8))
 
 
 def purge(fraction: float) -> Case:
-    """Reaction with an inert that only the purge lets out (ammonia synthesis in small): conversion 25 % a pass, product taken off."""
-    units = {"mix": Mixer(), "reactor": Reactor(np.array([[0.75, 0.0, 0.0], [0.25, 1.0, 0.0], [0.0, 0.0, 1.0]])),
-             "separator": Separator(np.array([0.0, 1.0, 0.0])), "purge": Splitter(fraction)}  # fmt: skip
-    links = {"f": ("", "mix.f"), "in": ("mix", "reactor"), "out": ("reactor", "separator"), "gas": ("separator.product", "purge"),
-             "back": ("purge.product", "mix.back")}  # fmt: skip
+    """Reaction with an inert that only the purge lets out (ammonia synthesis in small): conversion 25 % a
+    pass, product taken off.
+    """
+    units = {
+        "mix": Mixer(),
+        "reactor": Reactor(np.array([[0.75, 0.0, 0.0], [0.25, 1.0, 0.0], [0.0, 0.0, 1.0]])),
+        "separator": Separator(np.array([0.0, 1.0, 0.0])),
+        "purge": Splitter(fraction),
+    }
+    links = {
+        "f": ("", "mix.f"),
+        "in": ("mix", "reactor"),
+        "out": ("reactor", "separator"),
+        "gas": ("separator.product", "purge"),
+        "back": ("purge.product", "mix.back"),
+    }
     left = 1.0 - fraction
     return Case(
-        Flowsheet(units, {"f": feed(0.99, 0.0, 0.01)}, links), "in", [0.99 / (1.0 - 0.75 * left), 0.0, 0.01 / max(fraction, 1e-300)]
+        Flowsheet(units, {"f": feed(0.99, 0.0, 0.01)}, links),
+        "in",
+        [0.99 / (1.0 - 0.75 * left), 0.0, 0.01 / max(fraction, 1e-300)],
     )
 
 
@@ -181,9 +211,16 @@ def stiff_components() -> Case:
 
 
 def kinked(capacity: float) -> Case:
-    """What a limited unit does not take goes round; the product leaves by another share. At 2 the limit is just met."""
+    """What a limited unit does not take goes round; the product leaves by another share. At 2 the limit is
+    just met.
+    """
     units = {"mix": Mixer(), "limited": Limited(capacity), "split": Splitter(0.5)}
-    links = {"f": ("", "mix.f"), "m": ("mix", "limited"), "passed": ("limited.product", "split"), "back": ("split.side", "mix.back")}
+    links = {
+        "f": ("", "mix.f"),
+        "m": ("mix", "limited"),
+        "passed": ("limited.product", "split"),
+        "back": ("split.side", "mix.back"),
+    }
     x = 2.0 if capacity >= 2.0 else 1.0 + 0.5 * capacity  # m = 1 + half of what passes
     return Case(Flowsheet(units, {"f": feed(1.0)}, links), "m", x)
 
@@ -199,18 +236,31 @@ def weir(power: float, fraction: float = 1.0) -> Case:
 
 
 def spiral() -> Case:
-    """Components that turn into one another in a circle while they go round: complex eigenvalues of modulus 0.97."""
+    """Components that turn into one another in a circle while they go round: complex eigenvalues of modulus
+    0.97.
+    """
     turn = np.roll(np.eye(5), 1, axis=0)
     units = {"mix": Mixer(), "reactor": Reactor(turn), "split": Splitter(0.97)}
-    links = {"f": ("", "mix.f"), "m": ("mix", "reactor"), "r": ("reactor", "split"), "back": ("split.side", "mix.back")}
+    links = {
+        "f": ("", "mix.f"),
+        "m": ("mix", "reactor"),
+        "r": ("reactor", "split"),
+        "back": ("split.side", "mix.back"),
+    }
     flows = np.array([1.0, 0.0, 0.0, 0.0, 0.0])
-    return Case(Flowsheet(units, {"f": feed(*flows)}, links), "m", np.linalg.solve(np.eye(5) - 0.97 * turn, flows))
+    return Case(
+        Flowsheet(units, {"f": feed(*flows)}, links), "m", np.linalg.solve(np.eye(5) - 0.97 * turn, flows)
+    )
 
 
 def heat_loop(effectiveness: float) -> Case:
     """Cold feed warmed by the hot product it becomes: a loop in temperature alone."""
     units = {"exchanger": Exchanger(effectiveness), "heater": Heater(temperature=400.0)}
-    links = {"f": ("", "exchanger.cold"), "warm": ("exchanger.product", "heater"), "hot": ("heater", "exchanger.hot")}
+    links = {
+        "f": ("", "exchanger.cold"),
+        "warm": ("exchanger.product", "heater"),
+        "hot": ("heater", "exchanger.hot"),
+    }
     return Case(Flowsheet(units, {"f": feed(1.0)}, links), "hot", 1.0)
 
 
@@ -234,11 +284,12 @@ def washing(stages: int) -> Case:
     return Case(Flowsheet(units, {"f": feed(1.0, 0.0), "w": feed(0.0, 4.0)}, links), "m0", flows[0])
 
 
-# Cavett's sixteen components: N2, CO2, H2S, C1 … C11 (Rosen and Pauls 1977, table 1): critical temperature K, pressure bar, acentric factor, feed lbmol/h
+# Cavett's sixteen components: N2, CO2, H2S, C1 … C11 (Rosen and Pauls 1977, table 1): critical temperature K,
+# pressure bar, acentric factor, feed lbmol/h
 CAVETT = np.array([
-    (126.2, 33.9, 0.040, 358.2), (304.2, 73.8, 0.225, 4965.6), (373.2, 89.4, 0.100, 339.4), (190.6, 46.0, 0.008, 2995.5), (305.4, 48.8, 0.098, 2395.5),
-    (369.8, 42.5, 0.152, 2291.0), (408.1, 36.5, 0.176, 604.1), (425.2, 38.0, 0.193, 1539.9), (460.4, 33.8, 0.227, 790.4), (469.6, 33.7, 0.251, 1129.9),
-    (507.4, 29.7, 0.296, 1764.7), (540.2, 27.4, 0.351, 2606.7), (568.8, 24.8, 0.394, 1844.5), (594.6, 22.9, 0.444, 1669.0), (617.6, 21.1, 0.490, 831.7),
+    (126.2, 33.9, 0.040, 358.2), (304.2, 73.8, 0.225, 4965.6), (373.2, 89.4, 0.100, 339.4), (190.6, 46.0, 0.008, 2995.5), (305.4, 48.8, 0.098, 2395.5),  # noqa: E501
+    (369.8, 42.5, 0.152, 2291.0), (408.1, 36.5, 0.176, 604.1), (425.2, 38.0, 0.193, 1539.9), (460.4, 33.8, 0.227, 790.4), (469.6, 33.7, 0.251, 1129.9),  # noqa: E501
+    (507.4, 29.7, 0.296, 1764.7), (540.2, 27.4, 0.351, 2606.7), (568.8, 24.8, 0.394, 1844.5), (594.6, 22.9, 0.444, 1669.0), (617.6, 21.1, 0.490, 831.7),  # noqa: E501
     (638.8, 19.7, 0.535, 1214.5),
 ])  # fmt: skip
 
@@ -255,10 +306,17 @@ def cavett() -> Case:
     units: dict[str, Unit] = {name: Flash(wilson(*at)) for name, at in drums.items()}
     units |= {"mix1": Mixer(), "mix2": Mixer(), "mix3": Mixer()}
     links = {
-        "f": ("", "mix2.f"), "to1": ("mix1", "drum1"), "to2": ("mix2", "drum2"), "to3": ("mix3", "drum3"), "gas2": ("drum2.side", "mix1.gas"),
-        "liquid1": ("drum1.product", "mix2.liquid"), "liquid2": ("drum2.product", "mix3.liquid"), "gas3": ("drum3.side", "mix2.gas"),
-        "liquid3": ("drum3.product", "drum4"), "gas4": ("drum4.side", "mix3.gas"),
-    }  # fmt: skip
+        "f": ("", "mix2.f"),
+        "to1": ("mix1", "drum1"),
+        "to2": ("mix2", "drum2"),
+        "to3": ("mix3", "drum3"),
+        "gas2": ("drum2.side", "mix1.gas"),
+        "liquid1": ("drum1.product", "mix2.liquid"),
+        "liquid2": ("drum2.product", "mix3.liquid"),
+        "gas3": ("drum3.side", "mix2.gas"),
+        "liquid3": ("drum3.product", "drum4"),
+        "gas4": ("drum4.side", "mix3.gas"),
+    }
     line = Flowsheet(units, {"f": feed(*(CAVETT[:, 3] / 27340.6))}, links)
     return Case(line)
 
@@ -303,9 +361,17 @@ def two_mills() -> Case:
         "mix2": Mixer(),
         "mill2": mill(5000.0),
     }
-    links = {"f": ("", "mix.f"), "m": ("mix", "screen1"), "c1": ("screen1.oversize", "mill1"), "u1": ("screen1.undersize", "screen2"),
-             "c2": ("screen2.oversize", "mix2.c"), "g1": ("mill1", "mix2.g"), "to2": ("mix2", "mill2"), "back": ("mill2", "mix.back"),
-             "p": ("screen2.undersize", "")}  # fmt: skip
+    links = {
+        "f": ("", "mix.f"),
+        "m": ("mix", "screen1"),
+        "c1": ("screen1.oversize", "mill1"),
+        "u1": ("screen1.undersize", "screen2"),
+        "c2": ("screen2.oversize", "mix2.c"),
+        "g1": ("mill1", "mix2.g"),
+        "to2": ("mix2", "mill2"),
+        "back": ("mill2", "mix.back"),
+        "p": ("screen2.undersize", ""),
+    }
     return Case(Flowsheet(units, {"f": rock}, links), "p", 10.0)
 
 
@@ -319,8 +385,15 @@ def three_decks() -> Case:
         "half": Splitter(0.9),
         "fine": mill(8000.0),
     }
-    links = {"f": ("", "mix.f"), "m": ("mix", "screen"), "o": ("screen.oversize", "coarse"), "i": ("screen.middlings", "half"), "h": ("half.side", "fine"),
-             "back1": ("coarse", "mix.b1"), "back2": ("fine", "mix.b2")}  # fmt: skip
+    links = {
+        "f": ("", "mix.f"),
+        "m": ("mix", "screen"),
+        "o": ("screen.oversize", "coarse"),
+        "i": ("screen.middlings", "half"),
+        "h": ("half.side", "fine"),
+        "back1": ("coarse", "mix.b1"),
+        "back2": ("fine", "mix.b2"),
+    }
     return Case(Flowsheet(units, {"f": rock}, links))
 
 

@@ -1,4 +1,6 @@
-"""Every hard recycle of the corpus converges, closes and agrees with what is known of it. ``pytest -s`` prints the pass rate."""
+"""Every hard recycle of the corpus converges, closes and agrees with what is known of it. ``pytest -s``
+prints the pass rate.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ def test_what_has_no_steady_state_is_refused(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["eight components, gains 1e-4 to 0.9999", "swinging, slope -5"])
 def test_newton_finds_the_same(name: str) -> None:
-    """Newton–Krylov, with which a line is tried last, and its derivative; all of the corpus: ``benchmarks/recycles.py``."""
+    """Newton–Krylov, with which a line is tried last, and its derivative; all of the corpus:
+    ``benchmarks/recycles.py``.
+    """
     line = corpus.CASES[name]().line
     feed = next(iter(line.feeds))
     liquid = line.feeds[feed].liquid
@@ -65,20 +69,34 @@ def test_newton_finds_the_same(name: str) -> None:
         solution = solve(line.with_values({f"{feed}.liquid": liquid * share}), method=method)
         return jnp.stack([solution.streams[n].mass_flow for n in line.products] + [1.0 * solution.converged])
 
-    one, other = (jax.jit(lambda x, m=m: jax.jvp(lambda y: product(y, m), (x,), (1.0,)))(1.0) for m in (Anderson(), Newton()))
+    one, other = (
+        jax.jit(lambda x, m=m: jax.jvp(lambda y: product(y, m), (x,), (1.0,)))(1.0)
+        for m in (Anderson(), Newton())
+    )
     assert one[0][-1] == other[0][-1] == 1.0
     assert np.allclose(one[0], other[0], rtol=1e-9)
     assert np.allclose(one[1], other[1], rtol=1e-7, atol=1e-9)
 
 
 def test_specification_on_a_loop_that_only_newton_solves() -> None:
-    """Twelve components that turn into one another, 999 of 1000 going round: by hand the flow is 1/(1 - share)."""
-    fresh, units, links = np.eye(12)[0], {"mix": Mixer(), "reactor": corpus.Reactor(np.roll(np.eye(12), 1, axis=0)), "split": Splitter(0.999)}, {
-        "f": ("", "mix.f"), "m": ("mix", "reactor"), "r": ("reactor", "split"), "back": ("split.side", "mix.back"),
-    }  # fmt: skip
+    """Twelve components that turn into one another, 999 of 1000 going round: by hand the flow is 1/(1 -
+    share).
+    """
+    fresh, units, links = (
+        np.eye(12)[0],
+        {"mix": Mixer(), "reactor": corpus.Reactor(np.roll(np.eye(12), 1, axis=0)), "split": Splitter(0.999)},
+        {
+            "f": ("", "mix.f"),
+            "m": ("mix", "reactor"),
+            "r": ("reactor", "split"),
+            "back": ("split.side", "mix.back"),
+        },
+    )
     line = Flowsheet(units, {"f": corpus.feed(*fresh)}, links)
     assert not bool(_solve(jax.tree.map(np.asarray, line)).converged)
-    with pytest.raises(ConvergenceError, match="'reactor' does not conserve c0") as caught:  # by design; the loop itself is solved
+    with pytest.raises(
+        ConvergenceError, match="'reactor' does not conserve c0"
+    ) as caught:  # by design; the loop itself is solved
         Line("Loop", line, (Target("split.side_fraction", "mix.mass_flow", 2000.0, 0.999, 0.9998),)).solve()
     run = caught.value.last
     assert run.found["split.side_fraction"] == pytest.approx(0.9995, rel=1e-9)

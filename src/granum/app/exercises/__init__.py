@@ -1,4 +1,6 @@
-"""Worked examples and quizzes of the course notes, as data: statements, live calculations, printed answers."""
+"""Worked examples and quizzes of the course notes, as data: statements, live calculations, printed
+answers.
+"""
 
 from __future__ import annotations
 
@@ -39,6 +41,8 @@ def listing() -> dict[str, Any]:
         for step in exercise["steps"]:
             card = registry.find(step["card"]).card
             step["title"] = card.title
-            step["expected"]["text"] = f"{format_number(step['expected']['value'])} {pretty_unit(step['expected']['unit'])}".strip()
+            step["expected"]["text"] = (
+                f"{format_number(step['expected']['value'])} {pretty_unit(step['expected']['unit'])}".strip()
+            )
             step["expected"]["label"] = card.parameter(step["expected"]["output"]).label
     return {"exercises": found["exercise"], "quizzes": found["quiz"]}

@@ -36,7 +36,10 @@ from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-TRICKLE, THIN = 1e-15, 1e-12  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
+TRICKLE, THIN = (
+    1e-15,
+    1e-12,
+)  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
 Ends = tuple[float, float]
 
 
@@ -72,7 +75,9 @@ class SpinFigures(NamedTuple):
 
 
 class Spun(NamedTuple):
-    """The cake of a machine: its cycle, thickness, wash liquor per void volume, mother liquor that washing leaves, saturation at discharge."""
+    """The cake of a machine: its cycle, thickness, wash liquor per void volume, mother liquor that washing
+    leaves, saturation at discharge.
+    """
 
     spin: Spin
     thickness: Any
@@ -92,7 +97,9 @@ def machine_limits(*, diameter: float, solids: Ends, effect: Ends, layer: Ends) 
     }
 
 
-FLOODING: Limits = {"flood": Limit("filtrate over the critical flow (flooding)", 0.0, 1.0, "dimensionless", "storrow1957")}
+FLOODING: Limits = {
+    "flood": Limit("filtrate over the critical flow (flooding)", 0.0, 1.0, "dimensionless", "storrow1957")
+}
 
 
 class FilteringCentrifuge(CakeMaker):
@@ -127,10 +134,14 @@ class FilteringCentrifuge(CakeMaker):
     def case(self, feed: Stream) -> dict[str, Any]:
         """What the spinning formulas need."""
         return {
-            "radius_outer": self.radius_outer, "cake_radius": self.inner_radius(feed), "rotation_speed": self.rotation_speed,
-            "liquid_density": feed.liquid_density, "dynamic_viscosity": feed.liquid_viscosity,
-            "cake_permeability": self.permeability(feed), "medium_resistance": self.medium_resistance,
-        }  # fmt: skip
+            "radius_outer": self.radius_outer,
+            "cake_radius": self.inner_radius(feed),
+            "rotation_speed": self.rotation_speed,
+            "liquid_density": feed.liquid_density,
+            "dynamic_viscosity": feed.liquid_viscosity,
+            "cake_permeability": self.permeability(feed),
+            "medium_resistance": self.medium_resistance,
+        }
 
     def solute_left(self, feed: Stream, wash: Stream | None) -> Any:
         """Fraction of the mother liquor that washing leaves, the wash liquor passing at the critical flow."""
@@ -144,7 +155,13 @@ class FilteringCentrifuge(CakeMaker):
         """Saturation of the cake at discharge."""
         d, middle = self.diameter(feed), 0.5 * (self.radius_outer + self.inner_radius(feed))
         lowest = irreducible_saturation_leung(
-            d, self.void_fraction, self.thickness(feed), middle, self.rotation_speed, feed.liquid_density, self.surface_tension
+            d,
+            self.void_fraction,
+            self.thickness(feed),
+            middle,
+            self.rotation_speed,
+            feed.liquid_density,
+            self.surface_tension,
         )
         return cake_saturation_spinning(
             spin.drainage_time,
@@ -161,12 +178,16 @@ class FilteringCentrifuge(CakeMaker):
     def inside(self, feed: Stream, wash: Stream | None = None) -> Spun:
         spin = self.spin(feed, wash)
         left, wet = self.solute_left(feed, wash), self.saturation(feed, spin)
-        return Spun(spin, jnp.asarray(self.thickness(feed), dtype=float), self.wash_ratio(feed, wash), left, wet)
+        return Spun(
+            spin, jnp.asarray(self.thickness(feed), dtype=float), self.wash_ratio(feed, wash), left, wet
+        )
 
     def outlets(self, inside: Spun, feed: Stream, wash: Stream | None = None) -> Filtered:
         return self.parted(feed, wash, saturation=inside.saturation, left=inside.left)
 
-    def figures(self, inside: Spun, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> SpinFigures:
+    def figures(
+        self, inside: Spun, outlets: Filtered, feed: Stream, wash: Stream | None = None
+    ) -> SpinFigures:
         spin = inside.spin
         return SpinFigures(
             capacity_use=spin.capacity_use,
@@ -185,7 +206,9 @@ class FilteringCentrifuge(CakeMaker):
             shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
         )
 
-    def measured(self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return {
             "use": inside.spin.capacity_use,
             "flood": inside.spin.flooding,
@@ -210,10 +233,15 @@ class SetCake(FilteringCentrifuge):
         return jnp.pi * (self.radius_outer**2 - self.cake_radius**2) * self.height
 
 
-@equipment("peeler", source="grace1953; storrow1957; richardson2002, ch. 9", title="Basket (peeler) centrifuge",
-           equation=r"t_c = t_1 + t_w + t_2 + t_d + t_{mort}")  # fmt: skip
+@equipment(
+    "peeler",
+    source="grace1953; storrow1957; richardson2002, ch. 9",
+    title="Basket (peeler) centrifuge",
+    equation=r"t_c = t_1 + t_w + t_2 + t_d + t_{mort}",
+)
 class Peeler(SetCake):
-    """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun off, drained, plowed.
+    """Batch basket through its cycle: kept full while the cake grows, washed under a ring of liquor, spun
+    off, drained, plowed.
 
     ``radius_inner`` is the free surface while loading and washing. Several baskets share the feed in turn.
     """
@@ -239,28 +267,38 @@ class Peeler(SetCake):
         cake_flow = void / self.void_fraction
         filtrate = jnp.maximum(feed.liquid_volume_flow - void, 1e-12 * feed.liquid_volume_flow + TRICKLE)
         loading = loading_time_basket(
-            radius_inner=self.radius_inner, cake_volume_per_filtrate=jnp.maximum(cake_flow / filtrate, THIN), **case
+            radius_inner=self.radius_inner,
+            cake_volume_per_filtrate=jnp.maximum(cake_flow / filtrate, THIN),
+            **case,
         )
-        washing_flow = filtrate_flow_basket(basket_height=self.basket_height, radius_inner=self.radius_inner, **case)
+        washing_flow = filtrate_flow_basket(
+            basket_height=self.basket_height, radius_inner=self.radius_inner, **case
+        )
         washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
         falling = spin_off_time(radius_inner=self.radius_inner, **case)
         cycle = loading + washing + falling + self.drainage_time + self.dead_time
         use = cake_flow * cycle / (self.cake_volume * self.basket_number)
-        return Spin(loading, washing, falling, jnp.asarray(self.drainage_time, dtype=float), cycle, use, jnp.zeros(()))
+        return Spin(
+            loading, washing, falling, jnp.asarray(self.drainage_time, dtype=float), cycle, use, jnp.zeros(())
+        )
 
 
 @equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")
 class Pusher(SetCake):
-    """Continuous basket along which strokes push a cake of even thickness: it forms, is washed and drains on its way out.
+    """Continuous basket along which strokes push a cake of even thickness: it forms, is washed and drains on
+    its way out.
 
-    The stay follows from the cake that the basket holds; the feed zone must let the mother liquor through (critical flow) or floods.
+    The stay follows from the cake that the basket holds; the feed zone must let the mother liquor through
+    (critical flow) or floods.
     """
 
     basket_length: Length
     feed_share: Fraction = 0.25
     wash_share: Fraction = 0.25
 
-    limits: ClassVar[Limits] = FLOODING | machine_limits(diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08))
+    limits: ClassVar[Limits] = FLOODING | machine_limits(
+        diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08)
+    )
 
     @property
     def height(self) -> Any:

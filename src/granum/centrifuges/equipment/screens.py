@@ -1,4 +1,6 @@
-"""Conical screen centrifuges: a thin cake travels over a sieve cone, moved by a scroll, by vibration, by tumbling or by its own weight."""
+"""Conical screen centrifuges: a thin cake travels over a sieve cone, moved by a scroll, by vibration, by
+tumbling or by its own weight.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,20 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 
-from granum.centrifuges.equipment.filtering import FLOODING, FilteringCentrifuge, Spin, SpinFigures, Spun, machine_limits
-from granum.centrifuges.formulas.conveying import sliding_ratio, stay_time_scroll, tumbling_angle_least, vibration_acceleration_least
+from granum.centrifuges.equipment.filtering import (
+    FLOODING,
+    FilteringCentrifuge,
+    Spin,
+    SpinFigures,
+    Spun,
+    machine_limits,
+)
+from granum.centrifuges.formulas.conveying import (
+    sliding_ratio,
+    stay_time_scroll,
+    tumbling_angle_least,
+    vibration_acceleration_least,
+)
 from granum.centrifuges.formulas.spinning import filtrate_flow_critical
 from granum.core import equipment
 from granum.core.kinds import Acceleration, Angle, Fraction, Length, RotationSpeed, Time, Within
@@ -28,7 +42,8 @@ def _screen_limits(finest: float, effect: tuple[float, float]) -> Limits:
 
 
 class ConicalScreen(FilteringCentrifuge):
-    """Abstract conical screen, taken as a cylinder of its mean radius: the stay and the feed set how thick the cake is.
+    """Abstract conical screen, taken as a cylinder of its mean radius: the stay and the feed set how thick
+    the cake is.
 
     The feed zone must let the mother liquor through (critical flow of the thin cake) or the basket floods.
     """
@@ -59,10 +74,20 @@ class ConicalScreen(FilteringCentrifuge):
         washing = 0.0 if wash is None else wash.liquid_volume_flow / (self.wash_share * critical)
         washed = 0.0 if wash is None else self.wash_share
         stay, flooding = jnp.asarray(self.stay, dtype=float), jnp.maximum(forming, washing)
-        return Spin(self.feed_share * stay, washed * stay, jnp.zeros(()), (1.0 - self.feed_share - washed) * stay, stay, flooding, flooding)
+        return Spin(
+            self.feed_share * stay,
+            washed * stay,
+            jnp.zeros(()),
+            (1.0 - self.feed_share - washed) * stay,
+            stay,
+            flooding,
+            flooding,
+        )
 
 
-@equipment("scroll_screen", source="records2001; perry2008, § 18; storrow1957", title="Scroll-screen centrifuge")
+@equipment(
+    "scroll_screen", source="records2001; perry2008, § 18; storrow1957", title="Scroll-screen centrifuge"
+)
 class ScrollScreen(ConicalScreen):
     """Conical screen that a scroll empties: the stay is one pitch for each turn between scroll and basket."""
 
@@ -92,7 +117,9 @@ class SlidingScreen(ConicalScreen):
     def mobility(self) -> Any:
         """What moves the cake over the least that does."""
 
-    def measured(self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {"moves": self.mobility()}
 
 
@@ -101,7 +128,9 @@ class SlidingCakeScreen(SlidingScreen):
     """Conical screen steep enough that the cake slides out by itself; the cone must fit the product."""
 
     limits: ClassVar[Limits] = _screen_limits(2e-4, (300.0, 3000.0)) | {
-        "moves": Limit("slope of the cone over the friction of the cake", 1.0, 1.5, "dimensionless", "leung1998")
+        "moves": Limit(
+            "slope of the cone over the friction of the cake", 1.0, 1.5, "dimensionless", "leung1998"
+        )
     }
 
     def mobility(self) -> Any:
@@ -110,28 +139,40 @@ class SlidingCakeScreen(SlidingScreen):
 
 @equipment("vibrating_screen", source="leung1998; perry2008, § 18", title="Vibrating-screen centrifuge")
 class VibratingScreen(SlidingScreen):
-    """Flat conical screen shaken along its axis, so that the cake steps forward: coarse, rich feeds, coal above all."""
+    """Flat conical screen shaken along its axis, so that the cake steps forward: coarse, rich feeds, coal
+    above all.
+    """
 
     vibration_acceleration: Acceleration
 
     limits: ClassVar[Limits] = _screen_limits(3e-4, (30.0, 200.0)) | {
-        "moves": Limit("vibration over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998")
+        "moves": Limit(
+            "vibration over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998"
+        )
     }
 
     def mobility(self) -> Any:
-        least = vibration_acceleration_least(self.rotation_speed, self.radius_outer, self.cone_angle, self.friction_angle)
+        least = vibration_acceleration_least(
+            self.rotation_speed, self.radius_outer, self.cone_angle, self.friction_angle
+        )
         return self.vibration_acceleration / jnp.maximum(least, LEAST)
 
 
 @equipment("tumbling_screen", source="leung1998; perry2008, § 18", title="Tumbling centrifuge")
 class TumblingScreen(SlidingScreen):
-    """Flat conical screen whose axis tumbles, so that each side in turn is steep enough for the cake to slide."""
+    """Flat conical screen whose axis tumbles, so that each side in turn is steep enough for the cake to
+    slide.
+    """
 
     tumbling_angle: ConeAngle
 
     limits: ClassVar[Limits] = _screen_limits(5e-4, (30.0, 400.0)) | {
-        "moves": Limit("tumbling angle over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998")
+        "moves": Limit(
+            "tumbling angle over the least that moves the cake", 1.0, math.inf, "dimensionless", "leung1998"
+        )
     }
 
     def mobility(self) -> Any:
-        return self.tumbling_angle / jnp.maximum(tumbling_angle_least(self.cone_angle, self.friction_angle), LEAST)
+        return self.tumbling_angle / jnp.maximum(
+            tumbling_angle_least(self.cone_angle, self.friction_angle), LEAST
+        )

@@ -1,4 +1,6 @@
-"""Settling centrifuges in a line: tubular bowl, disc stack, scroll decanter, solid basket. Each size class by its own grade efficiency."""
+"""Settling centrifuges in a line: tubular bowl, disc stack, scroll decanter, solid basket. Each size class by
+its own grade efficiency.
+"""
 
 from __future__ import annotations
 
@@ -78,9 +80,10 @@ def _slender(low: float, high: float) -> Limits:
 class SettlingCentrifuge(Unit):
     """Abstract settling centrifuge.
 
-    Particles settle as in Stokes' range at the centrifugal effect of the mean radius (with the drag of their true Reynolds number),
-    hindered by one another. ``sediment_solids_fraction`` is the volume fraction of solid in what is discharged: a property of the
-    sediment, from a spin test. ``sigma_efficiency`` derates the machine against its theory.
+    Particles settle as in Stokes' range at the centrifugal effect of the mean radius (with the drag of their
+    true Reynolds number), hindered by one another. ``sediment_solids_fraction`` is the volume fraction of
+    solid in what is discharged: a property of the sediment, from a spin test. ``sigma_efficiency`` derates
+    the machine against its theory.
     """
 
     radius_inner: Length
@@ -108,7 +111,11 @@ class SettlingCentrifuge(Unit):
         effect = centrifugal_effect(0.5 * (self.radius_inner + self.radius_outer), self.rotation_speed)
         velocity = jnp.maximum(
             terminal_velocity(
-                jnp.asarray(feed.mixture.sizes), feed.solid_density, feed.liquid_density, feed.liquid_viscosity, effect * STANDARD_GRAVITY
+                jnp.asarray(feed.mixture.sizes),
+                feed.solid_density,
+                feed.liquid_density,
+                feed.liquid_viscosity,
+                effect * STANDARD_GRAVITY,
             ),
             0.0,
         )
@@ -129,7 +136,12 @@ class SettlingCentrifuge(Unit):
         return ClarifierFigures(
             solids_recovery=outlets.sediment.solid_flow / jnp.where(total > 0, total, 1.0),
             cut_size_centrifuge=cut_size_centrifuge(
-                feed.slurry_volume_flow, self.sigma(), feed.solid_density, feed.liquid_density, feed.liquid_viscosity, self.flow_multiple,
+                feed.slurry_volume_flow,
+                self.sigma(),
+                feed.solid_density,
+                feed.liquid_density,
+                feed.liquid_viscosity,
+                self.flow_multiple,
                 self.sigma_efficiency,
             ),
             sigma_factor=jnp.asarray(self.sigma(), dtype=float),
@@ -138,9 +150,11 @@ class SettlingCentrifuge(Unit):
             shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
             moisture_dry_basis=outlets.sediment.moisture_dry_basis,
             mass_flow_sediment=outlets.sediment.mass_flow,
-        )  # fmt: skip
+        )
 
-    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
+    ) -> dict[str, Any]:
         return {
             "solids": feed.solids_volume_fraction,
             "flow": feed.slurry_volume_flow,
@@ -150,8 +164,12 @@ class SettlingCentrifuge(Unit):
         }
 
 
-@equipment("tubular_bowl", source="ambler1959; svarovsky2001", title="Tubular bowl centrifuge",
-           equation=r"\Sigma = \frac{\pi L\,\omega^2 (r_2^2 - r_1^2)}{g \ln[2r_2^2/(r_1^2 + r_2^2)]}")  # fmt: skip
+@equipment(
+    "tubular_bowl",
+    source="ambler1959; svarovsky2001",
+    title="Tubular bowl centrifuge",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2 (r_2^2 - r_1^2)}{g \ln[2r_2^2/(r_1^2 + r_2^2)]}",
+)
 class TubularBowl(SettlingCentrifuge):
     """Slender bowl at very high speed: fine particles at low concentration, cleaned by hand when full."""
 
@@ -163,20 +181,34 @@ class TubularBowl(SettlingCentrifuge):
         solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"
     ) | _slender(8.0, 16.0)
 
-    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed) | {"slender": self.bowl_length / self.radius_outer}
+    def measured(
+        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "slender": self.bowl_length / self.radius_outer
+        }
 
     def sigma(self) -> Any:
-        return sigma_factor_tubular_half_area(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+        return sigma_factor_tubular_half_area(
+            self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
+        )
 
     def efficiency(self, velocity: Any, flow: Any) -> Any:
-        return grade_efficiency_tubular(velocity, flow, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+        return grade_efficiency_tubular(
+            velocity, flow, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
+        )
 
 
-@equipment("disc_stack", source="ambler1959; svarovsky2001", title="Disc stack centrifuge",
-           equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}")  # fmt: skip
+@equipment(
+    "disc_stack",
+    source="ambler1959; svarovsky2001",
+    title="Disc stack centrifuge",
+    equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}",
+)
 class DiscStack(SettlingCentrifuge):
-    """Stack of conical discs with narrow gaps: much settling area in a small bowl; for fine solids and emulsions."""
+    """Stack of conical discs with narrow gaps: much settling area in a small bowl; for fine solids and
+    emulsions.
+    """
 
     disc_number: PositiveNumber
     disc_angle: Angle = 0.7
@@ -188,13 +220,21 @@ class DiscStack(SettlingCentrifuge):
     ) | {"speed": Limit("rotation speed", 0.0, 12000 * RPM, "radian/s", "robatel1989")}
 
     def sigma(self) -> Any:
-        return sigma_factor_disc(self.disc_number, self.radius_inner, self.radius_outer, self.rotation_speed, self.disc_angle)
+        return sigma_factor_disc(
+            self.disc_number, self.radius_inner, self.radius_outer, self.rotation_speed, self.disc_angle
+        )
 
 
-@equipment("scroll_decanter", source="ambler1959; records2001", title="Scroll decanter",
-           equation=r"\Sigma = \frac{2\pi L\,\omega^2}{g}\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right)")  # fmt: skip
+@equipment(
+    "scroll_decanter",
+    source="ambler1959; records2001",
+    title="Scroll decanter",
+    equation=r"\Sigma = \frac{2\pi L\,\omega^2}{g}\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right)",
+)
 class ScrollDecanter(SettlingCentrifuge):
-    """Horizontal bowl from which a screw conveys the sediment up a beach: continuous, for concentrated slurries."""
+    """Horizontal bowl from which a screw conveys the sediment up a beach: continuous, for concentrated
+    slurries.
+    """
 
     bowl_length: Length
     beach_length: Distance = 0.0
@@ -203,16 +243,24 @@ class ScrollDecanter(SettlingCentrifuge):
         solids=(0.02, 0.5), flow=(0.0, 200.0 / 3600), effect=(300.0, 3000.0), source="robatel1989"
     ) | _slender(3.0, 7.0)
 
-    def measured(self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed) | {"slender": self.bowl_length / self.radius_outer}
+    def measured(
+        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed) | {
+            "slender": self.bowl_length / self.radius_outer
+        }
 
     def sigma(self) -> Any:
-        return sigma_factor_scroll(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed, self.beach_length)
+        return sigma_factor_scroll(
+            self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed, self.beach_length
+        )
 
 
 @equipment("solid_basket", source="ambler1959; svarovsky2001", title="Solid-basket centrifuge")
 class SolidBasket(SettlingCentrifuge):
-    """Wide unperforated basket that fills with sediment and is then skimmed and plowed; averaged over its cycle."""
+    """Wide unperforated basket that fills with sediment and is then skimmed and plowed; averaged over its
+    cycle.
+    """
 
     bowl_length: Length
     working_share: Annotated[Fraction, Within(0.01, 1.0)] = 0.8
@@ -226,9 +274,16 @@ class SolidBasket(SettlingCentrifuge):
         return 2.0 * self.working_share
 
     def sigma(self) -> Any:
-        return sigma_factor_tubular_half_area(self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed)
+        return sigma_factor_tubular_half_area(
+            self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
+        )
 
     def efficiency(self, velocity: Any, flow: Any) -> Any:
         return grade_efficiency_tubular(
-            velocity, flow / self.working_share, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
+            velocity,
+            flow / self.working_share,
+            self.bowl_length,
+            self.radius_inner,
+            self.radius_outer,
+            self.rotation_speed,
         )

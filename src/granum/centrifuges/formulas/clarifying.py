@@ -1,4 +1,6 @@
-"""Clarifying centrifuges: Sigma of each machine, cut sizes, grade efficiency, liquid–liquid interface, wall stress."""
+"""Clarifying centrifuges: Sigma of each machine, cut sizes, grade efficiency, liquid–liquid interface, wall
+stress.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,12 @@ INSIDE_OUT = "The inner radius, that of the free surface, must be smaller than t
 STEEP = "A disc stands between 0 and 90° to the axis."
 NO_INTERFACE = "No interface lies between these overflows: the heavy liquid must leave farther out."
 
-_BOWL = {"bowl_length": (0.3, 1.5), "radius_inner": (0.02, 0.1), "radius_outer": (0.12, 0.4), "rotation_speed": (100.0, 1500.0)}
+_BOWL = {
+    "bowl_length": (0.3, 1.5),
+    "radius_inner": (0.02, 0.1),
+    "radius_outer": (0.12, 0.4),
+    "rotation_speed": (100.0, 1500.0),
+}
 _MUD = {
     "particle_density": (1500.0, 4000.0),
     "fluid_density": (900.0, 1200.0),
@@ -50,8 +57,11 @@ def stokes_velocity(diameter: Any, excess: Any, viscosity: Any) -> Any:
     typical=_BOWL,
     title="Sigma of a tubular bowl, full capture",
 )
-def sigma_factor_tubular(bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
-    """Area of the settling basin that would do the same as a tubular bowl, for the smallest particle caught completely.
+def sigma_factor_tubular(
+    bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed
+) -> Area:
+    """Area of the settling basin that would do the same as a tubular bowl, for the smallest particle caught
+    completely.
 
     With this convention Q = v_g Σ.
 
@@ -81,7 +91,13 @@ def sigma_factor_tubular_half_thickness(
     """
     r1, r2 = radius_inner, radius_outer
     impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
-    return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * r2 / (r1 + r2)))
+    return (
+        jnp.pi
+        * bowl_length
+        * rotation_speed**2
+        * (r2**2 - r1**2)
+        / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * r2 / (r1 + r2)))
+    )
 
 
 @formula(
@@ -90,8 +106,11 @@ def sigma_factor_tubular_half_thickness(
     typical=_BOWL,
     title="Sigma of a tubular bowl, cut at half the flow area",
 )
-def sigma_factor_tubular_half_area(bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
-    """Sigma of a tubular bowl for the particle of which half is caught when it enters evenly over the flow area.
+def sigma_factor_tubular_half_area(
+    bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed
+) -> Area:
+    """Sigma of a tubular bowl for the particle of which half is caught when it enters evenly over the flow
+    area.
 
     With this convention Q = 2 v_g Σ.
 
@@ -100,7 +119,13 @@ def sigma_factor_tubular_half_area(bowl_length: Length, radius_inner: Length, ra
     """
     r1, r2 = radius_inner, radius_outer
     impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
-    return jnp.pi * bowl_length * rotation_speed**2 * (r2**2 - r1**2) / (STANDARD_GRAVITY * jnp.log(2.0 * r2**2 / (r1**2 + r2**2)))
+    return (
+        jnp.pi
+        * bowl_length
+        * rotation_speed**2
+        * (r2**2 - r1**2)
+        / (STANDARD_GRAVITY * jnp.log(2.0 * r2**2 / (r1**2 + r2**2)))
+    )
 
 
 @formula(
@@ -116,9 +141,14 @@ def sigma_factor_tubular_half_area(bowl_length: Length, radius_inner: Length, ra
     title="Sigma of a disc stack",
 )
 def sigma_factor_disc(
-    disc_number: PositiveNumber, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed, disc_angle: Angle
+    disc_number: PositiveNumber,
+    radius_inner: Length,
+    radius_outer: Length,
+    rotation_speed: RotationSpeed,
+    disc_angle: Angle,
 ) -> Area:
-    """Area of the settling basin that would do the same as a stack of conical discs; the angle is that between disc and axis.
+    """Area of the settling basin that would do the same as a stack of conical discs; the angle is that
+    between disc and axis.
 
     The number counts the gaps between discs.
 
@@ -127,20 +157,37 @@ def sigma_factor_disc(
     """
     r1, r2 = radius_inner, radius_outer
     impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
-    impossible((disc_angle <= 0.0) | (disc_angle >= jnp.pi / 2.0), disc_angle, "disc_angle", 0.0, jnp.pi / 2.0, STEEP)
-    return 2.0 * jnp.pi * disc_number * rotation_speed**2 * (r2**3 - r1**3) / (3.0 * STANDARD_GRAVITY * jnp.tan(disc_angle))
+    impossible(
+        (disc_angle <= 0.0) | (disc_angle >= jnp.pi / 2.0), disc_angle, "disc_angle", 0.0, jnp.pi / 2.0, STEEP
+    )
+    return (
+        2.0
+        * jnp.pi
+        * disc_number
+        * rotation_speed**2
+        * (r2**3 - r1**3)
+        / (3.0 * STANDARD_GRAVITY * jnp.tan(disc_angle))
+    )
 
 
 @formula(
     source="ambler1959; records2001",
-    equation=r"\Sigma = \frac{2\pi\omega^2}{g}\left[L_1\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right) + L_2\,\frac{r_2^2 + 3 r_1 r_2 + 4 r_1^2}{8}\right]",
+    equation=(
+        r"\Sigma = \frac{2\pi\omega^2}{g}\left[L_1\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right) + "
+        r"L_2\,\frac{r_2^2 + 3 r_1 r_2 + 4 r_1^2}{8}\right]"
+    ),
     typical={**_BOWL, "beach_length": (0.1, 0.5)},
     title="Sigma of a scroll decanter",
 )
 def sigma_factor_scroll(
-    bowl_length: Length, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed, beach_length: Distance = 0.0
+    bowl_length: Length,
+    radius_inner: Length,
+    radius_outer: Length,
+    rotation_speed: RotationSpeed,
+    beach_length: Distance = 0.0,
 ) -> Area:
-    """Area of the settling basin that would do the same as a scroll decanter: cylinder and flooded part of the beach.
+    """Area of the settling basin that would do the same as a scroll decanter: cylinder and flooded part of
+    the beach.
 
     >>> round(sigma_factor_scroll(1.0, 0.15, 0.2, 300))
     2054
@@ -158,14 +205,21 @@ def sigma_factor_scroll(
     typical={**_BOWL, "volume": (1e-5, 1e-3)},
     title="Sigma of a bottle centrifuge",
 )
-def sigma_factor_bottle(volume: Volume, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed) -> Area:
-    """Sigma of a laboratory bottle centrifuge, to scale up from a spin test: Q/Σ is volume per time over this.
+def sigma_factor_bottle(
+    volume: Volume, radius_inner: Length, radius_outer: Length, rotation_speed: RotationSpeed
+) -> Area:
+    """Sigma of a laboratory bottle centrifuge, to scale up from a spin test: Q/Σ is volume per time over
+    this.
 
     >>> round(sigma_factor_bottle("50 mL", 0.08, 0.12, 300), 2)
     1.26
     """
     impossible(~(radius_inner < radius_outer), radius_inner, "radius_inner", 0.0, radius_outer, INSIDE_OUT)
-    return volume * rotation_speed**2 / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * radius_outer / (radius_inner + radius_outer)))
+    return (
+        volume
+        * rotation_speed**2
+        / (2.0 * STANDARD_GRAVITY * jnp.log(2.0 * radius_outer / (radius_inner + radius_outer)))
+    )
 
 
 @formula(
@@ -185,8 +239,9 @@ def cut_size_centrifuge(
 ) -> Length:
     """Cut size of a centrifuge from its flow and Sigma by Stokes' law.
 
-    The flow multiple goes with the convention of Sigma: 1 where Q = v_g Σ (the size caught completely), 2 where Q = 2 v_g Σ (half
-    caught). Real machines reach 0.9 to 1 (tubular), 0.45 to 0.6 (disc) or 0.5 to 0.7 (scroll) of their Sigma.
+    The flow multiple goes with the convention of Sigma: 1 where Q = v_g Σ (the size caught completely),
+    2 where Q = 2 v_g Σ (half caught). Real machines reach 0.9 to 1 (tubular), 0.45 to 0.6 (disc) or 0.5 to
+    0.7 (scroll) of their Sigma.
 
     The particle must settle by Stokes' law, under gravity at the least, where its Reynolds number is checked.
 
@@ -196,9 +251,16 @@ def cut_size_centrifuge(
     excess = particle_density - fluid_density
     some = excess > 0
     impossible(~some, particle_density, "particle_density", fluid_density, jnp.inf)
-    settled = flow_multiple * sigma_efficiency * sigma_factor * STANDARD_GRAVITY * jnp.where(some, excess, 1.0)
+    settled = (
+        flow_multiple * sigma_efficiency * sigma_factor * STANDARD_GRAVITY * jnp.where(some, excess, 1.0)
+    )
     d = jnp.sqrt(18.0 * dynamic_viscosity * volume_flow / settled)
-    watch(reynolds=fluid_density * stokes_velocity(d, jnp.where(some, excess, 1.0), dynamic_viscosity) * d / dynamic_viscosity)
+    watch(
+        reynolds=fluid_density
+        * stokes_velocity(d, jnp.where(some, excess, 1.0), dynamic_viscosity)
+        * d
+        / dynamic_viscosity
+    )
     return jnp.where(some, d, jnp.inf)
 
 
@@ -233,7 +295,11 @@ def volume_flow_centrifuge(
 @formula(
     source="ambler1959",
     equation=r"Q_2 = Q_1\,\frac{E_2\,\Sigma_2}{E_1\,\Sigma_1}",
-    typical={"sigma_factor": (1.0, 500.0), "sigma_factor_other": (500.0, 50000.0), "volume_flow": (1e-6, 1e-3)},
+    typical={
+        "sigma_factor": (1.0, 500.0),
+        "sigma_factor_other": (500.0, 50000.0),
+        "volume_flow": (1e-6, 1e-3),
+    },
     title="Flow of another centrifuge at equal separation (Sigma scale-up)",
 )
 def volume_flow_other_centrifuge(
@@ -247,7 +313,13 @@ def volume_flow_other_centrifuge(
 
     Between machines of different kinds each Sigma counts by the share of it that the machine reaches.
 
-    >>> round(volume_flow_other_centrifuge("1 L/min", 50.0, 5000.0, sigma_efficiency=0.9, sigma_efficiency_other=0.45) * 60000, 1)
+    >>> round(
+    ...     volume_flow_other_centrifuge(
+    ...         "1 L/min", 50.0, 5000.0, sigma_efficiency=0.9, sigma_efficiency_other=0.45
+    ...     )
+    ...     * 60000,
+    ...     1,
+    ... )
     50.0
     """
     return volume_flow * (sigma_efficiency_other * sigma_factor_other) / (sigma_efficiency * sigma_factor)
@@ -255,7 +327,10 @@ def volume_flow_other_centrifuge(
 
 @formula(
     source="svarovsky2001",
-    equation=r"E = \min\left(1,\;\frac{1 - \exp(-2 v_g\omega^2\tau/g)}{1 - (r_1/r_2)^2}\right),\quad \tau = \frac{\pi L (r_2^2 - r_1^2)}{Q}",
+    equation=(
+        r"E = \min\left(1,\;\frac{1 - \exp(-2 v_g\omega^2\tau/g)}{1 - (r_1/r_2)^2}\right),\quad \tau = "
+        r"\frac{\pi L (r_2^2 - r_1^2)}{Q}"
+    ),
     typical={**_BOWL, "terminal_velocity": (1e-9, 1e-7), "volume_flow": (1e-4, 1e-2)},
     output="grade_efficiency",
 )
@@ -285,8 +360,11 @@ def grade_efficiency_tubular(
     typical={"terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2), "sigma_factor": (500.0, 5000.0)},
     output="grade_efficiency",
 )
-def grade_efficiency_thin_layer(terminal_velocity: Speed, volume_flow: VolumeFlow, sigma_factor: Area) -> Fraction:
-    """Share of a size caught where the liquid layer is thin against its radius: between discs, in shallow pools.
+def grade_efficiency_thin_layer(
+    terminal_velocity: Speed, volume_flow: VolumeFlow, sigma_factor: Area
+) -> Fraction:
+    """Share of a size caught where the liquid layer is thin against its radius: between discs, in shallow
+    pools.
 
     >>> round(grade_efficiency_thin_layer(1e-8, 1e-3, 20000), 6)
     0.2
@@ -294,8 +372,13 @@ def grade_efficiency_thin_layer(terminal_velocity: Speed, volume_flow: VolumeFlo
     return jnp.minimum(terminal_velocity * sigma_factor / volume_flow, 1.0)
 
 
-_LIQUIDS = {"density_heavy": (1000.0, 1300.0), "density_light": (750.0, 950.0), "radius_heavy": (0.05, 0.06), "radius_light": (0.045, 0.0475),
-            "radius_interface": (0.055, 0.08)}  # fmt: skip
+_LIQUIDS = {
+    "density_heavy": (1000.0, 1300.0),
+    "density_light": (750.0, 950.0),
+    "radius_heavy": (0.05, 0.06),
+    "radius_light": (0.045, 0.0475),
+    "radius_interface": (0.055, 0.08),
+}
 
 
 @formula(
@@ -304,15 +387,32 @@ _LIQUIDS = {"density_heavy": (1000.0, 1300.0), "density_light": (750.0, 950.0), 
     typical=_LIQUIDS,
     title="Interface of two liquids in a bowl",
 )
-def radius_interface(radius_heavy: Length, radius_light: Length, density_heavy: Density, density_light: Density) -> Length:
+def radius_interface(
+    radius_heavy: Length, radius_light: Length, density_heavy: Density, density_light: Density
+) -> Length:
     """Radius of the neutral zone between two liquids, from the radii over which each leaves.
 
-    >>> round(radius_interface(radius_heavy=0.010414, radius_light=0.010160, density_heavy=919.5, density_light=865) * 1e3, 2)
+    >>> round(
+    ...     radius_interface(
+    ...         radius_heavy=0.010414, radius_light=0.010160, density_heavy=919.5, density_light=865
+    ...     )
+    ...     * 1e3,
+    ...     2,
+    ... )
     13.83
     """
     impossible(density_heavy <= density_light, density_heavy, "density_heavy", density_light, jnp.inf)
-    square = (density_heavy * radius_heavy**2 - density_light * radius_light**2) / (density_heavy - density_light)
-    impossible(~(square > 0), radius_heavy, "radius_heavy", radius_light * jnp.sqrt(density_light / density_heavy), jnp.inf, NO_INTERFACE)
+    square = (density_heavy * radius_heavy**2 - density_light * radius_light**2) / (
+        density_heavy - density_light
+    )
+    impossible(
+        ~(square > 0),
+        radius_heavy,
+        "radius_heavy",
+        radius_light * jnp.sqrt(density_light / density_heavy),
+        jnp.inf,
+        NO_INTERFACE,
+    )
     return jnp.sqrt(jnp.where(square > 0, square, jnp.nan))
 
 
@@ -322,14 +422,22 @@ def radius_interface(radius_heavy: Length, radius_light: Length, density_heavy: 
     typical=_LIQUIDS,
     title="Radius of the ring dam for the heavy liquid",
 )
-def radius_heavy_dam(radius_interface: Length, radius_light: Length, density_heavy: Density, density_light: Density) -> Length:
-    """Radius of the overflow of the heavy liquid (ring dam, gravity disc) that puts the interface where it is wanted.
+def radius_heavy_dam(
+    radius_interface: Length, radius_light: Length, density_heavy: Density, density_light: Density
+) -> Length:
+    """Radius of the overflow of the heavy liquid (ring dam, gravity disc) that puts the interface where it is
+    wanted.
 
-    >>> round(radius_heavy_dam(radius_interface=0.08, radius_light=0.05, density_heavy=1000, density_light=900), 5)
+    >>> round(
+    ...     radius_heavy_dam(radius_interface=0.08, radius_light=0.05, density_heavy=1000, density_light=900),
+    ...     5,
+    ... )
     0.05376
     """
     impossible(density_heavy <= density_light, density_heavy, "density_heavy", density_light, jnp.inf)
-    impossible(~(radius_interface > radius_light), radius_interface, "radius_interface", radius_light, jnp.inf)
+    impossible(
+        ~(radius_interface > radius_light), radius_interface, "radius_interface", radius_light, jnp.inf
+    )
     i2, l2 = radius_interface**2, radius_light**2
     return jnp.sqrt(i2 - density_light / density_heavy * (i2 - l2))
 
@@ -338,10 +446,19 @@ def radius_heavy_dam(radius_interface: Length, radius_light: Length, density_hea
     source="perry2008, § 18; budynas2015, ch. 3",
     fitted={"thickness_ratio": (0.0, 0.1)},
     equation=r"\sigma_\theta = \rho_m\,\omega^2 R^2 + \frac{p R}{s}",
-    typical={"bowl_radius": (0.1, 0.5), "wall_thickness": (5e-3, 3e-2), "rotation_speed": (100.0, 600.0), "pressure": (1e5, 5e6)},
+    typical={
+        "bowl_radius": (0.1, 0.5),
+        "wall_thickness": (5e-3, 3e-2),
+        "rotation_speed": (100.0, 600.0),
+        "pressure": (1e5, 5e6),
+    },
 )
 def hoop_stress_bowl(
-    bowl_radius: Length, wall_thickness: Length, rotation_speed: RotationSpeed, pressure: Pressure, wall_density: Density = 7850.0
+    bowl_radius: Length,
+    wall_thickness: Length,
+    rotation_speed: RotationSpeed,
+    pressure: Pressure,
+    wall_density: Density = 7850.0,
 ) -> Stress:
     """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
 

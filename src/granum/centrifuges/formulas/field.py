@@ -1,4 +1,6 @@
-"""The centrifugal field: free surface, centrifugal effect, force, liquid pressure, and settling velocities in it."""
+"""The centrifugal field: free surface, centrifugal effect, force, liquid pressure, and settling velocities in
+it.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ from granum.particles.formulas.terminal import Drag, drag_coefficient_brown_lawl
     equation=r"y = y_0 + \frac{\omega^2 x^2}{2g}",
     typical={"radius": (0.01, 0.3), "rotation_speed": (1.0, 30.0), "surface_height_center": (0.0, 0.5)},
 )
-def surface_height_rotating(radius: Distance, rotation_speed: RotationSpeed, surface_height_center: Position = 0.0) -> Position:
+def surface_height_rotating(
+    radius: Distance, rotation_speed: RotationSpeed, surface_height_center: Position = 0.0
+) -> Position:
     """Height of the free surface of a liquid that turns as a whole about a vertical axis: a paraboloid.
 
     >>> round(surface_height_rotating(radius="10 cm", rotation_speed="100 rpm"), 4)
@@ -39,10 +43,11 @@ def surface_height_rotating(radius: Distance, rotation_speed: RotationSpeed, sur
 
 @formula(source="perry2008, § 18", equation=r"K = \frac{\omega^2 r}{g}")
 def centrifugal_effect(radius: Length, rotation_speed: RotationSpeed) -> PositiveNumber:
-    """Centrifugal effect: acceleration of the field over that of gravity, also called relative centrifugal force.
+    """Centrifugal effect: acceleration of the field over that of gravity, also called relative centrifugal
+    force.
 
-    Known as RCF, g-force or separation factor too. The customary 1.118 · 10⁻⁵ r N² holds for r in centimeters and N in turns per
-    minute. Differs from the print in the notes, which have 1.119 · 10⁵.
+    Known as RCF, g-force or separation factor too. The customary 1.118 · 10⁻⁵ r N² holds for r in centimeters
+    and N in turns per minute. Differs from the print in the notes, which have 1.119 · 10⁵.
 
     >>> round(centrifugal_effect(radius="10 cm", rotation_speed="3000 rpm"))
     1006
@@ -71,13 +76,23 @@ def rotation_speed_for_effect(centrifugal_effect: PositiveNumber, radius: Length
     typical={"mass": (1e-6, 1.0)},
 )
 def centrifugal_force(
-    mass: Mass, radius: Length, rotation_speed: RotationSpeed, particle_density: Density, fluid_density: Density
+    mass: Mass,
+    radius: Length,
+    rotation_speed: RotationSpeed,
+    particle_density: Density,
+    fluid_density: Density,
 ) -> Force:
-    """Net centrifugal force on a particle in a fluid, its buoyancy taken off; negative when it is driven inward.
+    """Net centrifugal force on a particle in a fluid, its buoyancy taken off; negative when it is driven
+    inward.
 
     Without a fluid it is 0.011 m r N² in newtons for N in turns per minute.
 
-    >>> round(centrifugal_force(mass=1.0, radius=0.1, rotation_speed="1000 rpm", particle_density=2000, fluid_density=1e-6), 0)
+    >>> round(
+    ...     centrifugal_force(
+    ...         mass=1.0, radius=0.1, rotation_speed="1000 rpm", particle_density=2000, fluid_density=1e-6
+    ...     ),
+    ...     0,
+    ... )
     1097.0
     """
     return mass * (1.0 - fluid_density / particle_density) * rotation_speed**2 * radius
@@ -89,7 +104,9 @@ def centrifugal_force(
     output="liquid_pressure_bowl",
     typical={"radius": (0.2, 0.6), "radius_inner": (0.05, 0.18), "rotation_speed": (50.0, 500.0)},
 )
-def liquid_pressure_bowl(radius: Length, radius_inner: Distance, rotation_speed: RotationSpeed, liquid_density: Density) -> Pressure:
+def liquid_pressure_bowl(
+    radius: Length, radius_inner: Distance, rotation_speed: RotationSpeed, liquid_density: Density
+) -> Pressure:
     """Pressure of a liquid ring at a radius above that at its free surface.
 
     >>> round(liquid_pressure_bowl(radius=0.5, radius_inner=0.4, rotation_speed=100, liquid_density=1000))
@@ -98,9 +115,18 @@ def liquid_pressure_bowl(radius: Length, radius_inner: Distance, rotation_speed:
     return 0.5 * liquid_density * rotation_speed**2 * jnp.maximum(radius**2 - radius_inner**2, 0.0)
 
 
-@formula(source="richardson2002, ch. 9", equation=r"v_c = K\,v_g", title="Settling velocity in a centrifuge, laminar", fitted={"reynolds": (0.0, 2.0)},
-         typical={"terminal_velocity": (1e-8, 1e-6), "particle_diameter": (1e-6, 5e-6), "centrifugal_effect": (100.0, 2000.0)},
-         output="settling_velocity_centrifugal")  # fmt: skip
+@formula(
+    source="richardson2002, ch. 9",
+    equation=r"v_c = K\,v_g",
+    title="Settling velocity in a centrifuge, laminar",
+    fitted={"reynolds": (0.0, 2.0)},
+    typical={
+        "terminal_velocity": (1e-8, 1e-6),
+        "particle_diameter": (1e-6, 5e-6),
+        "centrifugal_effect": (100.0, 2000.0),
+    },
+    output="settling_velocity_centrifugal",
+)
 def settling_velocity_centrifugal_stokes(
     terminal_velocity: Speed,
     centrifugal_effect: PositiveNumber,
@@ -108,7 +134,8 @@ def settling_velocity_centrifugal_stokes(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> Speed:
-    """Settling velocity in a centrifugal field from that under gravity, laminar range: proportional to the effect.
+    """Settling velocity in a centrifugal field from that under gravity, laminar range: proportional to the
+    effect.
 
     >>> round(settling_velocity_centrifugal_stokes(1e-6, 1000, "1 um", 1000, "1 cP") * 1e3, 6)
     1.0
@@ -121,12 +148,21 @@ def settling_velocity_centrifugal_stokes(
 _FAST = {"terminal_velocity": (1e-3, 1e-1), "centrifugal_effect": (100.0, 2000.0)}
 
 
-@formula(source="richardson2002, ch. 9", equation=r"v_c = K^{1/1.4}\,v_g", title="Settling velocity in a centrifuge, intermediate", typical=_FAST,
-         output="settling_velocity_centrifugal")  # fmt: skip
-def settling_velocity_centrifugal_allen(terminal_velocity: Speed, centrifugal_effect: PositiveNumber) -> Speed:
-    """Settling velocity in a centrifugal field from that under gravity, intermediate range with drag 18.5 Re^−0.6.
+@formula(
+    source="richardson2002, ch. 9",
+    equation=r"v_c = K^{1/1.4}\,v_g",
+    title="Settling velocity in a centrifuge, intermediate",
+    typical=_FAST,
+    output="settling_velocity_centrifugal",
+)
+def settling_velocity_centrifugal_allen(
+    terminal_velocity: Speed, centrifugal_effect: PositiveNumber
+) -> Speed:
+    """Settling velocity in a centrifugal field from that under gravity, intermediate range with drag
+    18.5 Re^−0.6.
 
-    Both velocities must lie in the range. The course notes U print the exponent 2/3 for their own law of that range.
+    Both velocities must lie in the range. The course notes U print the exponent 2/3 for their own law of that
+    range.
 
     >>> round(settling_velocity_centrifugal_allen(terminal_velocity=0.01, centrifugal_effect=100), 4)
     0.2683
@@ -134,10 +170,18 @@ def settling_velocity_centrifugal_allen(terminal_velocity: Speed, centrifugal_ef
     return centrifugal_effect ** (1.0 / 1.4) * terminal_velocity
 
 
-@formula(source="richardson2002, ch. 9", equation=r"v_c = \sqrt{K}\,v_g", title="Settling velocity in a centrifuge, turbulent", typical=_FAST,
-         output="settling_velocity_centrifugal")  # fmt: skip
-def settling_velocity_centrifugal_newton(terminal_velocity: Speed, centrifugal_effect: PositiveNumber) -> Speed:
-    """Settling velocity in a centrifugal field from that under gravity, turbulent range: as the square root of the effect.
+@formula(
+    source="richardson2002, ch. 9",
+    equation=r"v_c = \sqrt{K}\,v_g",
+    title="Settling velocity in a centrifuge, turbulent",
+    typical=_FAST,
+    output="settling_velocity_centrifugal",
+)
+def settling_velocity_centrifugal_newton(
+    terminal_velocity: Speed, centrifugal_effect: PositiveNumber
+) -> Speed:
+    """Settling velocity in a centrifugal field from that under gravity, turbulent range: as the square root
+    of the effect.
 
     >>> round(settling_velocity_centrifugal_newton(terminal_velocity=0.1, centrifugal_effect=100), 6)
     1.0
@@ -166,4 +210,11 @@ def settling_velocity_centrifugal(
     >>> round(settling_velocity_centrifugal("1 um", 1100, 1000, "1 cP", "10 cm", "3000 rpm") * 1e6, 1)
     54.8
     """
-    return terminal_velocity(particle_diameter, particle_density, fluid_density, dynamic_viscosity, rotation_speed**2 * radius, drag)
+    return terminal_velocity(
+        particle_diameter,
+        particle_density,
+        fluid_density,
+        dynamic_viscosity,
+        rotation_speed**2 * radius,
+        drag,
+    )

@@ -1,4 +1,6 @@
-"""Filtering centrifuges: flow through a cylindrical cake, critical rate, loading, spinning off, drainage, washing."""
+"""Filtering centrifuges: flow through a cylindrical cake, critical rate, loading, spinning off, drainage,
+washing.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,15 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 
-_BASKET = {"basket_height": (0.2, 0.8), "radius_outer": (0.4, 0.6), "cake_radius": (0.3, 0.38), "radius_inner": (0.2, 0.29), "rotation_speed": (50.0, 150.0),
-           "cake_permeability": (1e-13, 1e-11), "medium_resistance": (1e8, 1e10)}  # fmt: skip
+_BASKET = {
+    "basket_height": (0.2, 0.8),
+    "radius_outer": (0.4, 0.6),
+    "cake_radius": (0.3, 0.38),
+    "radius_inner": (0.2, 0.29),
+    "rotation_speed": (50.0, 150.0),
+    "cake_permeability": (1e-13, 1e-11),
+    "medium_resistance": (1e8, 1e10),
+}
 
 
 CAKE_OUTSIDE = "The cake lies inside the basket."
@@ -35,7 +44,9 @@ def _check_rings(radius_outer, cake_radius, radius_inner):
     impossible(radius_inner > cake_radius, radius_inner, "radius_inner", 0.0, cake_radius, SURFACE_IN_CAKE)
 
 
-def _conductance(basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance):
+def _conductance(
+    basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance
+):
     """Flow per pressure difference through cake and medium."""
     through = jnp.log(radius_outer / cake_radius) / cake_permeability + medium_resistance / radius_outer
     return 2.0 * jnp.pi * basket_height / (dynamic_viscosity * through)
@@ -57,14 +68,17 @@ def filtrate_flow_basket(
     cake_permeability: Permeability,
     medium_resistance: MediumResistance = 0.0,
 ) -> VolumeFlow:
-    """Filtrate flow of a basket with its cake under a ring of liquid: basket radius r_o, cake r_c, free surface r_i.
+    """Filtrate flow of a basket with its cake under a ring of liquid: basket radius r_o, cake r_c, free
+    surface r_i.
 
     >>> round(filtrate_flow_basket(0.4, 0.5, 0.4, 0.35, 100, 1000, 1e-3, 1e-12) * 1e3, 3)
     7.18
     """
     _check_rings(radius_outer, cake_radius, radius_inner)
     drive = 0.5 * liquid_density * rotation_speed**2 * (radius_outer**2 - radius_inner**2)
-    return drive * _conductance(basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance)
+    return drive * _conductance(
+        basket_height, radius_outer, cake_radius, dynamic_viscosity, cake_permeability, medium_resistance
+    )
 
 
 @formula(
@@ -84,20 +98,28 @@ def filtrate_flow_critical(
     cake_permeability: Permeability,
     medium_resistance: MediumResistance = 0.0,
 ) -> VolumeFlow:
-    """Critical flow of a basket: what passes when the free surface has just reached the cake; a larger feed floods it.
+    """Critical flow of a basket: what passes when the free surface has just reached the cake; a larger feed
+    floods it.
 
     >>> round(filtrate_flow_critical(0.4, 0.5, 0.4, 100, 1000, 1e-3, 1e-12) * 1e3, 3)
     5.068
     """
     return filtrate_flow_basket(
-        basket_height, radius_outer, cake_radius, cake_radius, rotation_speed, liquid_density, dynamic_viscosity, cake_permeability,
+        basket_height,
+        radius_outer,
+        cake_radius,
+        cake_radius,
+        rotation_speed,
+        liquid_density,
+        dynamic_viscosity,
+        cake_permeability,
         medium_resistance,
-    )  # fmt: skip
+    )
 
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"(r_o^2 - r_c^2)\left(1 + \frac{2 R_s B}{r_o}\right) + 2 r_c^2\ln\frac{r_c}{r_o} = \frac{2\,v\,B\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta}\,t",
+    equation=r"(r_o^2 - r_c^2)\left(1 + \frac{2 R_s B}{r_o}\right) + 2 r_c^2\ln\frac{r_c}{r_o} = \frac{2\,v\,B\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta}\,t",  # noqa: E501
     typical={**_BASKET, "cake_volume_per_filtrate": (0.02, 0.3)},
 )
 def loading_time_basket(
@@ -118,14 +140,16 @@ def loading_time_basket(
     """
     ro, rc = radius_outer, cake_radius
     _check_rings(ro, rc, radius_inner)
-    built = (ro**2 - rc**2) * (1.0 + 2.0 * medium_resistance * cake_permeability / ro) + 2.0 * rc**2 * jnp.log(rc / ro)
+    built = (ro**2 - rc**2) * (
+        1.0 + 2.0 * medium_resistance * cake_permeability / ro
+    ) + 2.0 * rc**2 * jnp.log(rc / ro)
     drive = liquid_density * rotation_speed**2 * (ro**2 - radius_inner**2)
     return built * dynamic_viscosity / (2.0 * cake_volume_per_filtrate * cake_permeability * drive)
 
 
 @formula(
     source="storrow1957",
-    equation=r"t = \frac{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}{\rho_l\,\omega^2}\,\ln\frac{r_o^2 - r_i^2}{r_o^2 - r_c^2}",
+    equation=r"t = \frac{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}{\rho_l\,\omega^2}\,\ln\frac{r_o^2 - r_i^2}{r_o^2 - r_c^2}",  # noqa: E501
     typical=_BASKET,
 )
 def spin_off_time(
@@ -138,7 +162,8 @@ def spin_off_time(
     cake_permeability: Permeability,
     medium_resistance: MediumResistance = 0.0,
 ) -> Time:
-    """Time for the liquid above the cake to pass through it: the free surface falls from r_i to the cake at r_c.
+    """Time for the liquid above the cake to pass through it: the free surface falls from r_i to the cake at
+    r_c.
 
     >>> round(spin_off_time(0.5, 0.4, 0.35, 100, 1000, 1e-3, 1e-12), 2)
     7.77
@@ -155,7 +180,12 @@ def spin_off_time(
     r" S_\infty = 0.0524\,N_{cap}^{-0.19}\;(N_{cap} \le 0.14),\; 0.0139\,N_{cap}^{-0.86}\;(N_{cap} > 0.14)",
     fitted={"capillary_number": (1e-5, 10.0)},
     output="irreducible_saturation",
-    typical={"particle_diameter": (2e-5, 3e-4), "rotation_speed": (50.0, 150.0), "radius": (0.2, 0.6), "void_fraction": (0.35, 0.5)},
+    typical={
+        "particle_diameter": (2e-5, 3e-4),
+        "rotation_speed": (50.0, 150.0),
+        "radius": (0.2, 0.6),
+        "void_fraction": (0.35, 0.5),
+    },
 )
 def irreducible_saturation_spinning(
     particle_diameter: Length,
@@ -171,18 +201,32 @@ def irreducible_saturation_spinning(
     0.018
     """
     e = void_fraction
-    N = e**3 * particle_diameter**2 * liquid_density * rotation_speed**2 * radius / ((1.0 - e) ** 2 * surface_tension)
+    N = (
+        e**3
+        * particle_diameter**2
+        * liquid_density
+        * rotation_speed**2
+        * radius
+        / ((1.0 - e) ** 2 * surface_tension)
+    )
     watch(capillary_number=N)
     return jnp.clip(jnp.where(N <= 0.14, 0.0524 * N**-0.19, 0.0139 * N**-0.86), 0.0, 1.0)
 
 
 @formula(
     source="perry2008, § 18",
-    equation=r"S = S_\infty + (1 - S_\infty)\min\left(1, \frac{4}{3\sqrt{t_d}}\right),\quad t_d = \frac{\rho_l\,\omega^2 r\,d_h^2\,t}{\eta\,Z},\; d_h = \frac{2\,\varepsilon\,d_p}{3\,(1-\varepsilon)}",
+    equation=r"S = S_\infty + (1 - S_\infty)\min\left(1, \frac{4}{3\sqrt{t_d}}\right),\quad t_d = \frac{\rho_l\,\omega^2 r\,d_h^2\,t}{\eta\,Z},\; d_h = \frac{2\,\varepsilon\,d_p}{3\,(1-\varepsilon)}",  # noqa: E501
     output="cake_saturation",
-    typical={"particle_diameter": (5e-5, 3e-4), "rotation_speed": (50.0, 150.0), "radius": (0.2, 0.6), "void_fraction": (0.35, 0.5),
-             "cake_thickness": (0.01, 0.08), "time": (20.0, 200.0), "irreducible_saturation": (0.05, 0.3)},
-)  # fmt: skip
+    typical={
+        "particle_diameter": (5e-5, 3e-4),
+        "rotation_speed": (50.0, 150.0),
+        "radius": (0.2, 0.6),
+        "void_fraction": (0.35, 0.5),
+        "cake_thickness": (0.01, 0.08),
+        "time": (20.0, 200.0),
+        "irreducible_saturation": (0.05, 0.3),
+    },
+)
 def cake_saturation_spinning(
     time: Time,
     particle_diameter: Length,
@@ -201,7 +245,14 @@ def cake_saturation_spinning(
     """
     e = void_fraction
     hydraulic = 2.0 / 3.0 * e * particle_diameter / (1.0 - e)
-    t_d = liquid_density * rotation_speed**2 * radius * hydraulic**2 * time / (dynamic_viscosity * cake_thickness)
+    t_d = (
+        liquid_density
+        * rotation_speed**2
+        * radius
+        * hydraulic**2
+        * time
+        / (dynamic_viscosity * cake_thickness)
+    )
     film = jnp.where(t_d > 16.0 / 9.0, 4.0 / (3.0 * jnp.sqrt(jnp.where(t_d > 16.0 / 9.0, t_d, 1.0))), 1.0)
     return irreducible_saturation + (1.0 - irreducible_saturation) * film
 
@@ -209,11 +260,16 @@ def cake_saturation_spinning(
 @formula(
     source="perry2008, § 18",
     equation=r"S_\infty = S_c + S_p(1 - S_c),\quad S_c = \frac{4\sigma}{\rho_l\omega^2 r\,d_h Z},\quad"
-    r" S_p = 0.075\;(N_c \le 5),\; \frac{5}{40 + 6N_c}\;(N_c \le 10),\; \frac{0.5}{N_c},\quad N_c = \frac{\rho_l\omega^2 r\,d_h^2}{\sigma}",
+    r" S_p = 0.075\;(N_c \le 5),\; \frac{5}{40 + 6N_c}\;(N_c \le 10),\; \frac{0.5}{N_c},\quad N_c = \frac{\rho_l\omega^2 r\,d_h^2}{\sigma}",  # noqa: E501
     output="irreducible_saturation",
-    typical={"particle_diameter": (2e-5, 3e-4), "rotation_speed": (80.0, 150.0), "radius": (0.2, 0.6), "void_fraction": (0.35, 0.5),
-             "cake_thickness": (0.01, 0.08)},
-)  # fmt: skip
+    typical={
+        "particle_diameter": (2e-5, 3e-4),
+        "rotation_speed": (80.0, 150.0),
+        "radius": (0.2, 0.6),
+        "void_fraction": (0.35, 0.5),
+        "cake_thickness": (0.01, 0.08),
+    },
+)
 def irreducible_saturation_leung(
     particle_diameter: Length,
     void_fraction: VoidFraction,
@@ -223,7 +279,8 @@ def irreducible_saturation_leung(
     liquid_density: Density,
     surface_tension: SurfaceTension,
 ) -> Fraction:
-    """Irreducible saturation of a spun cake: the capillary rise at the basket and the liquid held at the contacts of grains.
+    """Irreducible saturation of a spun cake: the capillary rise at the basket and the liquid held at the
+    contacts of grains.
 
     Liquid inside the grains comes on top. The hydraulic diameter is d_h = 2 ε d_p / 3 (1 − ε).
 

@@ -16,7 +16,18 @@ from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.core.kinds import Law, Length, Mass, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, Time, Within
+from granum.core.kinds import (
+    Law,
+    Length,
+    Mass,
+    MassFlow,
+    PositiveNumber,
+    Power,
+    Ratio,
+    SpecificEnergy,
+    Time,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
@@ -26,7 +37,10 @@ _TINY = 1e-12
 OWN_LIMIT = "bond1961, the 80 % size only: that it has to lie within the grid of sizes is our own choice"
 
 
-_IDLE = "What enters cannot take up the shaft power: nothing comes in, or it would be hotter than anything its properties are known for."
+_IDLE = (
+    "What enters cannot take up the shaft power: nothing comes in, or it would be hotter than anything its "
+    "properties are known for."
+)
 
 
 class Ground(NamedTuple):
@@ -56,13 +70,16 @@ class MillFigures(NamedTuple):
 
 @equipment("ball_mill", source="austin1984; reid1965", title="Mill with a population balance")
 class BallMill(Unit, Dynamic):
-    """Continuous mill of fixed holdup: first-order breakage of every size class, with the residence time law of the shell.
+    """Continuous mill of fixed holdup: first-order breakage of every size class, with the residence time law
+    of the shell.
 
-    The mean residence time is the mass of solid in the mill over the feed of solid. The shaft power heats the product; it does not
-    set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Batch grinding is plug flow.
+    The mean residence time is the mass of solid in the mill over the feed of solid. The shaft power heats the
+    product; it does not set the breakage rates (see ``selection_rate_herbst_fuerstenau``). Batch grinding is
+    plug flow.
 
-    The laws are those of single sizes (``continuous``) unless the convention is ``root_two``, which most published constants of Austin's laws
-    have: rates of root-two classes by their upper limit, fragments measured from their lower limit.
+    The laws are those of single sizes (``continuous``) unless the convention is ``root_two``, which most
+    published constants of Austin's laws have: rates of root-two classes by their upper limit, fragments
+    measured from their lower limit.
     """
 
     selection: Annotated[Any, Law("selection_function")]
@@ -88,7 +105,8 @@ class BallMill(Unit, Dynamic):
         energy = safe_divide(self.shaft_power, feed.solid_flow)
         return MillFigures(self._residence_time(feed), coarse, fine, coarse / fine, energy)
 
-    # -- in time: the shell as one mixed vessel of constant holdup ------------------------------------------------
+    # -- in time: the shell as one mixed vessel of constant holdup
+    # ------------------------------------------------
     def initial_holdup(self, mixture: Any) -> Any:
         # Full of ground product; full of feed, a circuit could not take a first particle.
         return jnp.zeros(mixture.solid_shape).at[(0,) * (2 + len(mixture.axes))].set(1.0) * self.holdup_mass
@@ -107,7 +125,9 @@ class BallMill(Unit, Dynamic):
     def advance(
         self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Any, Ground]:
-        """Exact for grinding and for feeds that are linear over the step; the turnover is that of its middle."""
+        """Exact for grinding and for feeds that are linear over the step; the turnover is that of its
+        middle.
+        """
         matrix, ground = prepared
         then, now = before["feed"], after["feed"]
         rate = jnp.maximum(0.5 * (then.solid_flow + now.solid_flow) / self.holdup_mass, 1e-9)
@@ -129,7 +149,9 @@ class BallMill(Unit, Dynamic):
         # state(t) = e^{still t} (state(0) - a) + a + b t solves  state' = still state + inlet
         state = jnp.exp(-rate * step) * on_sizes(ground, state - a) + a + b * step
         state = state * (self.holdup_mass / jnp.sum(state))
-        out = now.replace(solid=state * (now.solid_flow / self.holdup_mass)).at_enthalpy(now.enthalpy_flow + self.shaft_power)
+        out = now.replace(solid=state * (now.solid_flow / self.holdup_mass)).at_enthalpy(
+            now.enthalpy_flow + self.shaft_power
+        )
         return state, Ground(out, jnp.asarray(self.shaft_power))
 
 
@@ -144,7 +166,8 @@ class CrusherFigures(NamedTuple):
 
 @equipment("bond_mill", source="bond1952; bond1961", title="Crusher or mill by Bond's law")
 class BondMill(Unit):
-    """Size reduction by a given power: every size shrinks by the ratio of the 80 % sizes that Bond's law allows.
+    """Size reduction by a given power: every size shrinks by the ratio of the 80 % sizes that Bond's law
+    allows.
 
     The product keeps the shape of the feed's distribution; a self-similar product is what Bond's law assumes.
     """
@@ -153,7 +176,9 @@ class BondMill(Unit):
     work_index: WorkIndex
     efficiency_factor: PositiveNumber = 1.0
 
-    limits: ClassVar[Limits] = {"finest": Limit("product in the finest size class", 0.0, 0.2, "percent", OWN_LIMIT)}
+    limits: ClassVar[Limits] = {
+        "finest": Limit("product in the finest size class", 0.0, 0.2, "percent", OWN_LIMIT)
+    }
 
     def _product_size(self, feed: Stream) -> Any:
         energy = safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow) / self.efficiency_factor
@@ -170,27 +195,38 @@ class BondMill(Unit):
 
     def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
-        return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))
+        return CrusherFigures(
+            coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow)
+        )
 
     @classmethod
-    def size(cls, mass_flow: MassFlow, feed_size: Length, product_size: Length, work_index: WorkIndex,
-             efficiency_factor: float = 1.0) -> BondMill:  # fmt: skip
+    def size(
+        cls,
+        mass_flow: MassFlow,
+        feed_size: Length,
+        product_size: Length,
+        work_index: WorkIndex,
+        efficiency_factor: float = 1.0,
+    ) -> BondMill:
         """The machine whose power brings a flow from one 80 % size to another."""
         from granum.comminution.formulas.energy import specific_energy_bond
 
         energy = specific_energy_bond(feed_size, product_size, work_index)
         return cls(mass_flow * energy * efficiency_factor, work_index, efficiency_factor)
 
-    def measured(self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: None, outlets: Ground, figures: CrusherFigures, feed: Stream
+    ) -> dict[str, Any]:
         return {"finest": outlets.product.size_fractions[0]}
 
 
 @equipment("cone_crusher", source="whiten1972; napiermunn1996", title="Cone or jaw crusher (Whiten)")
 class ConeCrusher(Unit):
-    """Whiten's crusher: particles are classified, those nipped are broken and classified again, until they pass.
+    """Whiten's crusher: particles are classified, those nipped are broken and classified again, until they
+    pass.
 
-    The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is kept. What a breakage function means
-    is said by the convention, as for ``ball_mill``.
+    The product is p = (I - C)(I - B C)^-1 f with the chances of breakage C and the fragments B; all mass is
+    kept. What a breakage function means is said by the convention, as for ``ball_mill``.
     """
 
     always_passing_size: Length
@@ -204,14 +240,17 @@ class ConeCrusher(Unit):
         low, high = self.always_passing_size, self.always_broken_size
         if isinstance(low, float) and isinstance(high, float) and low >= high:
             raise InputError(
-                _("The size that always passes must be smaller than the size that is always broken."), name="always_passing_size"
+                _("The size that always passes must be smaller than the size that is always broken."),
+                name="always_passing_size",
             )
 
     def outlets(self, inside: None, feed: Stream) -> Ground:
         from granum.comminution.breakage import WhitenClassification
 
         edges = jnp.asarray(feed.mixture.edges)
-        chance = WhitenClassification(self.always_passing_size, self.always_broken_size, self.classification_exponent)
+        chance = WhitenClassification(
+            self.always_passing_size, self.always_broken_size, self.classification_exponent
+        )
         c = chance.over(edges[:-1], edges[1:]).at[0].set(0.0)
         b = fragments(feed.mixture.edges, self.breakage, self.breakage_convention)
         operator = jnp.linalg.solve((jnp.eye(c.shape[0]) - b * c[None, :]).T, jnp.diag(1.0 - c)).T
@@ -219,4 +258,6 @@ class ConeCrusher(Unit):
 
     def figures(self, inside: None, outlets: Ground, feed: Stream) -> CrusherFigures:
         coarse, fine = size_passing(feed), size_passing(outlets.product)
-        return CrusherFigures(coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow))
+        return CrusherFigures(
+            coarse, fine, coarse / fine, safe_divide(jnp.asarray(self.shaft_power), feed.solid_flow)
+        )

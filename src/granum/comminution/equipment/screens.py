@@ -24,7 +24,9 @@ def _divided(feed: Stream, deck: Any, liquid_share: Any) -> tuple[Stream, Stream
 
 
 def size_passing(stream: Stream, part: float = 0.8) -> Any:
-    """Size that a part of the solid of a stream passes, m; that of an even spread over the classes when there is no solid."""
+    """Size that a part of the solid of a stream passes, m; that of an even spread over the classes when there
+    is no solid.
+    """
     solid = stream.solid_by_size
     amounts = jnp.where(stream.solid_flow > 0, solid, jnp.ones_like(solid))
     return SizeDistribution.from_amounts(stream.mixture.edges, amounts).percentile(part)
@@ -64,7 +66,8 @@ class ScreenFigures(NamedTuple):
 class Screen(Unit):
     """A single deck: each size class is divided by the partition curve, averaged over the class.
 
-    The desired product of the effectiveness is the material finer than the cut size. The liquid follows its own split; gas passes.
+    The desired product of the effectiveness is the material finer than the cut size. The liquid follows its
+    own split; gas passes.
     """
 
     separation: Deck
@@ -80,8 +83,15 @@ class Screen(Unit):
         recovery = safe_divide(jnp.sum(passed * below), jnp.sum(fed * below))
         # summed as it is: a little coarse feed as a difference of large flows would be rounding alone
         rejection = 1.0 - safe_divide(jnp.sum(passed * (1.0 - below)), jnp.sum(fed * (1.0 - below)))
-        return ScreenFigures(outlets.oversize.mass_flow, outlets.undersize.mass_flow, size, fraction_below(feed, size),
-                             recovery, rejection, recovery * rejection)  # fmt: skip
+        return ScreenFigures(
+            outlets.oversize.mass_flow,
+            outlets.undersize.mass_flow,
+            size,
+            fraction_below(feed, size),
+            recovery,
+            rejection,
+            recovery * rejection,
+        )
 
 
 class TwoDecks(NamedTuple):

@@ -9,7 +9,18 @@ import jax.numpy as jnp
 from granum.comminution.equipment.screens import Screen, Screened, fraction_below
 from granum.comminution.formulas import screen_capacity as karra
 from granum.core import equipment
-from granum.core.kinds import Angle, Area, Density, Distance, Fraction, Length, MassFlow, MassFlux, OpenFraction, Ratio
+from granum.core.kinds import (
+    Angle,
+    Area,
+    Density,
+    Distance,
+    Fraction,
+    Length,
+    MassFlow,
+    MassFlux,
+    OpenFraction,
+    Ratio,
+)
 from granum.core.limits import Limit
 from granum.particles.partition import RosinRammlerPartition
 from granum.streams.stream import Stream
@@ -40,12 +51,18 @@ class _Load(NamedTuple):
     cut: Length
 
 
-@equipment("vibrating_screen", source="karra1979; king2012", title="Vibrating screen (Karra)", typical={"aperture": (2e-3, 5e-2)})
+@equipment(
+    "vibrating_screen",
+    source="karra1979; king2012",
+    title="Vibrating screen (Karra)",
+    typical={"aperture": (2e-3, 5e-2)},
+)
 class VibratingScreen(Unit):
-    """A deck of given area: the more undersize it is fed, the finer it cuts. The cut size never exceeds the aperture.
+    """A deck of given area: the more undersize it is fed, the finer it cuts. The cut size never exceeds the
+    aperture.
 
-    Capacity and cut size are Karra's; oversize, half-size and near-size fractions are read from the feed. Undersize over capacity above 1 means
-    that the screen cuts below its throughfall aperture.
+    Capacity and cut size are Karra's; oversize, half-size and near-size fractions are read from the feed.
+    Undersize over capacity above 1 means that the screen cuts below its throughfall aperture.
     """
 
     aperture: Length
@@ -65,9 +82,18 @@ class VibratingScreen(Unit):
     def inside(self, feed: Stream) -> _Load:
         h = karra.throughfall_aperture(self.aperture, self.wire_diameter, self.deck_inclination)
         below = fraction_below(feed, h)
-        near = jnp.clip(fraction_below(feed, 1.25 * h) - fraction_below(feed, 0.75 * h), 1e-9, _LARGEST_NEAR_SIZE)
+        near = jnp.clip(
+            fraction_below(feed, 1.25 * h) - fraction_below(feed, 0.75 * h), 1e-9, _LARGEST_NEAR_SIZE
+        )
         capacity = karra.screening_capacity_karra(
-            h, 1.0 - below, fraction_below(feed, 0.5 * h), near, self.deck, self.wetting, self.bulk_density, self.open_area_fraction
+            h,
+            1.0 - below,
+            fraction_below(feed, 0.5 * h),
+            near,
+            self.deck,
+            self.wetting,
+            self.bulk_density,
+            self.open_area_fraction,
         )
         flux = feed.solid_flow * below / self.screen_area
         light = jnp.maximum(flux, 1e-9 * capacity)  # an idle screen cuts at its aperture as well
@@ -81,14 +107,25 @@ class VibratingScreen(Unit):
         # judged at the throughfall aperture, the size that an ideal deck would cut at
         figures = Screen(RosinRammlerPartition(inside.opening, SHARPNESS)).figures(None, outlets, feed)
         return VibratingScreenFigures(
-            outlets.oversize.mass_flow, outlets.undersize.mass_flow, inside.cut, inside.opening, inside.capacity, inside.loading,
-            figures.screening_recovery, figures.screening_rejection, figures.screening_effectiveness,
-        )  # fmt: skip
+            outlets.oversize.mass_flow,
+            outlets.undersize.mass_flow,
+            inside.cut,
+            inside.opening,
+            inside.capacity,
+            inside.loading,
+            figures.screening_recovery,
+            figures.screening_rejection,
+            figures.screening_effectiveness,
+        )
 
-    def measured(self, inside: _Load, outlets: Screened, figures: VibratingScreenFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: _Load, outlets: Screened, figures: VibratingScreenFigures, feed: Stream
+    ) -> dict[str, Any]:
         return {"load": inside.loading}
 
     @classmethod
-    def size(cls, mass_flow_undersize: MassFlow, screening_capacity: MassFlux, aperture: Length) -> VibratingScreen:
+    def size(
+        cls, mass_flow_undersize: MassFlow, screening_capacity: MassFlux, aperture: Length
+    ) -> VibratingScreen:
         """The screen whose area passes a flow of undersize at its capacity."""
         return cls(aperture, karra.screen_area_karra(mass_flow_undersize, screening_capacity))

@@ -1,4 +1,6 @@
-"""Energy of size reduction: Rittinger, Kick, Bond, Walker, Hukki's ranges and Morrell; the work index and its test."""
+"""Energy of size reduction: Rittinger, Kick, Bond, Walker, Hukki's ranges and Morrell; the work index and its
+test.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,17 @@ from granum.comminution.kinds import EnergyPerSurface, MassPerRevolution, Rittin
 from granum.core import formula, impossible, procedure
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Density, Length, MassFlow, PositiveNumber, Power, Ratio, SpecificEnergy, SpecificSurface, Within
+from granum.core.kinds import (
+    Density,
+    Length,
+    MassFlow,
+    PositiveNumber,
+    Power,
+    Ratio,
+    SpecificEnergy,
+    SpecificSurface,
+    Within,
+)
 from granum.numerics.smooth import safe_divide
 
 HUNDRED_MICROMETERS = 1e-4
@@ -25,12 +37,18 @@ def _reduction(energy: Any, feed_size: Any, product_size: Any) -> Any:
     return jnp.where(product_size <= feed_size, energy, jnp.nan)
 
 
-@formula(source="rittinger1867; coulson2002, ch. 2", equation=r"E = K_R f_c \left(\frac{1}{L_2} - \frac{1}{L_1}\right)",
-         fitted={"product_size": (0.0, 1e-3)})  # fmt: skip
-def specific_energy_rittinger(feed_size: Length, product_size: Length, rittinger_constant: RittingerConstant) -> SpecificEnergy:
+@formula(
+    source="rittinger1867; coulson2002, ch. 2",
+    equation=r"E = K_R f_c \left(\frac{1}{L_2} - \frac{1}{L_1}\right)",
+    fitted={"product_size": (0.0, 1e-3)},
+)
+def specific_energy_rittinger(
+    feed_size: Length, product_size: Length, rittinger_constant: RittingerConstant
+) -> SpecificEnergy:
     """Energy in proportion to the new surface (Rittinger): for fine grinding, below 1 mm.
 
-    The constant holds the machine's factor and the material's. A product coarser than the feed gives no value.
+    The constant holds the machine's factor and the material's. A product coarser than the feed gives no
+    value.
 
     >>> round(specific_energy_rittinger("1 mm", "0.1 mm", "10 kJ*mm/kg") / 1e3, 3)
     90.0
@@ -40,8 +58,13 @@ def specific_energy_rittinger(feed_size: Length, product_size: Length, rittinger
     return _reduction(rittinger_constant * (1.0 / product_size - 1.0 / feed_size), feed_size, product_size)
 
 
-@formula(source="rittinger1867; coulson2002, ch. 2", fitted={"specific_surface_product": (6000.0, jnp.inf)}, equation=r"E = \frac{K\,(a_{g2} - a_{g1})}{\rho_s}", title="Specific energy from the new surface (Rittinger)",
-         typical={"specific_surface_feed": (1e3, 5e3), "specific_surface_product": (1e4, 1e5)})  # fmt: skip
+@formula(
+    source="rittinger1867; coulson2002, ch. 2",
+    fitted={"specific_surface_product": (6000.0, jnp.inf)},
+    equation=r"E = \frac{K\,(a_{g2} - a_{g1})}{\rho_s}",
+    title="Specific energy from the new surface (Rittinger)",
+    typical={"specific_surface_feed": (1e3, 5e3), "specific_surface_product": (1e4, 1e5)},
+)
 def specific_energy_rittinger_surface(
     specific_surface_feed: SpecificSurface,
     specific_surface_product: SpecificSurface,
@@ -56,14 +79,23 @@ def specific_energy_rittinger_surface(
     2000.0
     """
     energy = surface_energy * (specific_surface_product - specific_surface_feed) / solid_density
-    impossible(energy < 0.0, specific_surface_product, "specific_surface_product", specific_surface_feed, jnp.inf)
+    impossible(
+        energy < 0.0, specific_surface_product, "specific_surface_product", specific_surface_feed, jnp.inf
+    )
     return jnp.where(energy >= 0.0, energy, jnp.nan)
 
 
-@formula(source="kick1885; coulson2002, ch. 2", equation=r"E = K_K f_c \ln\frac{L_1}{L_2}", fitted={"product_size": (1e-2, jnp.inf)},
-         typical={"feed_size": (0.06, 0.3), "product_size": (0.011, 0.05)})  # fmt: skip
-def specific_energy_kick(feed_size: Length, product_size: Length, kick_constant: SpecificEnergy) -> SpecificEnergy:
-    """Energy in proportion to the logarithm of the reduction ratio (Kick): for coarse crushing, sizes of centimeters.
+@formula(
+    source="kick1885; coulson2002, ch. 2",
+    equation=r"E = K_K f_c \ln\frac{L_1}{L_2}",
+    fitted={"product_size": (1e-2, jnp.inf)},
+    typical={"feed_size": (0.06, 0.3), "product_size": (0.011, 0.05)},
+)
+def specific_energy_kick(
+    feed_size: Length, product_size: Length, kick_constant: SpecificEnergy
+) -> SpecificEnergy:
+    """Energy in proportion to the logarithm of the reduction ratio (Kick): for coarse crushing, sizes of
+    centimeters.
 
     A product coarser than the feed gives no value.
 
@@ -73,13 +105,20 @@ def specific_energy_kick(feed_size: Length, product_size: Length, kick_constant:
     return _reduction(kick_constant * jnp.log(feed_size / product_size), feed_size, product_size)
 
 
-@formula(source="bond1952; bond1961", fitted={"product_size": (4e-5, 2.5e-2)},
-         equation=r"E = 10\,W_i\left(\frac{1}{\sqrt{P_{80}}} - \frac{1}{\sqrt{F_{80}}}\right),\ P_{80}, F_{80}\ \text{in µm}")  # fmt: skip
+@formula(
+    source="bond1952; bond1961",
+    fitted={"product_size": (4e-5, 2.5e-2)},
+    equation=(
+        r"E = 10\,W_i\left(\frac{1}{\sqrt{P_{80}}} - \frac{1}{\sqrt{F_{80}}}\right),\ P_{80}, "
+        r"F_{80}\ \text{in µm}"
+    ),
+)
 def specific_energy_bond(feed_size: Length, product_size: Length, work_index: WorkIndex) -> SpecificEnergy:
     """Energy by Bond's third theory, from the sizes that 80 % of feed and product pass.
 
-    The work index is the energy from a very large size down to 100 µm. Tables often give it in kWh per short ton: write that unit.
-    The exponent is minus one half; the course notes print 2.5. A product coarser than the feed gives no value.
+    The work index is the energy from a very large size down to 100 µm. Tables often give it in kWh per short
+    ton: write that unit. The exponent is minus one half; the course notes print 2.5. A product coarser than
+    the feed gives no value.
 
     >>> round(specific_energy_bond("18 mm", "1.2 mm", "13.2 kWh/tonne") / 3600, 2)
     2.83
@@ -88,9 +127,17 @@ def specific_energy_bond(feed_size: Length, product_size: Length, work_index: Wo
     return _reduction(wi * (jnp.sqrt(d / product_size) - jnp.sqrt(d / feed_size)), feed_size, product_size)
 
 
-@formula(source="bond1952; bond1961", fitted={"product_size": (4e-5, 0.025)}, equation=r"P_{80} = \left(\frac{E}{10\,W_i} + \frac{1}{\sqrt{F_{80}}}\right)^{-2}", output="product_size",
-         title="Product size by Bond's law", typical={"specific_energy": (1e3, 5e4)})  # fmt: skip
-def product_size_bond(feed_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)], work_index: WorkIndex) -> Length:
+@formula(
+    source="bond1952; bond1961",
+    fitted={"product_size": (4e-5, 0.025)},
+    equation=r"P_{80} = \left(\frac{E}{10\,W_i} + \frac{1}{\sqrt{F_{80}}}\right)^{-2}",
+    output="product_size",
+    title="Product size by Bond's law",
+    typical={"specific_energy": (1e3, 5e4)},
+)
+def product_size_bond(
+    feed_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)], work_index: WorkIndex
+) -> Length:
     """Size that 80 % of the product passes after a given energy.
 
     The range is that of ``specific_energy_bond``.
@@ -102,10 +149,19 @@ def product_size_bond(feed_size: Length, specific_energy: Annotated[SpecificEner
     return HUNDRED_MICROMETERS / root**2
 
 
-@formula(source="bond1961; rowland1976", fitted={"product_size": (4e-5, 0.025)}, equation=r"W_{io} = \frac{E}{10\,(1/\sqrt{P_{80}} - 1/\sqrt{F_{80}})}", output="work_index",
-         title="Operating work index", typical={"specific_energy": (1e3, 5e4)})  # fmt: skip
-def work_index_operating(feed_size: Length, product_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)]) -> WorkIndex:
-    """Work index that a running mill shows; compared with the laboratory's it gives the efficiency of the mill.
+@formula(
+    source="bond1961; rowland1976",
+    fitted={"product_size": (4e-5, 0.025)},
+    equation=r"W_{io} = \frac{E}{10\,(1/\sqrt{P_{80}} - 1/\sqrt{F_{80}})}",
+    output="work_index",
+    title="Operating work index",
+    typical={"specific_energy": (1e3, 5e4)},
+)
+def work_index_operating(
+    feed_size: Length, product_size: Length, specific_energy: Annotated[SpecificEnergy, Within(0.0)]
+) -> WorkIndex:
+    """Work index that a running mill shows; compared with the laboratory's it gives the efficiency of the
+    mill.
 
     The range is that of ``specific_energy_bond``.
 
@@ -120,14 +176,20 @@ def work_index_operating(feed_size: Length, product_size: Length, specific_energ
 
 @formula(
     source="bond1961",
-    equation=r"W_i = \frac{44.5}{P_1^{0.23}\,G^{0.82}\left(\frac{10}{\sqrt{P_{80}}} - \frac{10}{\sqrt{F_{80}}}\right)}\ \text{kWh per short ton, sizes in µm, G in g}",
+    equation=(
+        r"W_i = \frac{44.5}{P_1^{0.23}\,G^{0.82}\left(\frac{10}{\sqrt{P_{80}}} - "
+        r"\frac{10}{\sqrt{F_{80}}}\right)}\ \text{kWh per short ton, sizes in µm, G in g}"
+    ),
     title="Work index from the ball mill grindability test",
     output="work_index",
     fitted={"closing_aperture": (2.8e-5, 6e-4)},
     typical={"feed_size": (1.5e-3, 3e-3), "product_size": (4e-5, 1.5e-4), "closing_aperture": (5e-5, 3e-4)},
 )
 def work_index_ball_mill_test(
-    closing_aperture: Length, net_undersize_per_revolution: MassPerRevolution, feed_size: Length, product_size: Length
+    closing_aperture: Length,
+    net_undersize_per_revolution: MassPerRevolution,
+    feed_size: Length,
+    product_size: Length,
 ) -> WorkIndex:
     """Bond's ball mill work index from the closing sieve, the net grams per revolution and the 80 % sizes.
 
@@ -145,9 +207,12 @@ def work_index_ball_mill_test(
     equation=r"E = K\,\frac{(L_2/L_0)^{1-n} - (L_1/L_0)^{1-n}}{n - 1};\quad n = 1:\ K \ln\frac{L_1}{L_2}",
 )
 def specific_energy_walker(
-    feed_size: Length, product_size: Length, walker_constant: SpecificEnergy, walker_exponent: PositiveNumber,
+    feed_size: Length,
+    product_size: Length,
+    walker_constant: SpecificEnergy,
+    walker_exponent: PositiveNumber,
     reference_size: Length = 1e-3,
-) -> SpecificEnergy:  # fmt: skip
+) -> SpecificEnergy:
     """Integral of dE = -K (x/L0)^-n dx/L0: Kick for n = 1, Bond for 1.5, Rittinger for 2.
 
     >>> specific_energy_walker("4 mm", "1 mm", walker_constant=2000.0, walker_exponent=1.5)
@@ -163,22 +228,37 @@ def specific_energy_walker(
     return _reduction(walker_constant * (part(product_size) - part(feed_size)), feed_size, product_size)
 
 
-@formula(source="hukki1961; bond1952", title="Specific energy over Hukki's three ranges",
-         equation=r"dE = -\tfrac12 W_i \sqrt{d}\,x^{-3/2} dx\ (x_R < x < x_K);\ \propto x^{-1} dx\ (x > x_K);\ \propto x^{-2} dx\ (x < x_R)",
-         typical={"feed_size": (1e-2, 0.3), "product_size": (1e-5, 5e-3)})  # fmt: skip
+@formula(
+    source="hukki1961; bond1952",
+    title="Specific energy over Hukki's three ranges",
+    equation=(
+        r"dE = -\tfrac12 W_i \sqrt{d}\,x^{-3/2} dx\ (x_R < x < x_K);\ \propto x^{-1} dx\ (x > "
+        r"x_K);\ \propto x^{-2} dx\ (x < x_R)"
+    ),
+    typical={"feed_size": (1e-2, 0.3), "product_size": (1e-5, 5e-3)},
+)
 def specific_energy_hukki(
-    feed_size: Length, product_size: Length, work_index: WorkIndex, kick_limit: Length = 5e-2, rittinger_limit: Length = 5e-5
+    feed_size: Length,
+    product_size: Length,
+    work_index: WorkIndex,
+    kick_limit: Length = 5e-2,
+    rittinger_limit: Length = 5e-5,
 ) -> SpecificEnergy:
     """Kick above a limit, Bond between, Rittinger below, joined so that the slope dE/dx is continuous.
 
-    Hukki found that the exponent changes with the size; his ranges for conventional machines meet near 50 mm and 50 µm.
+    Hukki found that the exponent changes with the size; his ranges for conventional machines meet near 50 mm
+    and 50 µm.
 
     >>> round(specific_energy_hukki("18 mm", "1.2 mm", "13.2 kWh/tonne") / 3600, 2)
     2.83
     """
     half = 0.5 * work_index * jnp.sqrt(HUNDRED_MICROMETERS)
     clip = jnp.clip
-    coarse = half / jnp.sqrt(kick_limit) * jnp.log(jnp.maximum(feed_size, kick_limit) / jnp.maximum(product_size, kick_limit))
+    coarse = (
+        half
+        / jnp.sqrt(kick_limit)
+        * jnp.log(jnp.maximum(feed_size, kick_limit) / jnp.maximum(product_size, kick_limit))
+    )
     high, low = (clip(x, rittinger_limit, kick_limit) for x in (feed_size, product_size))
     middle = 2.0 * half * (low**-0.5 - high**-0.5)
     fine = (
@@ -191,11 +271,15 @@ def specific_energy_hukki(
 
 @formula(
     source="morrell2004; morrell2009",
-    equation=r"E = 4\,M_i\left(P_{80}^{\,f(P_{80})} - F_{80}^{\,f(F_{80})}\right),\ f(x) = -(0.295 + x/10^6),\ x\ \text{in µm},\ \text{kWh/t}",
+    equation=(
+        r"E = 4\,M_i\left(P_{80}^{\,f(P_{80})} - F_{80}^{\,f(F_{80})}\right),\ f(x) = -(0.295 + "
+        r"x/10^6),\ x\ \text{in µm},\ \text{kWh/t}"
+    ),
     typical={"feed_size": (5e-3, 5e-2), "product_size": (1e-4, 7.5e-4)},
 )
 def specific_energy_morrell(feed_size: Length, product_size: Length, work_index: WorkIndex) -> SpecificEnergy:
-    """Energy by Morrell's relation, from 80 % sizes and the work index of the kind of grinding (Mia, Mib, Mic, Mih).
+    """Energy by Morrell's relation, from 80 % sizes and the work index of the kind of grinding (Mia, Mib,
+    Mic, Mih).
 
     Coarse tumbling runs from the feed to 750 µm with Mia, fine tumbling from 750 µm on with Mib.
 
@@ -209,8 +293,13 @@ def specific_energy_morrell(feed_size: Length, product_size: Length, work_index:
     return _reduction(4.0 * work_index * (part(product_size) - part(feed_size)), feed_size, product_size)
 
 
-@formula(source="coulson2002, ch. 2", equation=r"P = \dot m\,E", title="Power of a crusher or mill", output="shaft_power",
-         typical={"specific_energy": (1e3, 1e5)})  # fmt: skip
+@formula(
+    source="coulson2002, ch. 2",
+    equation=r"P = \dot m\,E",
+    title="Power of a crusher or mill",
+    output="shaft_power",
+    typical={"specific_energy": (1e3, 1e5)},
+)
 def shaft_power_comminution(mass_flow: MassFlow, specific_energy: SpecificEnergy) -> Power:
     """Power drawn at a throughput.
 
@@ -237,9 +326,14 @@ class LawAdvice(NamedTuple):
     walker_exponent: PositiveNumber
 
 
-@procedure(source="hukki1961; coulson2002, ch. 2", title="Energy law for a size range", typical={"feed_size": (1e-2, 0.1)})
+@procedure(
+    source="hukki1961; coulson2002, ch. 2",
+    title="Energy law for a size range",
+    typical={"feed_size": (1e-2, 0.1)},
+)
 def energy_law(feed_size: Length, product_size: Length) -> LawAdvice:
-    """The law that suits a reduction, by its product: Rittinger below 1 mm, Kick around 60 mm and above, Bond between.
+    """The law that suits a reduction, by its product: Rittinger below 1 mm, Kick around 60 mm and above, Bond
+    between.
 
     Grinding to between 50 µm and 1 mm is served by Bond's law too, for which tables of work indices exist.
 
@@ -247,7 +341,11 @@ def energy_law(feed_size: Length, product_size: Length) -> LawAdvice:
     'kick'
     """
     if product_size > feed_size:
-        raise InputError(_("The product is coarser than the feed: this is no size reduction."), name="product_size", value=product_size)
+        raise InputError(
+            _("The product is coarser than the feed: this is no size reduction."),
+            name="product_size",
+            value=product_size,
+        )
     if product_size < 1e-3:
         return LawAdvice("rittinger", 2.0)
     return LawAdvice("kick", 1.0) if product_size >= 6e-2 else LawAdvice("bond", 1.5)

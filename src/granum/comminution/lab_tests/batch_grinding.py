@@ -19,8 +19,9 @@ from granum.estimation import Fit, LabTest
 class BatchGrinding(LabTest):
     """First-order breakage rate of a top size class from what is left of it after grinding times.
 
-    This is the rate at which mass leaves the class: Austin's selection function of that class where it is a root-two class (the convention
-    ``root_two`` of ``ball_mill``). Fragments that stay in the class are not counted as broken.
+    This is the rate at which mass leaves the class: Austin's selection function of that class where it is a
+    root-two class (the convention ``root_two`` of ``ball_mill``). Fragments that stay in the class are not
+    counted as broken.
 
     >>> import numpy as np
     >>> test = BatchGrinding([0, 60, 120, 240], np.exp(-0.01 * np.array([0, 60, 120, 240])))
@@ -38,10 +39,17 @@ class BatchGrinding(LabTest):
         t, w = np.asarray(self.grinding_time), np.asarray(self.remaining_fraction)
         usable = w > 0
         if np.ptp(t) <= 0 or usable.sum() < 2:
-            raise InputError(_("The rate of breakage shows only between two grinding times with material left."), name="remaining_fraction")
-        slope = max(-log(max(w[usable][-1] / w[usable][0], 1e-12)) / max(t[usable][-1] - t[usable][0], 1e-12), 1e-9)
+            raise InputError(
+                _("The rate of breakage shows only between two grinding times with material left."),
+                name="remaining_fraction",
+            )
+        slope = max(
+            -log(max(w[usable][-1] / w[usable][0], 1e-12)) / max(t[usable][-1] - t[usable][0], 1e-12), 1e-9
+        )
         return self.fitted(
             lambda p, x: p["remaining_fraction_start"] * jnp.exp(-p["selection_function"] * x),
-            {"selection_function": slope, "remaining_fraction_start": float(w[0])}, t, w,
+            {"selection_function": slope, "remaining_fraction_start": float(w[0])},
+            t,
+            w,
             bounds={"selection_function": (0.0, inf), "remaining_fraction_start": (0.0, 1.1)},
-        )  # fmt: skip
+        )

@@ -8,7 +8,19 @@ import jax.numpy as jnp
 
 from granum.core import formula, impossible, limit_active
 from granum.core.constants import DAY
-from granum.core.kinds import Cost, CostRate, EnergyPrice, Fraction, MassFlow, MassPrice, PositiveNumber, Power, Ratio, Time, Within
+from granum.core.kinds import (
+    Cost,
+    CostRate,
+    EnergyPrice,
+    Fraction,
+    MassFlow,
+    MassPrice,
+    PositiveNumber,
+    Power,
+    Ratio,
+    Time,
+    Within,
+)
 from granum.costs.tables import plant_cost_index
 from granum.numerics.smooth import safe_divide
 
@@ -18,10 +30,16 @@ SHORT_PAYBACK = "Paid back within a day: a gain without a unit is per second; wr
 LANG = {"solids": 3.10, "solids_and_fluids": 3.63, "fluids": 4.74}
 
 
-@formula(source="cepci", title="Plant cost index of a year", fitted={"year": (1990.0, 2023.0)}, typical={"year": (1991.3, 2022.6)},
-         equation=r"I(y)")  # fmt: skip
+@formula(
+    source="cepci",
+    title="Plant cost index of a year",
+    fitted={"year": (1990.0, 2023.0)},
+    typical={"year": (1991.3, 2022.6)},
+    equation=r"I(y)",
+)
 def cost_index_annual(year: Annotated[PositiveNumber, Within(1950.0, 2100.0)]) -> PositiveNumber:
-    """Annual average of the Chemical Engineering Plant Cost Index, 1957–59 = 100, straight lines between years.
+    """Annual average of the Chemical Engineering Plant Cost Index, 1957–59 = 100, straight lines between
+    years.
 
     Before 1990 and after 2023 the nearest value is kept and flagged.
 
@@ -44,11 +62,19 @@ def cost_updated(cost: Cost, cost_index_known: PositiveNumber, cost_index: Posit
     return cost * cost_index / cost_index_known
 
 
-@formula(source="lang1948", equation=r"C_T = F_L \sum C_p", title="Capital cost of a plant by Lang's factors", output="capital_cost")
-def capital_cost_lang(purchased_cost: Cost, plant_type: Literal["solids_and_fluids", "solids", "fluids"] = "solids_and_fluids") -> Cost:
+@formula(
+    source="lang1948",
+    equation=r"C_T = F_L \sum C_p",
+    title="Capital cost of a plant by Lang's factors",
+    output="capital_cost",
+)
+def capital_cost_lang(
+    purchased_cost: Cost, plant_type: Literal["solids_and_fluids", "solids", "fluids"] = "solids_and_fluids"
+) -> Cost:
     """Capital cost of a plant from the purchased cost of its main equipment.
 
-    Factors 3.10 for plants that handle solids, 3.63 for solids and fluids, 4.74 for fluids. Order-of-magnitude estimate.
+    Factors 3.10 for plants that handle solids, 3.63 for solids and fluids, 4.74 for fluids.
+    Order-of-magnitude estimate.
 
     >>> round(capital_cost_lang(purchased_cost=1e6))
     3630000
@@ -56,13 +82,19 @@ def capital_cost_lang(purchased_cost: Cost, plant_type: Literal["solids_and_flui
     return LANG[plant_type] * purchased_cost
 
 
-@formula(source="peters2003, ch. 7", equation=r"A = C\,\frac{i(1+i)^n}{(1+i)^n-1}", title="Annual charge of capital",
-         typical={"interest_rate": (0.02, 0.2), "lifetime": (1.6e8, 7.0e8)})  # fmt: skip
-def annual_capital_charge(capital_cost: Cost, interest_rate: Annotated[Ratio, Within(0.0, 1.0)], lifetime: Time) -> CostRate:
+@formula(
+    source="peters2003, ch. 7",
+    equation=r"A = C\,\frac{i(1+i)^n}{(1+i)^n-1}",
+    title="Annual charge of capital",
+    typical={"interest_rate": (0.02, 0.2), "lifetime": (1.6e8, 7.0e8)},
+)
+def annual_capital_charge(
+    capital_cost: Cost, interest_rate: Annotated[Ratio, Within(0.0, 1.0)], lifetime: Time
+) -> CostRate:
     """Constant charge that pays a capital back with interest over its life (annuity), per unit of time.
 
-    The interest is per year and paid at the end of each. Without interest it is the capital over the life. The rate is that of the annuity spread
-    evenly over the year of 365.25 days.
+    The interest is per year and paid at the end of each. Without interest it is the capital over the life.
+    The rate is that of the annuity spread evenly over the year of 365.25 days.
 
     >>> year = 365.25 * 86400.0
     >>> round(annual_capital_charge(capital_cost=1000.0, interest_rate=0.10, lifetime=10 * year) * year, 1)
@@ -72,7 +104,9 @@ def annual_capital_charge(capital_cost: Cost, interest_rate: Annotated[Ratio, Wi
     limit_active(lifetime < DAY, lifetime, "lifetime", reason=SHORT_LIFE)
     n = lifetime / year
     growth = jnp.expm1(n * jnp.log1p(interest_rate))
-    factor = jnp.where(interest_rate > 1e-9, safe_divide(interest_rate * (1.0 + growth), growth, 0.0), 1.0 / n)
+    factor = jnp.where(
+        interest_rate > 1e-9, safe_divide(interest_rate * (1.0 + growth), growth, 0.0), 1.0 / n
+    )
     return capital_cost * factor / year
 
 
@@ -90,7 +124,9 @@ def energy_cost_rate(power: Power, energy_price: EnergyPrice, operating_fraction
 
 
 @formula(source="peters2003, ch. 6", equation=r"\dot C = \dot m\,p", title="Cost of a material")
-def material_cost_rate(mass_flow: MassFlow, mass_price: MassPrice, operating_fraction: Fraction = 1.0) -> CostRate:
+def material_cost_rate(
+    mass_flow: MassFlow, mass_price: MassPrice, operating_fraction: Fraction = 1.0
+) -> CostRate:
     """Cost or worth of a stream per unit of time, averaged over the year.
 
     >>> round(material_cost_rate(mass_flow="1 tonne/hour", mass_price="500 USD/tonne") * 3600, 6)
@@ -99,7 +135,12 @@ def material_cost_rate(mass_flow: MassFlow, mass_price: MassPrice, operating_fra
     return mass_flow * mass_price * operating_fraction
 
 
-@formula(source="peters2003, ch. 8", equation=r"t = \frac{C}{\dot G}", title="Payback time", typical={"annual_gain": (0.001, 0.01)})
+@formula(
+    source="peters2003, ch. 8",
+    equation=r"t = \frac{C}{\dot G}",
+    title="Payback time",
+    typical={"annual_gain": (0.001, 0.01)},
+)
 def payback_time(capital_cost: Cost, annual_gain: CostRate) -> Time:
     """Time in which the yearly gain returns the capital, without interest.
 

@@ -22,19 +22,35 @@ class EquipmentCost(NamedTuple):
     bare_module_cost: Cost
 
 
-def _cost(equipment: str, value: Any, name: str, card: str, cost_index: Any, unit: float = 1.0) -> EquipmentCost:
-    """``unit``: SI units in the unit of the table. Without a card the range is the same for all choices, and the formula declares it."""
+def _cost(
+    equipment: str, value: Any, name: str, card: str, cost_index: Any, unit: float = 1.0
+) -> EquipmentCost:
+    """``unit``: SI units in the unit of the table. Without a card the range is the same for all choices, and
+    the formula declares it.
+    """
     row = correlations()[equipment]
     low, high = row.smallest * unit, row.largest * unit
     flags.impossible(~(value > 0), value, name, 0.0, jnp.inf)
     if card:
-        flags.record(flags.EXTRAPOLATED, (value < low) | (value > high), value, name, card, low, high, "turton2018, table A.1")
+        flags.record(
+            flags.EXTRAPOLATED,
+            (value < low) | (value > high),
+            value,
+            name,
+            card,
+            low,
+            high,
+            "turton2018, table A.1",
+        )
     decades = jnp.log10(value / unit)
     bought = 10.0 ** (row.k1 + row.k2 * decades + row.k3 * decades**2) * cost_index / BASE_INDEX
     return EquipmentCost(bought, bought * row.bare_module_factor)
 
 
-_EQUATION = r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2,\quad C_{BM} = C_p^0 F_{BM}\,\frac{I}{397}"
+_EQUATION = (
+    r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2,\quad C_{BM} = C_p^0 "
+    r"F_{BM}\,\frac{I}{397}"
+)
 
 
 @formula(
@@ -46,17 +62,32 @@ _EQUATION = r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2,\qua
 def equipment_cost_by_area(
     area: Area,
     equipment_by_area: Literal[
-        "plate_and_frame_filter", "tube_or_table_filter", "cartridge_filter", "disc_or_drum_filter", "gravity_filter", "leaf_filter", "drum_dryer",
-        "rotary_dryer", "tray_dryer", "sieve_bend", "rotary_screen", "stationary_screen", "vibrating_screen", "apron_conveyor", "belt_conveyor",
-        "pneumatic_conveyor", "screw_conveyor",
+        "plate_and_frame_filter",
+        "tube_or_table_filter",
+        "cartridge_filter",
+        "disc_or_drum_filter",
+        "gravity_filter",
+        "leaf_filter",
+        "drum_dryer",
+        "rotary_dryer",
+        "tray_dryer",
+        "sieve_bend",
+        "rotary_screen",
+        "stationary_screen",
+        "vibrating_screen",
+        "apron_conveyor",
+        "belt_conveyor",
+        "pneumatic_conveyor",
+        "screw_conveyor",
     ] = "plate_and_frame_filter",
     cost_index: PositiveNumber = BASE_INDEX,
-) -> EquipmentCost:  # fmt: skip
+) -> EquipmentCost:
     """Purchased and installed cost of filters, dryers, screens and conveyors from their area.
 
-    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001). Study estimate: ±30 %. Outside
-    the sizes of the table the value is flagged as extrapolated. The printed curve of stationary screens falls beyond 7.2 m², that of rotary and
-    vibrating screens below 0.7 m²: do not optimize there.
+    Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
+    Study estimate: ±30 %. Outside the sizes of the table the value is flagged as extrapolated. The printed
+    curve of stationary screens falls beyond 7.2 m², that of rotary and vibrating screens below 0.7 m²: do not
+    optimize there.
 
     >>> cost = equipment_cost_by_area(equipment_by_area="plate_and_frame_filter", area=10.0, cost_index=397.0)
     >>> f"{cost.purchased_cost:.4g} {cost.bare_module_cost:.4g}"
@@ -65,8 +96,13 @@ def equipment_cost_by_area(
     return _cost(equipment_by_area, area, "area", "costs.equipment_cost_by_area", cost_index)
 
 
-@formula(source="turton2018, eq. A.1, table A.1", fitted={"area": (10.0, 1000.0)}, title="Cost of a shell-and-tube exchanger", typical={"area": (20.0, 500.0)},
-         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2")  # fmt: skip
+@formula(
+    source="turton2018, eq. A.1, table A.1",
+    fitted={"area": (10.0, 1000.0)},
+    title="Cost of a shell-and-tube exchanger",
+    typical={"area": (20.0, 500.0)},
+    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2",
+)
 def purchased_cost_exchanger(
     area: Area,
     exchanger: Literal["floating_head_exchanger", "fixed_tube_exchanger"] = "floating_head_exchanger",
@@ -99,7 +135,9 @@ def equipment_cost_by_volume(
 
     Carbon steel, ambient pressure, US dollars of the year of the plant cost index given (397: mid 2001).
 
-    >>> round(equipment_cost_by_volume(equipment_by_volume="batch_crystallizer", volume=10.0).purchased_cost, -2)
+    >>> round(
+    ...     equipment_cost_by_volume(equipment_by_volume="batch_crystallizer", volume=10.0).purchased_cost, -2
+    ... )
     65600.0
     """
     return _cost(equipment_by_volume, volume, "volume", "costs.equipment_cost_by_volume", cost_index)
@@ -114,7 +152,10 @@ def equipment_cost_by_volume(
 def equipment_cost_by_diameter(
     diameter: Length,
     centrifuge: Literal[
-        "solid_bowl_centrifuge", "batch_basket_centrifuge", "separator_centrifuge", "oscillating_screen_centrifuge"
+        "solid_bowl_centrifuge",
+        "batch_basket_centrifuge",
+        "separator_centrifuge",
+        "oscillating_screen_centrifuge",
     ] = "solid_bowl_centrifuge",
     cost_index: PositiveNumber = BASE_INDEX,
 ) -> EquipmentCost:
@@ -128,12 +169,19 @@ def equipment_cost_by_diameter(
     return _cost(centrifuge, diameter, "diameter", "costs.equipment_cost_by_diameter", cost_index)
 
 
-@formula(source="turton2018, eq. A.1, table A.1", title="Cost of an evaporator", typical={"area": (110.0, 450.0)},
-         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2")  # fmt: skip
+@formula(
+    source="turton2018, eq. A.1, table A.1",
+    title="Cost of an evaporator",
+    typical={"area": (110.0, 450.0)},
+    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} A + K_3 (\log_{10} A)^2",
+)
 def purchased_cost_evaporator(
     area: Area,
     evaporator: Literal[
-        "forced_circulation_evaporator", "falling_film_evaporator", "agitated_film_evaporator", "long_tube_evaporator"
+        "forced_circulation_evaporator",
+        "falling_film_evaporator",
+        "agitated_film_evaporator",
+        "long_tube_evaporator",
     ] = "forced_circulation_evaporator",
     cost_index: PositiveNumber = BASE_INDEX,
 ) -> Cost:
@@ -147,8 +195,13 @@ def purchased_cost_evaporator(
     return _cost(evaporator, area, "area", "costs.purchased_cost_evaporator", cost_index).purchased_cost
 
 
-@formula(source="turton2018, eq. A.1, table A.1", fitted={"volume_flow": (1.0, 100.0)}, title="Cost of a fan", typical={"volume_flow": (5.0, 80.0)},
-         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} \dot V + K_3 (\log_{10} \dot V)^2")  # fmt: skip
+@formula(
+    source="turton2018, eq. A.1, table A.1",
+    fitted={"volume_flow": (1.0, 100.0)},
+    title="Cost of a fan",
+    typical={"volume_flow": (5.0, 80.0)},
+    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} \dot V + K_3 (\log_{10} \dot V)^2",
+)
 def purchased_cost_fan(
     volume_flow: VolumeFlow,
     fan: Literal["radial_fan", "backward_curved_fan", "axial_vane_fan"] = "radial_fan",
@@ -164,8 +217,12 @@ def purchased_cost_fan(
     return _cost(fan, volume_flow, "volume_flow", "", cost_index).purchased_cost
 
 
-@formula(source="turton2018, eq. A.1, table A.1", title="Cost of a pump", typical={"power": (2e3, 9e4)},
-         equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} P + K_3 (\log_{10} P)^2")  # fmt: skip
+@formula(
+    source="turton2018, eq. A.1, table A.1",
+    title="Cost of a pump",
+    typical={"power": (2e3, 9e4)},
+    equation=r"\log_{10} C_p^0 = K_1 + K_2 \log_{10} P + K_3 (\log_{10} P)^2",
+)
 def purchased_cost_pump(
     power: Power,
     pump: Literal["centrifugal_pump", "positive_displacement_pump"] = "centrifugal_pump",
@@ -189,7 +246,9 @@ def purchased_cost_pump(
     equation=_EQUATION,
 )
 def equipment_cost_mixer(
-    power: Power, mixer: Literal["impeller_mixer", "turbine_mixer"] = "impeller_mixer", cost_index: PositiveNumber = BASE_INDEX
+    power: Power,
+    mixer: Literal["impeller_mixer", "turbine_mixer"] = "impeller_mixer",
+    cost_index: PositiveNumber = BASE_INDEX,
 ) -> EquipmentCost:
     """Purchased and installed cost of a stirrer with drive from its power.
 
@@ -201,12 +260,20 @@ def equipment_cost_mixer(
     return _cost(mixer, power, "power", "", cost_index, KILOWATT)
 
 
-@formula(source="williams1947; peters2003, ch. 6", fitted={"capacity_ratio": (0.1, 10.0), "scaling_exponent": (0.3, 1.0)}, equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}", title="Cost of a larger or smaller piece of the same kind",
-         typical={"scaling_exponent": (0.4, 0.9)})  # fmt: skip
-def purchased_cost_scaled(purchased_cost_known: Cost, capacity_ratio: PositiveNumber, scaling_exponent: Ratio = 0.6) -> Cost:
+@formula(
+    source="williams1947; peters2003, ch. 6",
+    fitted={"capacity_ratio": (0.1, 10.0), "scaling_exponent": (0.3, 1.0)},
+    equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}",
+    title="Cost of a larger or smaller piece of the same kind",
+    typical={"scaling_exponent": (0.4, 0.9)},
+)
+def purchased_cost_scaled(
+    purchased_cost_known: Cost, capacity_ratio: PositiveNumber, scaling_exponent: Ratio = 0.6
+) -> Cost:
     """Cost of equipment of another capacity from a known price, by the six-tenths rule.
 
-    Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment lie between 0.3 and 1.
+    Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment lie
+    between 0.3 and 1.
 
     Peters and others advise against it beyond ten times the capacity.
 

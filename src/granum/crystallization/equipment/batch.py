@@ -1,4 +1,6 @@
-"""Batch crystallizers in a line, and the tube that does to each parcel what a batch does to its charge: mean flows over the cycle."""
+"""Batch crystallizers in a line, and the tube that does to each parcel what a batch does to its charge: mean
+flows over the cycle.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,16 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.heat import StreamHeat
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, given_off, refuse_boiling, roles, with_crystals
+from granum.crystallization.equipment.roles import (
+    LARGEST,
+    Roles,
+    crystal_of,
+    feed_of,
+    given_off,
+    refuse_boiling,
+    roles,
+    with_crystals,
+)
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
@@ -123,7 +134,9 @@ class PlugFlowFigures(NamedTuple):
 
 
 class Grown(NamedTuple):
-    """The batch of one second of feed (everything is proportional to it), which species plays which part, and the seed held back."""
+    """The batch of one second of feed (everything is proportional to it), which species plays which part, and
+    the seed held back.
+    """
 
     course: Course
     found: Roles
@@ -144,7 +157,9 @@ class _Batch(Unit):
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
     limits: ClassVar[Limits] = {
-        "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+        "crowded": Limit(
+            "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
+        ),
         "highest": Limit("highest relative supersaturation", 0.0, 0.5, "dimensionless", "mullin2001, ch. 5"),
         "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
     }
@@ -159,7 +174,9 @@ class _Batch(Unit):
 
     def _model(self, feed: Stream, found: Roles) -> Model:
         crystal = crystal_of(feed.mixture, found, feed.temperature, self.volume_shape_factor)
-        return Model(self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.liquid_density))
+        return Model(
+            self.solubility, self.growth, self.nucleation, crystal, SuspensionVolume(feed.liquid_density)
+        )
 
     def _seeding(self, feed: Stream, found: Roles) -> tuple[Any, Seeds]:
         """Mass of seed held back from the product, and all seeds, those that come with the feed included."""
@@ -170,7 +187,9 @@ class _Batch(Unit):
         edges = jnp.asarray(feed.mixture.edges)
         low, high = edges[:-1], edges[1:]
         number = entering.crystals / (cube * 0.25 * (low + high) * (low**2 + high**2))
-        return held, Seeds(jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number))
+        return held, Seeds(
+            jnp.append(added.low, low), jnp.append(added.high, high), jnp.append(added.number, number)
+        )
 
     def inside(self, feed: Stream) -> Grown:
         found = roles(feed.mixture, self.solid, self.solvent)
@@ -182,7 +201,9 @@ class _Batch(Unit):
         model = self._model(feed, found)
         course = march(model, operation, seeds, entering.solute, solvent, times)
         # once more where its flags are heard: inside what is compiled they are lost
-        model.saturated(Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent)))
+        model.saturated(
+            Contents(course.temperature, course.solute, course.solvent, jnp.zeros_like(course.solvent))
+        )
         return Grown(course, found, held)
 
     def _product(self, inside: Grown, feed: Stream) -> tuple[Stream, Any]:
@@ -198,7 +219,9 @@ class _Batch(Unit):
         solute = feed.liquid[found.solute] + x * (entering - kept)
         solvent = feed.liquid[found.solvent] + (1.0 - x) * (entering - kept) - gone
         liquid = feed.liquid.at[found.solute].set(solute).at[found.solvent].set(solvent)
-        return feed.replace(solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]), gone
+        return feed.replace(
+            solid=with_crystals(feed, found, classes), liquid=liquid, temperature=course.temperature[-1]
+        ), gone
 
     def _figures(self, inside: Grown, product: Stream, feed: Stream) -> tuple[Any, ...]:
         """Crystal flow, yield, magma density, highest supersaturation, D[4,3] and mass share of nuclei."""
@@ -211,10 +234,13 @@ class _Batch(Unit):
         cubes = final.number * 0.25 * (final.low + final.high) * (final.low**2 + final.high**2)
         seeded = jnp.sum(cubes[: seeds.low.shape[0]])
         return (
-            made, safe_divide(found.solute_fraction * made, fed), safe_divide(made, product.slurry_volume_flow),
-            jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0, final.mean_size(4, 3),
+            made,
+            safe_divide(found.solute_fraction * made, fed),
+            safe_divide(made, product.slurry_volume_flow),
+            jnp.max(course.solute_per_solvent / course.solubility_per_solvent) - 1.0,
+            final.mean_size(4, 3),
             1.0 - seeded / jnp.maximum(jnp.sum(cubes), 1e-300),
-        )  # fmt: skip
+        )
 
     def _cooled(self, inside: Grown, feed: Stream) -> BatchOutlets:
         """The outlets of a vessel that gives up no vapor."""
@@ -248,13 +274,19 @@ class _Cycled(_Batch):
         return self.seed_mass_per_solvent * feed_of(feed, found).solvent * self.cycle
 
 
-@equipment("batch_crystallizer", source="mullin2001, ch. 9; miller1994", title="Seeded batch crystallizer",
-           equation=r"\dot m = m_{batch} / (t_f + t_{dead})")  # fmt: skip
+@equipment(
+    "batch_crystallizer",
+    source="mullin2001, ch. 9; miller1994",
+    title="Seeded batch crystallizer",
+    equation=r"\dot m = m_{batch} / (t_f + t_{dead})",
+)
 class BatchCrystallizer(_Cycled):
-    """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over the cycle.
+    """Cooling batch that treats a continuous feed in cycles of batch and dead time; outlets are means over
+    the cycle.
 
-    Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut, which is taken from the product
-    (a share of the crystals is held back for the next batch, so that the line balances). The duty is the mean one; its peak is larger.
+    Crystals that come with the feed are the seeds, together with ``seed_mass_per_solvent`` of a sieve cut,
+    which is taken from the product (a share of the crystals is held back for the next batch, so that the line
+    balances). The duty is the mean one; its peak is larger.
     """
 
     temperature_program: Annotated[Any, Law("program")]
@@ -271,13 +303,18 @@ class BatchCrystallizer(_Cycled):
         return BatchFigures._make((*figures, self._seed(feed, inside.found), volume, outlets.heat_duty))
 
 
-@equipment("jacketed_batch_crystallizer", source="mullin2001, ch. 9; kern1950, ch. 20", title="Batch crystallizer cooled through a jacket",
-           equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}")  # fmt: skip
+@equipment(
+    "jacketed_batch_crystallizer",
+    source="mullin2001, ch. 9; kern1950, ch. 20",
+    title="Batch crystallizer cooled through a jacket",
+    equation=r"\frac{dT}{dt} = \frac{U A (T_j - T) + q_c\,\dot m_c}{m c_p}",
+)
 class JacketedBatchCrystallizer(_Cycled):
-    """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature follows from the heat balance.
+    """Batch vessels of a given volume and jacket that treat a continuous feed in cycles; the temperature
+    follows from the heat balance.
 
-    The charge starts at the temperature of the feed. The wall is checked against encrustation: its undercooling should stay within the
-    metastable zone width.
+    The charge starts at the temperature of the feed. The wall is checked against encrustation: its
+    undercooling should stay within the metastable zone width.
     """
 
     jacket_program: Annotated[Any, Law("program")]
@@ -288,7 +325,13 @@ class JacketedBatchCrystallizer(_Cycled):
     metastable_width: TemperatureDifference = 5.0
 
     limits: ClassVar[Limits] = _Cycled.limits | {
-        "crust": Limit("undercooling at the cooled wall", -math.inf, "metastable_width", "delta_degC", "mullin2001, ch. 9")
+        "crust": Limit(
+            "undercooling at the cooled wall",
+            -math.inf,
+            "metastable_width",
+            "delta_degC",
+            "mullin2001, ch. 9",
+        )
     }
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
@@ -301,23 +344,41 @@ class JacketedBatchCrystallizer(_Cycled):
     def figures(self, inside: Grown, outlets: BatchOutlets, feed: Stream) -> JacketedBatchFigures:
         figures, course = self._figures(inside, outlets.product, feed), inside.course
         T, T_j = course.temperature, self.jacket_program(course.time) + jnp.zeros_like(course.time)
-        wall = wall_temperature_jacket(T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside)
+        wall = wall_temperature_jacket(
+            T, T_j, self.heat_transfer_coefficient, self.heat_transfer_coefficient_inside
+        )
         cold = jnp.max(wall_undercooling(self.solubility, course.solute_per_solvent, wall))
         count = feed.slurry_volume_flow * self.cycle / self.volume
         return JacketedBatchFigures._make(
-            (*figures, safe_divide(self._seed(feed, inside.found), count), count, T[-1], jnp.max(T - T_j), cold, outlets.heat_duty)
+            (
+                *figures,
+                safe_divide(self._seed(feed, inside.found), count),
+                count,
+                T[-1],
+                jnp.max(T - T_j),
+                cold,
+                outlets.heat_duty,
+            )
         )
 
-    def measured(self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Grown, outlets: BatchOutlets, figures: JacketedBatchFigures, feed: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed) | {"crust": figures.undercooling_wall_maximum}
 
 
-@equipment("vacuum_batch_crystallizer", source="mullin2001, ch. 8 and 9", title="Batch crystallizer cooled by boiling under vacuum",
-           equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c")  # fmt: skip
+@equipment(
+    "vacuum_batch_crystallizer",
+    source="mullin2001, ch. 8 and 9",
+    title="Batch crystallizer cooled by boiling under vacuum",
+    equation=r"L_v\,\dot m_v = -m c_p \frac{dT}{dt} + q_c\,\dot m_c",
+)
 class VacuumBatchCrystallizer(_Cycled):
-    """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a continuous feed in cycles.
+    """Batch vessels that cool by boiling under falling pressure, with no cooled wall to grow a crust, for a
+    continuous feed in cycles.
 
-    The program is that of the boiling temperature; the feed flashes down to its start. Heat given back by the seeds that are held over is the small duty.
+    The program is that of the boiling temperature; the feed flashes down to its start. Heat given back by the
+    seeds that are held over is the small duty.
     """
 
     temperature_program: Annotated[Any, Law("program")]
@@ -334,26 +395,38 @@ class VacuumBatchCrystallizer(_Cycled):
         assert found.vapor is not None
         released = -jnp.diff(course.solvent)
         middle = 0.5 * (course.temperature[1:] + course.temperature[:-1])
-        T = jnp.where(gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature)
+        T = jnp.where(
+            gone > 0, jnp.sum(released * middle) / jnp.where(gone > 0, gone, 1.0), product.temperature
+        )
         vapor = given_off(feed, found, gone, T)
         refuse_boiling(product.liquid[found.solvent], vapor.gas[found.vapor], feed, type(self).card)
         product = product.replace(gas=0.0 * feed.gas)
-        return VacuumBatchOutlets(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
+        return VacuumBatchOutlets(
+            product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow
+        )
 
     def figures(self, inside: Grown, outlets: VacuumBatchOutlets, feed: Stream) -> VacuumBatchFigures:
         figures, course = self._figures(inside, outlets.product, feed), inside.course
-        fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle  # after the first flash
+        fastest = (
+            jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle
+        )  # after the first flash
         gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
         return VacuumBatchFigures._make((*figures, self._seed(feed, inside.found), volume, gone, fastest))
 
 
-@equipment("plug_flow_crystallizer", source="randolph1988, ch. 7; mullin2001, ch. 9", title="Plug flow crystallizer",
-           equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0")  # fmt: skip
+@equipment(
+    "plug_flow_crystallizer",
+    source="randolph1988, ch. 7; mullin2001, ch. 9",
+    title="Plug flow crystallizer",
+    equation=r"G\,\frac{\partial n}{\partial L} + \frac{\dot V}{A}\frac{\partial n}{\partial z} = 0",
+)
 class PlugFlowCrystallizer(_Batch):
-    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence time.
+    """Tubular crystallizer in steady plug flow: every parcel of the feed lives the batch of its residence
+    time.
 
-    The temperature along the tube is given by a program of the time since the inlet, which should end at the residence time. Backmixing
-    spreads the residence times: a series of mixed vessels then stands for the tube.
+    The temperature along the tube is given by a program of the time since the inlet, which should end at the
+    residence time. Backmixing spreads the residence times: a series of mixed vessels then stands for the
+    tube.
     """
 
     temperature_program: Annotated[Any, Law("program")]

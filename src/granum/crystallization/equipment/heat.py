@@ -15,7 +15,9 @@ from granum.streams.stream import Stream
 
 
 class StreamHeat(Heat):
-    """Enthalpies of the species of a mixture; liquids and solids that do not crystallize come along (kg per second of feed)."""
+    """Enthalpies of the species of a mixture; liquids and solids that do not crystallize come along (kg per
+    second of feed).
+    """
 
     mixture: Mixture = eqx.field(static=True)
     found: Roles = eqx.field(static=True)
@@ -31,7 +33,9 @@ class StreamHeat(Heat):
     def _enthalpy(self, T: Any, contents: Contents, crystals: Any) -> Any:
         liquid, solid = (self.mixture.enthalpies(phase, T) for phase in ("liquids", "solids"))
         x = self.found.solute_fraction
-        flow = (contents.solute - x * crystals) * liquid[self.found.solute] + crystals * solid[self.found.solid]
+        flow = (contents.solute - x * crystals) * liquid[self.found.solute] + crystals * solid[
+            self.found.solid
+        ]
         flow = flow + (contents.solvent - (1.0 - x) * crystals) * liquid[self.found.solvent]
         return flow + jnp.sum(self.other_liquids * liquid) + jnp.sum(self.other_solids * solid)
 
@@ -40,7 +44,9 @@ class StreamHeat(Heat):
         return jax.jvp(lambda T: self._enthalpy(T, contents, crystals), (T,), (jnp.ones_like(T),))[1]
 
     def freed(self, old: Contents, crystals_before: Any, temperature: Any, crystals: Any) -> Any:
-        return self._enthalpy(old.temperature, old, crystals_before) - self._enthalpy(temperature, old, crystals)
+        return self._enthalpy(old.temperature, old, crystals_before) - self._enthalpy(
+            temperature, old, crystals
+        )
 
     def latent(self, temperature: Any) -> Any:
         """Heat of vaporization of the solvent, J/kg."""

@@ -1,4 +1,6 @@
-"""Continuous crystallizers in a line that runs in time: crystals, liquor and what is dissolved in it, in a vessel of constant volume."""
+"""Continuous crystallizers in a line that runs in time: crystals, liquor and what is dissolved in it, in a
+vessel of constant volume.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,17 @@ from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Dynamic
 
-SOWN, SOWN_SIZE = 1.0, 100e-6  # kg/m³ and m: seeds at a start-up, without which secondary nucleation would never begin
+SOWN, SOWN_SIZE = (
+    1.0,
+    100e-6,
+)  # kg/m³ and m: seeds at a start-up, without which secondary nucleation would never begin
 WEIR = 2.0  # relative outflow per relative surplus of volume
 
 
 class Held(NamedTuple):
-    """What a crystallizer holds: crystals by number, kg of every liquid (what it has in crystals included) and of other solids; volumes turned
-    over per second and solvent evaporating (kg/s) at this instant."""
+    """What a crystallizer holds: crystals by number, kg of every liquid (what it has in crystals included)
+    and of other solids; volumes turned over per second and solvent evaporating (kg/s) at this instant.
+    """
 
     crystals: Moving
     liquid: Any
@@ -51,13 +57,20 @@ class _Suspension(eqx.Module):
     others: Any
 
     def __call__(self, liquor: Any, solvent: Any, crystals: Any, crystal: Crystal) -> Any:
-        return (liquor - solvent) / self.solute_density + solvent / self.solvent_density + self.others + crystals / crystal.density
+        return (
+            (liquor - solvent) / self.solute_density
+            + solvent / self.solvent_density
+            + self.others
+            + crystals / crystal.density
+        )
 
 
 class InTime(Dynamic):
-    """A continuous crystallizer with a holdup. Matter is conserved by the trapezoidal rule in every component; growth and nucleation are those of
-    the steady model, which a run in time settles to. A start-up begins with saturated liquor and 1 kg/m³ of seeds of 100 µm. Crystals do not
-    dissolve while the liquor is undersaturated."""
+    """A continuous crystallizer with a holdup. Matter is conserved by the trapezoidal rule in every
+    component; growth and nucleation are those of the steady model, which a run in time settles to. A start-up
+    begins with saturated liquor and 1 kg/m³ of seeds of 100 µm. Crystals do not dissolve while the liquor is
+    undersaturated.
+    """
 
     if TYPE_CHECKING:  # fields of every crystallizer
         temperature: Any
@@ -84,15 +97,26 @@ class InTime(Dynamic):
         crystal, x = self._crystal(mixture, found), found.solute_fraction
         ratio, density = self.solubility(self.temperature), mixture.densities("liquids", self.temperature)
         seeds = SOWN * self.volume
-        solvent = (self.volume - seeds / crystal.density) / (1.0 / density[found.solvent] + ratio / density[found.solute])
+        solvent = (self.volume - seeds / crystal.density) / (
+            1.0 / density[found.solvent] + ratio / density[found.solute]
+        )
         liquid = jnp.zeros(len(mixture.liquids)).at[found.solvent].set(solvent + (1.0 - x) * seeds)
         liquid = liquid.at[found.solute].set(ratio * solvent + x * seeds)
         blank = Moving.empty(mixture.edges[-1]).turned_over(
             0.0, (seeds / (crystal.mass_per_cube * SOWN_SIZE**3))[None], jnp.array([SOWN_SIZE])
         )
-        return self._held(mixture, blank.grown(0.0, 0.0, self.nucleus_size, 0), liquid, jnp.zeros(mixture.solid_shape), 0.0, 0.0)
+        return self._held(
+            mixture,
+            blank.grown(0.0, 0.0, self.nucleus_size, 0),
+            liquid,
+            jnp.zeros(mixture.solid_shape),
+            0.0,
+            0.0,
+        )
 
-    def _held(self, mixture: Any, crystals: Moving, liquid: Any, solid: Any, turnover: Any, evaporation: Any) -> Held:
+    def _held(
+        self, mixture: Any, crystals: Moving, liquid: Any, solid: Any, turnover: Any, evaporation: Any
+    ) -> Held:
         """Of one shape always: sources of crystals are the classes of the feed."""
         none = jnp.zeros(len(mixture.sizes))
         return Held(
@@ -111,11 +135,20 @@ class InTime(Dynamic):
         time, made = state.residence_time, jnp.sum(state.crystals)
         born = state.nucleation_rate * self.volume
         standing = Moving.standing(
-            feed.mixture.edges[-1], jnp.append(numbers, born), jnp.append(sizes, self.nucleus_size), jnp.maximum(state.length, 1e-12), time
+            feed.mixture.edges[-1],
+            jnp.append(numbers, born),
+            jnp.append(sizes, self.nucleus_size),
+            jnp.maximum(state.length, 1e-12),
+            time,
         )
         mass = crystal.mass_per_cube * standing.moments()[3]
         standing = standing.kept(safe_divide(made * time, mass))  # none where they are washed out
-        liquid = feed.liquid.at[found.solute].set(state.solute + x * made).at[found.solvent].set(state.solvent + (1.0 - x) * made)
+        liquid = (
+            feed.liquid.at[found.solute]
+            .set(state.solute + x * made)
+            .at[found.solvent]
+            .set(state.solvent + (1.0 - x) * made)
+        )
         solid = feed.solid.at[found.solid].set(0.0)
         return self._held(feed.mixture, standing, liquid * time, solid * time, 1.0 / time, state.evaporation)
 
@@ -125,7 +158,9 @@ class InTime(Dynamic):
     def advance(
         self, state: Held, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Held, Crystallized]:
-        """The liquor and what is dissolved by the trapezoidal rule, whatever crystallizes; then growth along its path."""
+        """The liquor and what is dissolved by the trapezoidal rule, whatever crystallizes; then growth along
+        its path.
+        """
         then, now = before["feed"], after["feed"]
         mixture, found = now.mixture, roles(now.mixture, self.solid, self.solvent)
         crystal, x = self._crystal(mixture, found), found.solute_fraction
@@ -133,7 +168,9 @@ class InTime(Dynamic):
         densities, solids = mixture.densities("liquids", T), mixture.densities("solids", T)
 
         def volume(liquid: Any, solid: Any) -> Any:
-            return jnp.sum(liquid / densities) + jnp.sum(jnp.sum(solid, axis=tuple(range(1, solid.ndim))) / solids)
+            return jnp.sum(liquid / densities) + jnp.sum(
+                jnp.sum(solid, axis=tuple(range(1, solid.ndim))) / solids
+            )
 
         def entered(stream: Stream) -> Any:
             grown = jnp.sum(feed_of(stream, found).crystals)
@@ -142,16 +179,27 @@ class InTime(Dynamic):
         early = jnp.where(state.turnover > 0, state.turnover, volume(then.liquid, then.solid) / self.volume)
         late = early * safe_divide(now.slurry_volume_flow, then.slurry_volume_flow, 1.0)
         lead = 1.0 - 0.5 * step * early
-        lead, lag = jnp.where(lead > 0, lead, jnp.nan), 1.0 + 0.5 * step * late  # a step longer than two residence times is refused
+        lead, lag = (
+            jnp.where(lead > 0, lead, jnp.nan),
+            1.0 + 0.5 * step * late,
+        )  # a step longer than two residence times is refused
         here = Contents(T, state.liquid[found.solute], state.liquid[found.solvent], jnp.zeros(()))
         grains = cube * state.crystals.moments()[3]
         numbers, sizes = packets_of(
-            0.5 * (feed_of(now, found).crystals + feed_of(then, found).crystals), jnp.asarray(mixture.edges), crystal
+            0.5 * (feed_of(now, found).crystals + feed_of(then, found).crystals),
+            jnp.asarray(mixture.edges),
+            crystal,
         )
         crystals = state.crystals.turned_over(0.5 * step * (early + late), step * numbers, sizes)
         pair = jnp.array([found.solute, found.solvent])
-        other = _Suspension(densities[found.solute], densities[found.solvent], volume(state.liquid.at[pair].set(0.0), state.solid))
-        model = Model(self.solubility, self.growth, self.nucleation, crystal, other, nucleus_size=self.nucleus_size)
+        other = _Suspension(
+            densities[found.solute],
+            densities[found.solvent],
+            volume(state.liquid.at[pair].set(0.0), state.solid),
+        )
+        model = Model(
+            self.solubility, self.growth, self.nucleation, crystal, other, nucleus_size=self.nucleus_size
+        )
         surviving = eqx.tree_at(lambda m: m.nucleation, model, Surviving(self.nucleation, crystals.survival))
 
         def forming(there: Contents, crystals: Moving) -> Any:
@@ -167,22 +215,40 @@ class InTime(Dynamic):
         solid = (state.solid * lead + 0.5 * step * (then.solid + now.solid).at[found.solid].set(0.0)) / lag
         closed = Exchanged(ConstantProgram(T), liquid[found.solute], liquid[found.solvent])
         rates = surviving.conditions(here, grains)[2:]
-        made, *_rest = react(surviving, closed, crystals, here, grains, rates, (jnp.zeros(()), jnp.asarray(step, dtype=float)), 0)
+        made, *_rest = react(
+            surviving,
+            closed,
+            crystals,
+            here,
+            grains,
+            rates,
+            (jnp.zeros(()), jnp.asarray(step, dtype=float)),
+            0,
+        )
 
         assert isinstance(made, Moving)
         grains = cube * made.moments()[3]
-        bound = jnp.zeros_like(liquid).at[found.solute].set(x * grains).at[found.solvent].add((1.0 - x) * grains)
+        bound = (
+            jnp.zeros_like(liquid).at[found.solute].set(x * grains).at[found.solvent].add((1.0 - x) * grains)
+        )
         full = (volume(liquid - bound, solid) + grains / crystal.density) / self.volume
-        # What leaves follows the volume that enters, less what crystals take up in forming; a weir brings the level back.
+        # What leaves follows the volume that enters, less what crystals take up in forming; a weir brings the
+        # level back.
         shrinkage = x / densities[found.solute] + (1.0 - x) / densities[found.solvent] - 1.0 / crystal.density
         there = Contents(T, liquid[found.solute], liquid[found.solvent], jnp.zeros(()))
-        balance = volume(now.liquid, now.solid) - evaporation / densities[found.solvent] - shrinkage * forming(there, made)
+        balance = (
+            volume(now.liquid, now.solid)
+            - evaporation / densities[found.solvent]
+            - shrinkage * forming(there, made)
+        )
         balance = jnp.maximum(balance, 0.0) / self.volume
         turnover = late
         for _round in range(4):
             level = lag / (1.0 + 0.5 * step * turnover)
             miss = turnover - balance * (1.0 + WEIR * (full * level - 1.0))
-            turnover = turnover - miss / (1.0 + balance * WEIR * full * level * 0.5 * step / (1.0 + 0.5 * step * turnover))
+            turnover = turnover - miss / (
+                1.0 + balance * WEIR * full * level * 0.5 * step / (1.0 + 0.5 * step * turnover)
+            )
         level = lag / (1.0 + 0.5 * step * turnover)
         state = self._held(mixture, made.kept(level), liquid * level, solid * level, turnover, evaporation)
         return state, self._outlets(state, now, found, cube, bound * level)
@@ -192,6 +258,9 @@ class InTime(Dynamic):
         solid = state.solid.at[found.solid].set(grown[found.solid])
         T = jnp.asarray(self.temperature, dtype=float)
         product = now.replace(
-            solid=solid * state.turnover, liquid=(state.liquid - bound) * state.turnover, gas=0.0 * now.gas, temperature=T
+            solid=solid * state.turnover,
+            liquid=(state.liquid - bound) * state.turnover,
+            gas=0.0 * now.gas,
+            temperature=T,
         )
         return Crystallized(product, given_off(now, found, state.evaporation, T), jnp.zeros(()))

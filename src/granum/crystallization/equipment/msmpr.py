@@ -30,13 +30,25 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.crystallization.equipment.in_time import Crystallized, InTime
-from granum.crystallization.equipment.roles import LARGEST, Roles, crystal_of, feed_of, given_off, refuse_boiling, roles, with_crystals
+from granum.crystallization.equipment.roles import (
+    LARGEST,
+    Roles,
+    crystal_of,
+    feed_of,
+    given_off,
+    refuse_boiling,
+    roles,
+    with_crystals,
+)
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
 from granum.streams.units import Limits, Unit
 
-_UNSOLVED = "No supersaturation was found at which the crystals made are those that the solute balance leaves: check feed, kinetics and evaporation."
+_UNSOLVED = (
+    "No supersaturation was found at which the crystals made are those that the solute balance leaves: "
+    "check feed, kinetics and evaporation."
+)
 
 
 class CrystallizerFigures(NamedTuple):
@@ -69,9 +81,13 @@ class _Continuous(Unit):
     solvent: str = eqx.field(kw_only=True, static=True, default="")
 
     limits: ClassVar[Limits] = {
-        "crowded": Limit("solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"),
+        "crowded": Limit(
+            "solids in the suspension by volume", 0.0, 0.35, "dimensionless", "mullin2001, ch. 9"
+        ),
         "time": Limit("residence time", 600.0, 36000.0, "s", "mullin2001, ch. 9"),
-        "present": Limit("steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"),
+        "present": Limit(
+            "steady crystals (1 when present)", 1.0, 1.0, "dimensionless", "randolph1988, ch. 4"
+        ),
         "largest": Limit(LARGEST, 0.0, 0.05, "dimensionless", "randolph1988, ch. 4"),
         "drying": Limit("solvent evaporated", 0.0, math.inf, "kg/s", "randolph1988, ch. 4"),
     }
@@ -83,13 +99,24 @@ class _Continuous(Unit):
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         evaporation, per_crystal = self._evaporation(feed, found)
-        self.solubility(self.temperature)  # once more where its flags are heard: inside what is compiled they are lost
+        self.solubility(
+            self.temperature
+        )  # once more where its flags are heard: inside what is compiled they are lost
         state = steady_msmpr(
-            feed_of(feed, found), self.temperature, self.volume, self.solubility, self.growth, self.nucleation,
+            feed_of(feed, found),
+            self.temperature,
+            self.volume,
+            self.solubility,
+            self.growth,
+            self.nucleation,
             crystal_of(feed.mixture, found, self.temperature, self.volume_shape_factor),
             AdditiveVolumes(densities[found.solute], densities[found.solvent], others),
-            feed.mixture.edges, evaporation, per_crystal, self.nucleus_size, self._removal(),
-        )  # fmt: skip
+            feed.mixture.edges,
+            evaporation,
+            per_crystal,
+            self.nucleus_size,
+            self._removal(),
+        )
         unsolved(state.converged, type(self).card, reason=_UNSOLVED)
         return state, found
 
@@ -97,27 +124,43 @@ class _Continuous(Unit):
         state, found = inside
         liquid = feed.liquid.at[found.solute].set(state.solute).at[found.solvent].set(state.solvent)
         product = feed.replace(
-            solid=with_crystals(feed, found, state.crystals), liquid=liquid, gas=0.0 * feed.gas,
+            solid=with_crystals(feed, found, state.crystals),
+            liquid=liquid,
+            gas=0.0 * feed.gas,
             temperature=jnp.asarray(self.temperature, dtype=float),
-        )  # fmt: skip
+        )
         vapor = given_off(feed, found, state.evaporation, self.temperature)
         if found.vapor is not None:
             refuse_boiling(state.solvent, vapor.gas[found.vapor], feed, type(self).card)
         return Crystallized(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
-    def figures(self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream) -> CrystallizerFigures:
+    def figures(
+        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, feed: Stream
+    ) -> CrystallizerFigures:
         state, found = inside
         entering = feed_of(feed, found)
         fed = entering.solute + found.solute_fraction * jnp.sum(entering.crystals)
         crystals = jnp.sum(state.crystals)
         return CrystallizerFigures(
-            crystals, safe_divide(found.solute_fraction * crystals, fed), state.magma_density, state.relative_supersaturation,
-            state.growth_rate, state.nucleation_rate, state.residence_time,
-            state.length, median_of(state.crystals, feed.mixture.edges), jnp.asarray(state.evaporation, dtype=float), outlets.heat_duty,
-        )  # fmt: skip
+            crystals,
+            safe_divide(found.solute_fraction * crystals, fed),
+            state.magma_density,
+            state.relative_supersaturation,
+            state.growth_rate,
+            state.nucleation_rate,
+            state.residence_time,
+            state.length,
+            median_of(state.crystals, feed.mixture.edges),
+            jnp.asarray(state.evaporation, dtype=float),
+            outlets.heat_duty,
+        )
 
     def measured(
-        self, inside: tuple[SteadyState, Roles], outlets: Crystallized, figures: CrystallizerFigures, feed: Stream
+        self,
+        inside: tuple[SteadyState, Roles],
+        outlets: Crystallized,
+        figures: CrystallizerFigures,
+        feed: Stream,
     ) -> dict[str, Any]:
         return {
             "crowded": outlets.product.solids_volume_fraction,
@@ -149,13 +192,19 @@ class _Evaporating(_Continuous):
         return jnp.where(jnp.asarray(self.evaporation) == 0.0, 0.0, jnp.nan), 0.0
 
 
-@equipment("msmpr", source="randolph1988, ch. 4; mullin2001, ch. 9", title="Continuous crystallizer, cooled or evaporative (MSMPR)",
-           equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)")  # fmt: skip
+@equipment(
+    "msmpr",
+    source="randolph1988, ch. 4; mullin2001, ch. 9",
+    title="Continuous crystallizer, cooled or evaporative (MSMPR)",
+    equation=r"M_T = k_v \rho_c \left(6 B_0 G^3\tau^4 + \dots\right)",
+)
 class Msmpr(_Evaporating, InTime):
-    """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and evaporation.
+    """Continuous crystallizer with mixed suspension and mixed product removal at a given temperature and
+    evaporation.
 
-    The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute balance leaves;
-    seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their water from the solvent.
+    The supersaturation is the one at which nucleation and growth make exactly the crystals that the solute
+    balance leaves; seeds, fines and crystals of an earlier stage may come with the feed. Hydrates take their
+    water from the solvent.
     """
 
 
@@ -166,10 +215,12 @@ class Msmpr(_Evaporating, InTime):
     equation=r"\ln\frac{n}{n_0} = -\frac{R\min(L,L_f) + \dots + z\max(0,L-L_p)}{G\tau}",
 )
 class ClassifiedCrystallizer(_Evaporating):
-    """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts (R–Z model).
+    """Continuous crystallizer that dissolves fines and draws coarse product preferentially, with sharp cuts
+    (R–Z model).
 
-    A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product removal evens the sizes. A fluidized bed
-    (Oslo) is one with a strong classification. The dissolved fines return with their solute, whose heat cancels.
+    A ratio of 1 leaves that stream out. Fines dissolution makes fewer, larger crystals; classified product
+    removal evens the sizes. A fluidized bed (Oslo) is one with a strong classification. The dissolved fines
+    return with their solute, whose heat cancels.
     """
 
     fines_removal_ratio: PositiveNumber = 1.0
@@ -178,16 +229,24 @@ class ClassifiedCrystallizer(_Evaporating):
     product_cut_size: Distance = 1.0
 
     def _removal(self) -> Removal:
-        return Removal(self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size)
+        return Removal(
+            self.fines_removal_ratio, self.fines_cut_size, self.product_removal_ratio, self.product_cut_size
+        )
 
 
-@equipment("vacuum_crystallizer", source="mullin2001, ch. 8; randolph1988, ch. 4", title="Continuous vacuum crystallizer (adiabatic flash)",
-           equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}")  # fmt: skip
+@equipment(
+    "vacuum_crystallizer",
+    source="mullin2001, ch. 8; randolph1988, ch. 4",
+    title="Continuous vacuum crystallizer (adiabatic flash)",
+    equation=r"\dot H_{feed} + \dot Q = \dot H_{product} + \dot H_{vapor}",
+)
 class VacuumCrystallizer(_Continuous, InTime):
-    """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to foul.
+    """Continuous crystallizer whose hot feed flashes: cooling and evaporation at once, with no wall to
+    foul.
 
-    The vapor is what the enthalpy balance leaves at the given temperature; ``heat_duty`` adds heat from outside (zero for the
-    adiabatic flash). The vapor pressure that the ejectors must hold follows from the temperature.
+    The vapor is what the enthalpy balance leaves at the given temperature; ``heat_duty`` adds heat from
+    outside (zero for the adiabatic flash). The vapor pressure that the ejectors must hold follows from the
+    temperature.
     """
 
     heat_duty: Power = 0.0

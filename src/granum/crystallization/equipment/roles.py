@@ -15,13 +15,21 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream, empty
 
-BOILED_DRY = "More solvent would evaporate than there is: give less heat, less evaporation, a cooler feed or more solvent."
-TOO_COLD = "The feed is too cold to boil at the temperature of the vessel: give a warmer feed, a lower temperature or more heat."
+BOILED_DRY = (
+    "More solvent would evaporate than there is: give less heat, less evaporation, a cooler feed or more "
+    "solvent."
+)
+TOO_COLD = (
+    "The feed is too cold to boil at the temperature of the vessel: give a warmer feed, a lower temperature "
+    "or more heat."
+)
 LARGEST = "crystals in the largest size class, which takes what is larger"
 
 
 class Roles(NamedTuple):
-    """Positions of the species in the arrays of a stream; ``vapor`` is None without a vapor of the solvent."""
+    """Positions of the species in the arrays of a stream; ``vapor`` is None without a vapor of the
+    solvent.
+    """
 
     solid: int
     solute: int
@@ -31,38 +39,59 @@ class Roles(NamedTuple):
 
 
 def roles(mixture: Mixture, solid: str, solvent: str) -> Roles:
-    """Find the species: the crystal by name (or the first solid), the liquid that is its anhydrous part, the solvent."""
+    """Find the species: the crystal by name (or the first solid), the liquid that is its anhydrous part, the
+    solvent.
+    """
     if not mixture.solids:
         raise CaseError(_("The mixture has no solid that could crystallize."))
     s = mixture.index("solids", solid) if solid else 0
     w = mixture.index("liquids", solvent) if solvent else 0
     component = mixture.liquids[w].composition[0][0]
     anhydrous = [(name, share) for name, share in mixture.solids[s].composition if name != component]
-    pure = [i for i, item in enumerate(mixture.liquids) if [n for n, _share in item.composition] == [n for n, _share in anhydrous]]
+    pure = [
+        i
+        for i, item in enumerate(mixture.liquids)
+        if [n for n, _share in item.composition] == [n for n, _share in anhydrous]
+    ]
     if len(anhydrous) != 1 or not pure:
         raise CaseError(
-            _("The mixture has no dissolved form of '{crystal}': a liquid species made of {parts} alone is needed.").format(
-                crystal=mixture.solids[s].name, parts=", ".join(n for n, _share in anhydrous) or "—"
-            )
+            _(
+                "The mixture has no dissolved form of '{crystal}': a liquid species made of {parts} "
+                "alone is needed."
+            ).format(crystal=mixture.solids[s].name, parts=", ".join(n for n, _share in anhydrous) or "—")
         )
-    vapors = [i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]]
+    vapors = [
+        i for i, item in enumerate(mixture.gases) if [n for n, _share in item.composition] == [component]
+    ]
     return Roles(s, pure[0], w, vapors[0] if vapors else None, anhydrous[0][1])
 
 
 def refuse_boiling(solvent: Any, vapor: Any, feed: Stream, card: Any) -> None:
-    """Record that a vessel cannot boil as asked: no solvent would be left, or solvent that is not there would have to condense."""
+    """Record that a vessel cannot boil as asked: no solvent would be left, or solvent that is not there would
+    have to condense.
+    """
     least = -1e-12 * feed.mass_flow
     unsolved(solvent >= least, card, reason=BOILED_DRY)
     unsolved(vapor >= least, card, reason=TOO_COLD)
 
 
 def given_off(feed: Stream, found: Roles, evaporation: Any, temperature: Any) -> Stream:
-    """What evaporates, with gas that came in the feed, at the pressure at which the solvent boils there, though no more than that of the feed."""
-    T, gas, pressure = jnp.asarray(temperature, dtype=float), feed.gas, jnp.asarray(feed.pressure, dtype=float)
+    """What evaporates, with gas that came in the feed, at the pressure at which the solvent boils there,
+    though no more than that of the feed.
+    """
+    T, gas, pressure = (
+        jnp.asarray(temperature, dtype=float),
+        feed.gas,
+        jnp.asarray(feed.pressure, dtype=float),
+    )
     if found.vapor is not None:
         gas = gas.at[found.vapor].add(evaporation)
         solvent = feed.mixture.liquids[0].name
-        if found.solvent == 0 and solvent == feed.mixture.gases[found.vapor].name and solvent in feed.mixture.materials.names("fluid"):
+        if (
+            found.solvent == 0
+            and solvent == feed.mixture.gases[found.vapor].name
+            and solvent in feed.mixture.materials.names("fluid")
+        ):
             boiling = HumidMixture(feed.mixture, alone=True).saturation_pressure(T)
             pressure = jnp.where(evaporation > 0.0, jnp.minimum(boiling, pressure), pressure)
     return empty(feed.mixture, T).replace(gas=gas, pressure=pressure)
@@ -70,17 +99,25 @@ def given_off(feed: Stream, found: Roles, evaporation: Any, temperature: Any) ->
 
 def crystal_of(mixture: Mixture, found: Roles, temperature: Any, volume_shape_factor: Any) -> Crystal:
     """The crystal as the vessel models take it."""
-    return Crystal(mixture.densities("solids", temperature)[found.solid], volume_shape_factor, found.solute_fraction)
+    return Crystal(
+        mixture.densities("solids", temperature)[found.solid], volume_shape_factor, found.solute_fraction
+    )
 
 
 def feed_of(stream: Stream, found: Roles) -> Feed:
     """Solute, solvent and crystals by size class of a stream."""
     solid = stream.solid[found.solid]
-    return Feed(stream.liquid[found.solute], stream.liquid[found.solvent], jnp.sum(solid, axis=tuple(range(1, solid.ndim))))
+    return Feed(
+        stream.liquid[found.solute],
+        stream.liquid[found.solvent],
+        jnp.sum(solid, axis=tuple(range(1, solid.ndim))),
+    )
 
 
 def with_crystals(stream: Stream, found: Roles, crystals: Any) -> Any:
-    """The stream's solid array with new crystal masses by class; further axes keep the shares the feed has, or the first class."""
+    """The stream's solid array with new crystal masses by class; further axes keep the shares the feed has,
+    or the first class.
+    """
     solid = stream.solid[found.solid]
     inner = tuple(range(1, solid.ndim))
     total = jnp.sum(solid, axis=inner, keepdims=True)

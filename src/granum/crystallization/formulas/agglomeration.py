@@ -67,9 +67,17 @@ class SumKernel(AgglomerationKernel):
         return self.agglomeration_coefficient * (crystal_size**3 + crystal_size_other**3)
 
 
-@law("agglomeration_kernel", name="product_kernel", source="kumar2006", title="Product kernel", equation=r"\beta = \beta_0 L^3 \lambda^3")
+@law(
+    "agglomeration_kernel",
+    name="product_kernel",
+    source="kumar2006",
+    title="Product kernel",
+    equation=r"\beta = \beta_0 L^3 \lambda^3",
+)
 class ProductKernel(AgglomerationKernel):
-    """Kernel proportional to the product of the cubes of the sizes; the coefficient is in 1/(m³ s) and everything gels at a finite time."""
+    """Kernel proportional to the product of the cubes of the sizes; the coefficient is in 1/(m³ s) and
+    everything gels at a finite time.
+    """
 
     agglomeration_coefficient: AgglomerationRatePerVolumes
 
@@ -77,10 +85,18 @@ class ProductKernel(AgglomerationKernel):
         return self.agglomeration_coefficient * crystal_size**3 * crystal_size_other**3
 
 
-@formula(source="smoluchowski1917; mullin2001, ch. 7", fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)}, equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}", output="agglomeration_coefficient",
-         typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)})  # fmt: skip
+@formula(
+    source="smoluchowski1917; mullin2001, ch. 7",
+    fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)},
+    equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}",
+    output="agglomeration_coefficient",
+    typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)},
+)
 def agglomeration_coefficient_brownian(
-    crystal_size: Length, crystal_size_other: Length, dynamic_viscosity: DynamicViscosity, temperature: Temperature = 298.15
+    crystal_size: Length,
+    crystal_size_other: Length,
+    dynamic_viscosity: DynamicViscosity,
+    temperature: Temperature = 298.15,
 ) -> AgglomerationRate:
     """Kernel of agglomeration by Brownian motion (perikinetic), m³/s, every collision lasting.
 
@@ -88,7 +104,9 @@ def agglomeration_coefficient_brownian(
 
     Brownian motion rules below a micrometer; above, shear does.
 
-    >>> k = agglomeration_coefficient_brownian(crystal_size=1e-6, crystal_size_other=1e-6, dynamic_viscosity=1e-3)
+    >>> k = agglomeration_coefficient_brownian(
+    ...     crystal_size=1e-6, crystal_size_other=1e-6, dynamic_viscosity=1e-3
+    ... )
     >>> round(k * 1e17, 3)
     1.098
     """
@@ -96,19 +114,31 @@ def agglomeration_coefficient_brownian(
     return 2.0 * BOLTZMANN * temperature / (3.0 * dynamic_viscosity) * (L + other) ** 2 / (L * other)
 
 
-@formula(source="saffman1956; smoluchowski1917", fitted={"eddy_ratio": (0.0, 1.0)}, equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
-         output="agglomeration_coefficient",
-         typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)})  # fmt: skip
+@formula(
+    source="saffman1956; smoluchowski1917",
+    fitted={"eddy_ratio": (0.0, 1.0)},
+    equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
+    output="agglomeration_coefficient",
+    typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)},
+)
 def agglomeration_coefficient_turbulent(
-    crystal_size: Length, crystal_size_other: Length, shear_rate: Frequency, capture_efficiency: Fraction = 1.0
+    crystal_size: Length,
+    crystal_size_other: Length,
+    shear_rate: Frequency,
+    capture_efficiency: Fraction = 1.0,
 ) -> AgglomerationRate:
-    """Kernel of agglomeration in the small eddies of turbulence (orthokinetic) after Saffman and Turner, m³/s.
+    """Kernel of agglomeration in the small eddies of turbulence (orthokinetic) after Saffman and Turner,
+    m³/s.
 
-    The shear rate is ``sqrt(power per mass / kinematic viscosity)``; sizes below the smallest eddies. In laminar shear the factor is 4/3.
+    The shear rate is ``sqrt(power per mass / kinematic viscosity)``; sizes below the smallest eddies. In
+    laminar shear the factor is 4/3.
 
-    The smallest eddies are taken as those of water, √(10⁻⁶ m²/s over the shear rate); a thicker liquid has larger ones.
+    The smallest eddies are taken as those of water, √(10⁻⁶ m²/s over the shear rate); a thicker liquid has
+    larger ones.
 
-    >>> k = agglomeration_coefficient_turbulent(crystal_size=10e-6, crystal_size_other=10e-6, shear_rate=100.0)
+    >>> k = agglomeration_coefficient_turbulent(
+    ...     crystal_size=10e-6, crystal_size_other=10e-6, shear_rate=100.0
+    ... )
     >>> round(k * 1e13, 3)
     1.294
     """
@@ -118,7 +148,9 @@ def agglomeration_coefficient_turbulent(
 
 
 @formula(source="saffman1956", equation=r"\dot\gamma = \sqrt{\varepsilon/\nu}", output="shear_rate")
-def shear_rate_turbulent(specific_power_input: SpecificPower, kinematic_viscosity: KinematicViscosity) -> Frequency:
+def shear_rate_turbulent(
+    specific_power_input: SpecificPower, kinematic_viscosity: KinematicViscosity
+) -> Frequency:
     """Mean shear rate in the smallest eddies of a stirred suspension, from the power per mass in W/kg.
 
     >>> round(shear_rate_turbulent(specific_power_input=1.0, kinematic_viscosity=1e-6))
@@ -127,8 +159,14 @@ def shear_rate_turbulent(specific_power_input: SpecificPower, kinematic_viscosit
     return jnp.sqrt(specific_power_input / kinematic_viscosity)
 
 
-@law("agglomeration_kernel", name="brownian_kernel", source="smoluchowski1917; mullin2001, ch. 7", fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)}, title="Brownian (perikinetic) kernel",
-     equation=r"\beta = \frac{2 k T}{3\eta}\frac{(L+\lambda)^2}{L\lambda}")  # fmt: skip
+@law(
+    "agglomeration_kernel",
+    name="brownian_kernel",
+    source="smoluchowski1917; mullin2001, ch. 7",
+    fitted={"crystal_size": (0.0, 1e-6), "crystal_size_other": (0.0, 1e-6)},
+    title="Brownian (perikinetic) kernel",
+    equation=r"\beta = \frac{2 k T}{3\eta}\frac{(L+\lambda)^2}{L\lambda}",
+)
 class BrownianKernel(AgglomerationKernel):
     """Agglomeration by Brownian motion, for crystals below a micrometer.
 
@@ -142,12 +180,23 @@ class BrownianKernel(AgglomerationKernel):
     def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
         L, other = crystal_size, crystal_size_other
         return (
-            self.capture_efficiency * 2.0 * BOLTZMANN * self.temperature / (3.0 * self.dynamic_viscosity) * (L + other) ** 2 / (L * other)
+            self.capture_efficiency
+            * 2.0
+            * BOLTZMANN
+            * self.temperature
+            / (3.0 * self.dynamic_viscosity)
+            * (L + other) ** 2
+            / (L * other)
         )
 
 
-@law("agglomeration_kernel", name="turbulent_kernel", source="saffman1956", title="Turbulent shear (orthokinetic) kernel",
-     equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,(L+\lambda)^3/8")  # fmt: skip
+@law(
+    "agglomeration_kernel",
+    name="turbulent_kernel",
+    source="saffman1956",
+    title="Turbulent shear (orthokinetic) kernel",
+    equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,(L+\lambda)^3/8",
+)
 class TurbulentKernel(AgglomerationKernel):
     """Agglomeration in the small eddies of a stirred suspension, with the share of collisions that last."""
 
@@ -155,7 +204,13 @@ class TurbulentKernel(AgglomerationKernel):
     capture_efficiency: Fraction = 1.0
 
     def __call__(self, crystal_size: Length, crystal_size_other: Length) -> AgglomerationRate:
-        return SMALL_EDDIES * self.capture_efficiency * self.shear_rate * (crystal_size + crystal_size_other) ** 3 / 8.0
+        return (
+            SMALL_EDDIES
+            * self.capture_efficiency
+            * self.shear_rate
+            * (crystal_size + crystal_size_other) ** 3
+            / 8.0
+        )
 
 
 class Breakage(eqx.Module):
@@ -167,30 +222,49 @@ class Breakage(eqx.Module):
 
     @abstractmethod
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
-        """Number, and volume share, of the fragments of a parent (its volume) that lie between two volumes."""
+        """Number, and volume share, of the fragments of a parent (its volume) that lie between two
+        volumes.
+        """
 
 
-@law("breakage_law", name="power_breakage", source="ziff1985; austin1984", title="Breakage with a power of size, uniform fragments",
-     equation=r"S = S_0 (L/L_{ref})^p,\quad b(v, v') = 2/v'")  # fmt: skip
+@law(
+    "breakage_law",
+    name="power_breakage",
+    source="ziff1985; austin1984",
+    title="Breakage with a power of size, uniform fragments",
+    equation=r"S = S_0 (L/L_{ref})^p,\quad b(v, v') = 2/v'",
+)
 class PowerBreakage(Breakage):
-    """Breakage frequency as a power of size; each break gives two fragments, every split of the volume being as likely."""
+    """Breakage frequency as a power of size; each break gives two fragments, every split of the volume being
+    as likely.
+    """
 
     breakage_frequency: Frequency
     reference_size: Length
     breakage_exponent: Ratio = 3.0
 
     def __call__(self, crystal_size: Length) -> Frequency:
-        return self.breakage_frequency * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
+        return (
+            self.breakage_frequency
+            * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
+        )
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
         a, b = jnp.minimum(low, parent), jnp.minimum(high, parent)
         return 2.0 * (b - a) / parent, (b**2 - a**2) / parent**2
 
 
-@law("breakage_law", name="attrition", source="garside1985", fitted={"chip_fraction": (0.0, 0.5)}, title="Attrition: small chips from large crystals",
-     equation=r"S = S_0 (L/L_{ref})^p,\quad \text{chips of volume share } w")  # fmt: skip
+@law(
+    "breakage_law",
+    name="attrition",
+    source="garside1985",
+    fitted={"chip_fraction": (0.0, 0.5)},
+    title="Attrition: small chips from large crystals",
+    equation=r"S = S_0 (L/L_{ref})^p,\quad \text{chips of volume share } w",
+)
 class Attrition(Breakage):
-    """Chipping: each event takes a small share of the volume off a crystal as chips spread evenly in volume up to that share.
+    """Chipping: each event takes a small share of the volume off a crystal as chips spread evenly in volume
+    up to that share.
 
     The parent keeps the rest; the number of chips follows from their mean volume.
 
@@ -203,7 +277,10 @@ class Attrition(Breakage):
     chip_fraction: Fraction = 0.01
 
     def __call__(self, crystal_size: Length) -> Frequency:
-        return self.breakage_frequency * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
+        return (
+            self.breakage_frequency
+            * (jnp.asarray(crystal_size) / self.reference_size) ** self.breakage_exponent
+        )
 
     def daughters(self, low: Any, high: Any, parent: Any) -> tuple[Any, Any]:
         w = self.chip_fraction

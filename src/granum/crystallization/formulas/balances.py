@@ -1,4 +1,6 @@
-"""Steady balances of a crystallizer in equilibrium: crystals, mother liquor, yield and heat, with hydrates and vapor."""
+"""Steady balances of a crystallizer in equilibrium: crystals, mother liquor, yield and heat, with hydrates
+and vapor.
+"""
 
 from __future__ import annotations
 
@@ -28,16 +30,23 @@ from granum.materials.library import solute
 from granum.numerics.smooth import safe_divide, safe_log
 
 NOT_SATURATED = "The solution is not saturated at the end: no crystals form."
-NO_LIQUOR = "No mother liquor would be left: too much solvent is evaporated, or the hydrate takes more of it than there is."
+NO_LIQUOR = (
+    "No mother liquor would be left: too much solvent is evaporated, or the hydrate takes more of it than "
+    "there is."
+)
 COLDER_FEED = "Nothing flashes off: to reach this temperature the feed would have to be heated."
 MORE_THAN_FEED = "Crystals and vapor together would be more than the feed."
 HYDRATE_LIGHTER = "A hydrate weighs more than its anhydrous solute."
 COLD_GIVES_MORE = "Without any evaporation more than this yield crystallizes."
 HYDRATE_DISSOLVED = (
-    "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water becomes one of anhydrous solute with "
+    "The saturated solution would hold more solute than the crystal. A solubility in hydrate per water "
+    "becomes one of anhydrous solute with "
     "'crystallization.solute_per_solvent_from_hydrate'."
 )
-BEYOND_THE_DATA = "The solubility is extrapolated: the data of this solute end at a lower temperature, or begin at a higher one."
+BEYOND_THE_DATA = (
+    "The solubility is extrapolated: the data of this solute end at a lower temperature, or begin at a "
+    "higher one."
+)
 
 
 class Balance(NamedTuple):
@@ -49,28 +58,47 @@ class Balance(NamedTuple):
 
 
 def _crystals_and_liquor(A: Any, V: Any, x_A: Any, x: Any, x_L: Any) -> tuple[Any, Any, Any]:
-    """Crystals, mother liquor and yield of a feed A of mass fraction x_A that loses V of solvent; says which states cannot be."""
+    """Crystals, mother liquor and yield of a feed A of mass fraction x_A that loses V of solvent; says which
+    states cannot be.
+    """
     richer = x_L >= x
     raw = (A * x_A - (A - V) * x_L) / jnp.where(richer, 1.0, x - x_L)
     crystals = jnp.maximum(raw, 0.0)
     liquor = A - V - crystals
     none_left = liquor < -1e-9 * A
-    impossible(richer, x_L / (1.0 - x_L), "solubility_per_solvent", 0.0, x / jnp.maximum(1.0 - x, 1e-300), reason=HYDRATE_DISSOLVED)
+    impossible(
+        richer,
+        x_L / (1.0 - x_L),
+        "solubility_per_solvent",
+        0.0,
+        x / jnp.maximum(1.0 - x, 1e-300),
+        reason=HYDRATE_DISSOLVED,
+    )
     impossible(none_left, liquor, "mother_liquor_flow", reason=NO_LIQUOR)
     limit_active(raw < 0, raw, "crystal_flow", reason=NOT_SATURATED)
     crystals = jnp.where(richer | none_left, jnp.nan, crystals)
     return crystals, A - V - crystals, safe_divide(crystals * x, A * x_A)
 
 
-@formula(source="mullin2001, ch. 3; geankoplis2003, sec. 12.11", equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}",
-         typical={"molar_mass": (0.05, 0.15), "hydrate_molar_mass": (0.15, 0.35)})  # fmt: skip
+@formula(
+    source="mullin2001, ch. 3; geankoplis2003, sec. 12.11",
+    equation=r"x_c = \frac{M_{anhydrous}}{M_{hydrate}}",
+    typical={"molar_mass": (0.05, 0.15), "hydrate_molar_mass": (0.15, 0.35)},
+)
 def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarMass) -> Ratio:
     """Mass fraction of anhydrous solute in a hydrated crystal.
 
     >>> round(solute_fraction_of_crystal(molar_mass="105.99 g/mol", hydrate_molar_mass="286.14 g/mol"), 4)
     0.3704
     """
-    impossible(molar_mass > hydrate_molar_mass, hydrate_molar_mass, "hydrate_molar_mass", molar_mass, jnp.inf, HYDRATE_LIGHTER)
+    impossible(
+        molar_mass > hydrate_molar_mass,
+        hydrate_molar_mass,
+        "hydrate_molar_mass",
+        molar_mass,
+        jnp.inf,
+        HYDRATE_LIGHTER,
+    )
     return molar_mass / hydrate_molar_mass
 
 
@@ -78,9 +106,14 @@ def solute_fraction_of_crystal(molar_mass: MolarMass, hydrate_molar_mass: MolarM
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
     equation=r"C = \frac{A x_A - (A - V)\,x_L}{x_c - x_L},\quad x_L = \frac{C^*}{1+C^*}",
     title="Crystals and mother liquor of a crystallizer at equilibrium",
-    typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.3, 0.4), "solubility_per_solvent": (0.1, 0.3),
-             "solute_fraction_of_crystal": (0.55, 1.0), "evaporation": (0.0, 0.05)},
-)  # fmt: skip
+    typical={
+        "mass_flow": (0.5, 5.0),
+        "solute_mass_fraction": (0.3, 0.4),
+        "solubility_per_solvent": (0.1, 0.3),
+        "solute_fraction_of_crystal": (0.55, 1.0),
+        "evaporation": (0.0, 0.05),
+    },
+)
 def crystallizer_balance(
     mass_flow: MassFlow,
     solute_mass_fraction: MassFraction,
@@ -88,13 +121,19 @@ def crystallizer_balance(
     solute_fraction_of_crystal: SoluteShare = 1.0,
     evaporation: MassFlow = 0.0,
 ) -> Balance:
-    """Crystals, mother liquor and yield of a crystallizer that leaves a saturated solution, hydrates and evaporation included.
+    """Crystals, mother liquor and yield of a crystallizer that leaves a saturated solution, hydrates and
+    evaporation included.
 
-    Compositions are of anhydrous solute. No crystals where the feed is not saturated at the final conditions. Sodium carbonate
-    decahydrate, 10 000 kg of 30 % solution cooled to 20 °C (21.5 kg per 100 kg of water), gives 6370 kg in the print.
+    Compositions are of anhydrous solute. No crystals where the feed is not saturated at the final conditions.
+    Sodium carbonate decahydrate, 10 000 kg of 30 % solution cooled to 20 °C (21.5 kg per 100 kg of water),
+    gives 6370 kg in the print.
 
-    >>> out = crystallizer_balance(mass_flow=10000, solute_mass_fraction=0.30, solubility_per_solvent=0.215,
-    ...                            solute_fraction_of_crystal=106.0 / 286.2)
+    >>> out = crystallizer_balance(
+    ...     mass_flow=10000,
+    ...     solute_mass_fraction=0.30,
+    ...     solubility_per_solvent=0.215,
+    ...     solute_fraction_of_crystal=106.0 / 286.2,
+    ... )
     >>> round(out.crystal_flow), round(out.mother_liquor_flow)
     (6362, 3638)
     """
@@ -127,11 +166,18 @@ def heat_duty_crystallizer(
 ) -> Power:
     """Heat to be supplied to a crystallizer (negative: to be removed), with the latent heat of the vapor.
 
-    The feed is brought to the final temperature, where crystals form (``heat_released_per_crystal`` per kg of crystal, positive when
-    released) and solvent evaporates. Epsom salt of Geankoplis: 2268 kg/h from 54.4 to 20 °C with 616.9 kg/h of crystals, −261.9 MJ/h.
+    The feed is brought to the final temperature, where crystals form (``heat_released_per_crystal`` per kg of
+    crystal, positive when released) and solvent evaporates. Epsom salt of Geankoplis: 2268 kg/h from 54.4 to
+    20 °C with 616.9 kg/h of crystals, −261.9 MJ/h.
 
-    >>> q = heat_duty_crystallizer(mass_flow="2268 kg/hour", specific_heat_capacity="2.93 kJ/(kg*K)", temperature_inlet=327.6, temperature=293.2,
-    ...                            crystal_flow="616.9 kg/hour", heat_released_per_crystal="54.0 kJ/kg")
+    >>> q = heat_duty_crystallizer(
+    ...     mass_flow="2268 kg/hour",
+    ...     specific_heat_capacity="2.93 kJ/(kg*K)",
+    ...     temperature_inlet=327.6,
+    ...     temperature=293.2,
+    ...     crystal_flow="616.9 kg/hour",
+    ...     heat_released_per_crystal="54.0 kJ/kg",
+    ... )
     >>> round(q * 3600 / 1e6, 1)
     -261.9
     """
@@ -152,11 +198,20 @@ class FlashBalance(NamedTuple):
 
 @formula(
     source="mullin2001, ch. 8; richardson2002, ch. 15",
-    equation=r"V = \frac{q_c C_0 + A c_p (T_A - T_L)}{L_v - q_c\,x_L/(x_c - x_L)},\quad C_0 = A\frac{x_A - x_L}{x_c - x_L}",
+    equation=(
+        r"V = \frac{q_c C_0 + A c_p (T_A - T_L)}{L_v - q_c\,x_L/(x_c - x_L)},\quad C_0 = A\frac{x_A - "
+        r"x_L}{x_c - x_L}"
+    ),
     title="Adiabatic vacuum crystallizer at equilibrium",
-    typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.35, 0.4), "solubility_per_solvent": (0.2, 0.4),
-             "solute_fraction_of_crystal": (0.55, 1.0), "temperature_inlet": (340.0, 360.0), "temperature": (290.0, 310.0)},
-)  # fmt: skip
+    typical={
+        "mass_flow": (0.5, 5.0),
+        "solute_mass_fraction": (0.35, 0.4),
+        "solubility_per_solvent": (0.2, 0.4),
+        "solute_fraction_of_crystal": (0.55, 1.0),
+        "temperature_inlet": (340.0, 360.0),
+        "temperature": (290.0, 310.0),
+    },
+)
 def vacuum_crystallizer_balance(
     mass_flow: MassFlow,
     solute_mass_fraction: MassFraction,
@@ -168,14 +223,24 @@ def vacuum_crystallizer_balance(
     heat_of_vaporization: SpecificEnergy,
     solute_fraction_of_crystal: SoluteShare = 1.0,
 ) -> FlashBalance:
-    """Solvent flashed off and crystals made when a hot feed flashes adiabatically to a temperature, hydrates included.
+    """Solvent flashed off and crystals made when a hot feed flashes adiabatically to a temperature, hydrates
+    included.
 
-    Sensible heat and heat of crystallization evaporate solvent, which makes more crystals: one linear equation. ``heat_released_per_crystal`` is
-    per kg of crystal. Sodium acetate of Mullin: 2000 kg/h of 40 % solution from 80 to 29 °C evaporates 0.153 kg per kg of feed water.
+    Sensible heat and heat of crystallization evaporate solvent, which makes more crystals: one linear
+    equation. ``heat_released_per_crystal`` is per kg of crystal. Sodium acetate of Mullin: 2000 kg/h of 40 %
+    solution from 80 to 29 °C evaporates 0.153 kg per kg of feed water.
 
-    >>> out = vacuum_crystallizer_balance(mass_flow=2000, solute_mass_fraction=0.4, solubility_per_solvent=0.539, temperature_inlet=353.15,
-    ...     temperature=302.15, specific_heat_capacity=3500, heat_released_per_crystal=144e3, heat_of_vaporization=2.46e6,
-    ...     solute_fraction_of_crystal=82.0 / 136.0)
+    >>> out = vacuum_crystallizer_balance(
+    ...     mass_flow=2000,
+    ...     solute_mass_fraction=0.4,
+    ...     solubility_per_solvent=0.539,
+    ...     temperature_inlet=353.15,
+    ...     temperature=302.15,
+    ...     specific_heat_capacity=3500,
+    ...     heat_released_per_crystal=144e3,
+    ...     heat_of_vaporization=2.46e6,
+    ...     solute_fraction_of_crystal=82.0 / 136.0,
+    ... )
     >>> round(out.evaporation / 1200, 3), round(out.crystal_flow)
     (0.153, 648)
     """
@@ -192,7 +257,9 @@ def vacuum_crystallizer_balance(
 
 @formula(
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
-    equation=r"V = A\left(1 - \frac{y x_A}{x_c} - \frac{(1-y)\,x_A}{x_L}\right),\quad x_L = \frac{C^*}{1+C^*}",
+    equation=(
+        r"V = A\left(1 - \frac{y x_A}{x_c} - \frac{(1-y)\,x_A}{x_L}\right),\quad x_L = " r"\frac{C^*}{1+C^*}"
+    ),
     output="evaporation",
     title="Evaporation for a yield",
     typical={
@@ -209,15 +276,26 @@ def evaporation_for_yield(
     solubility_per_solvent: PositiveNumber,
     solute_fraction_of_crystal: SoluteShare = 1.0,
 ) -> MassFlow:
-    """Solvent to be evaporated so that a given share of the solute crystallizes and leaves a saturated mother liquor.
+    """Solvent to be evaporated so that a given share of the solute crystallizes and leaves a saturated mother
+    liquor.
 
-    Not possible (no value) where cooling alone gives more. Brine of 20 % at 80 °C (38.4 kg per 100 kg of water): 70 % of the salt takes 644 kg per tonne.
+    Not possible (no value) where cooling alone gives more. Brine of 20 % at 80 °C (38.4 kg per 100 kg of
+    water): 70 % of the salt takes 644 kg per tonne.
 
-    >>> round(evaporation_for_yield(mass_flow=1000, yield_fraction=0.7, solute_mass_fraction=0.2, solubility_per_solvent="38.4 g/100 g"))
+    >>> round(
+    ...     evaporation_for_yield(
+    ...         mass_flow=1000,
+    ...         yield_fraction=0.7,
+    ...         solute_mass_fraction=0.2,
+    ...         solubility_per_solvent="38.4 g/100 g",
+    ...     )
+    ... )
     644
     """
     x_L = solubility_per_solvent / (1.0 + solubility_per_solvent)
-    left = 1.0 - solute_mass_fraction * (yield_fraction / solute_fraction_of_crystal + (1.0 - yield_fraction) / x_L)
+    left = 1.0 - solute_mass_fraction * (
+        yield_fraction / solute_fraction_of_crystal + (1.0 - yield_fraction) / x_L
+    )
     impossible(left < 0, mass_flow * left, "evaporation", reason=COLD_GIVES_MORE)
     return jnp.where(left >= 0, mass_flow * left, jnp.nan)
 
@@ -237,9 +315,14 @@ class KnownSoluteBalance(NamedTuple):
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
     equation=r"\dot Q = \sum \dot m h|_{out} - \sum \dot m h|_{in}",
     title="Crystallizer at equilibrium for a solute of the library",
-    typical={"mass_flow": (0.5, 5.0), "solute_mass_fraction": (0.3, 0.4), "temperature": (280.0, 300.0), "temperature_inlet": (330.0, 350.0),
-             "evaporation": (0.0, 0.05)},
-)  # fmt: skip
+    typical={
+        "mass_flow": (0.5, 5.0),
+        "solute_mass_fraction": (0.3, 0.4),
+        "temperature": (280.0, 300.0),
+        "temperature_inlet": (330.0, 350.0),
+        "evaporation": (0.0, 0.05),
+    },
+)
 def crystallizer_balance_library(
     mass_flow: MassFlow,
     solute_mass_fraction: MassFraction,
@@ -248,12 +331,20 @@ def crystallizer_balance_library(
     evaporation: MassFlow = 0.0,
     system: str = "sodium sulfate",
 ) -> KnownSoluteBalance:
-    """Crystals, mother liquor, yield and heat duty from the solute's name: solubility, hydrate and heats come from the library.
+    """Crystals, mother liquor, yield and heat duty from the solute's name: solubility, hydrate and heats come
+    from the library.
 
-    The feed is a solution of the given mass fraction of anhydrous solute; heat is supplied where the duty is positive, and the vapor leaves at the
-    temperature of the crystallizer. The duty is missing where the library has no heat of solution.
+    The feed is a solution of the given mass fraction of anhydrous solute; heat is supplied where the duty is
+    positive, and the vapor leaves at the temperature of the crystallizer. The duty is missing where the
+    library has no heat of solution.
 
-    >>> out = crystallizer_balance_library(mass_flow=3000, solute_mass_fraction=1 / 6, temperature=283.15, temperature_inlet=333.15, evaporation=50)
+    >>> out = crystallizer_balance_library(
+    ...     mass_flow=3000,
+    ...     solute_mass_fraction=1 / 6,
+    ...     temperature=283.15,
+    ...     temperature_inlet=333.15,
+    ...     evaporation=50,
+    ... )
     >>> round(out.crystal_flow / 722, 2)
     0.99
     """
@@ -268,20 +359,33 @@ def crystallizer_balance_library(
     if all(b.heat_given for b in s.branches):
         water, salt = s.solvent.liquid_enthalpy, s.solute_enthalpy
         sensible = A * (w * (salt(T) - salt(hot)) + (1.0 - w) * (water(T) - water(hot)))
-        duty = sensible - found.crystal_flow / R * s.heat_of_crystallization(T) + evaporation * s.solvent.heat_of_vaporization(T)
+        duty = (
+            sensible
+            - found.crystal_flow / R * s.heat_of_crystallization(T)
+            + evaporation * s.solvent.heat_of_vaporization(T)
+        )
     else:
         duty = jnp.nan + 0.0 * found.crystal_flow
     return KnownSoluteBalance._make((*found, ratio, R, duty))
 
 
-@formula(source="kern1950, ch. 5", equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",
-         typical={"temperature_difference_inlet": (10.0, 30.0), "temperature_difference_outlet": (3.0, 9.0)})  # fmt: skip
+@formula(
+    source="kern1950, ch. 5",
+    equation=r"\Delta T_{lm} = \frac{\Delta T_1 - \Delta T_2}{\ln(\Delta T_1/\Delta T_2)}",
+    typical={"temperature_difference_inlet": (10.0, 30.0), "temperature_difference_outlet": (3.0, 9.0)},
+)
 def log_mean_temperature_difference(
-    temperature_difference_inlet: PositiveTemperatureDifference, temperature_difference_outlet: PositiveTemperatureDifference
+    temperature_difference_inlet: PositiveTemperatureDifference,
+    temperature_difference_outlet: PositiveTemperatureDifference,
 ) -> TemperatureDifference:
     """Logarithmic mean of the temperature differences at both ends of a jacket or cooler.
 
-    >>> round(log_mean_temperature_difference(temperature_difference_inlet=20.0, temperature_difference_outlet=10.0), 3)
+    >>> round(
+    ...     log_mean_temperature_difference(
+    ...         temperature_difference_inlet=20.0, temperature_difference_outlet=10.0
+    ...     ),
+    ...     3,
+    ... )
     14.427
     """
     a, b = temperature_difference_inlet, temperature_difference_outlet
@@ -292,31 +396,57 @@ def log_mean_temperature_difference(
     return jnp.where(near, b * (1.0 + e / 2.0 - e**2 / 12.0), closed)
 
 
-@formula(source="mullin2001, ch. 8; kern1950, ch. 20", equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}", output="area",
-         typical={"heat_duty": (1e4, 1e6)})  # fmt: skip
+@formula(
+    source="mullin2001, ch. 8; kern1950, ch. 20",
+    equation=r"S = \frac{|\dot Q|}{k\,\Delta T_{lm}}",
+    output="area",
+    typical={"heat_duty": (1e4, 1e6)},
+)
 def area_jacket(
-    heat_duty: Power, heat_transfer_coefficient: HeatTransferCoefficient, temperature_difference_inlet: PositiveTemperatureDifference,
+    heat_duty: Power,
+    heat_transfer_coefficient: HeatTransferCoefficient,
+    temperature_difference_inlet: PositiveTemperatureDifference,
     temperature_difference_outlet: PositiveTemperatureDifference,
-) -> Area:  # fmt: skip
-    """Cooling surface for a heat duty, by the logarithmic mean temperature difference between suspension and coolant.
+) -> Area:
+    """Cooling surface for a heat duty, by the logarithmic mean temperature difference between suspension and
+    coolant.
 
-    >>> round(area_jacket(heat_duty=-100e3, heat_transfer_coefficient=500, temperature_difference_inlet=20, temperature_difference_outlet=10), 2)
+    >>> round(
+    ...     area_jacket(
+    ...         heat_duty=-100e3,
+    ...         heat_transfer_coefficient=500,
+    ...         temperature_difference_inlet=20,
+    ...         temperature_difference_outlet=10,
+    ...     ),
+    ...     2,
+    ... )
     13.86
     """
     mean = log_mean_temperature_difference(temperature_difference_inlet, temperature_difference_outlet)
     return jnp.abs(heat_duty) / (heat_transfer_coefficient * mean)
 
 
-@formula(source="mullin2001, ch. 8", equation=r"R_{max} = 1 - \frac{C^* (W - V)}{C_0 W}", output="yield_fraction",
-         typical={"solute_per_solvent": (0.4, 0.6), "solubility_per_solvent": (0.2, 0.3)})  # fmt: skip
+@formula(
+    source="mullin2001, ch. 8",
+    equation=r"R_{max} = 1 - \frac{C^* (W - V)}{C_0 W}",
+    output="yield_fraction",
+    typical={"solute_per_solvent": (0.4, 0.6), "solubility_per_solvent": (0.2, 0.3)},
+)
 def yield_fraction_anhydrous(
     solute_per_solvent: MassRatio, solubility_per_solvent: MassRatio, evaporated_fraction: Fraction = 0.0
 ) -> Ratio:
     """Largest yield of an anhydrous crystal by cooling and evaporating a fraction of the solvent.
 
-    >>> round(yield_fraction_anhydrous(solute_per_solvent=0.5, solubility_per_solvent=0.2, evaporated_fraction=0.1), 2)
+    >>> round(
+    ...     yield_fraction_anhydrous(
+    ...         solute_per_solvent=0.5, solubility_per_solvent=0.2, evaporated_fraction=0.1
+    ...     ),
+    ...     2,
+    ... )
     0.64
     """
     dissolved = solubility_per_solvent * (1.0 - evaporated_fraction)
-    limit_active(dissolved > solute_per_solvent, solute_per_solvent, "solute_per_solvent", reason=NOT_SATURATED)
+    limit_active(
+        dissolved > solute_per_solvent, solute_per_solvent, "solute_per_solvent", reason=NOT_SATURATED
+    )
     return jnp.maximum(1.0 - dissolved / solute_per_solvent, 0.0)

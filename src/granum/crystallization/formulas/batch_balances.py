@@ -22,9 +22,14 @@ class BatchBalance(NamedTuple):
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
     equation=r"m_c = \frac{m x_A - (m - m_v)\,x_L}{x_c - x_L},\quad x_L = \frac{C^*}{1+C^*}",
     title="Crystals and mother liquor from one charge",
-    typical={"mass": (1.0, 10.0), "solute_mass_fraction": (0.3, 0.4), "solubility_per_solvent": (0.1, 0.3),
-             "solute_fraction_of_crystal": (0.55, 1.0), "evaporated_mass": (0.0, 0.05)},
-)  # fmt: skip
+    typical={
+        "mass": (1.0, 10.0),
+        "solute_mass_fraction": (0.3, 0.4),
+        "solubility_per_solvent": (0.1, 0.3),
+        "solute_fraction_of_crystal": (0.55, 1.0),
+        "evaporated_mass": (0.0, 0.05),
+    },
+)
 def crystallizer_batch_balance(
     mass: Mass,
     solute_mass_fraction: MassFraction,
@@ -32,15 +37,21 @@ def crystallizer_batch_balance(
     solute_fraction_of_crystal: SoluteShare = 1.0,
     evaporated_mass: Mass = 0.0,
 ) -> BatchBalance:
-    """Crystals, mother liquor and yield of a charge that is left in equilibrium, hydrates and evaporation included.
+    """Crystals, mother liquor and yield of a charge that is left in equilibrium, hydrates and evaporation
+    included.
 
-    Compositions are of anhydrous solute. Potassium chloride of Coulson and Richardson, saturated at 360 K and cooled to 290 K: 534 kg of 1500 kg.
+    Compositions are of anhydrous solute. Potassium chloride of Coulson and Richardson, saturated at 360 K and
+    cooled to 290 K: 534 kg of 1500 kg.
 
-    >>> out = crystallizer_batch_balance(mass="4301 kg", solute_mass_fraction=53.55 / 153.55, solubility_per_solvent="34.5 g/100 g")
+    >>> out = crystallizer_batch_balance(
+    ...     mass="4301 kg", solute_mass_fraction=53.55 / 153.55, solubility_per_solvent="34.5 g/100 g"
+    ... )
     >>> round(out.crystal_mass)
     534
     """
-    found = crystallizer_balance.function(mass, solute_mass_fraction, solubility_per_solvent, solute_fraction_of_crystal, evaporated_mass)
+    found = crystallizer_balance.function(
+        mass, solute_mass_fraction, solubility_per_solvent, solute_fraction_of_crystal, evaporated_mass
+    )
     return BatchBalance(*found)
 
 
@@ -59,9 +70,14 @@ class KnownSoluteBatch(NamedTuple):
     source="mullin2001, ch. 8; geankoplis2003, sec. 12.11",
     equation=r"Q = \sum m h|_{end} - \sum m h|_{start}",
     title="Crystals and heat from one charge of a solute of the library",
-    typical={"mass": (1.0, 10.0), "solute_mass_fraction": (0.3, 0.4), "temperature": (280.0, 300.0), "temperature_inlet": (330.0, 350.0),
-             "evaporated_mass": (0.0, 0.05)},
-)  # fmt: skip
+    typical={
+        "mass": (1.0, 10.0),
+        "solute_mass_fraction": (0.3, 0.4),
+        "temperature": (280.0, 300.0),
+        "temperature_inlet": (330.0, 350.0),
+        "evaporated_mass": (0.0, 0.05),
+    },
+)
 def crystallizer_batch_balance_library(
     mass: Mass,
     solute_mass_fraction: MassFraction,
@@ -70,13 +86,19 @@ def crystallizer_batch_balance_library(
     evaporated_mass: Mass = 0.0,
     system: str = "sodium sulfate",
 ) -> KnownSoluteBatch:
-    """Crystals, yield and heat of a charge from the solute's name: solubility, hydrate and heats come from the library.
+    """Crystals, yield and heat of a charge from the solute's name: solubility, hydrate and heats come from
+    the library.
 
-    Heat is negative where it is to be removed. Sodium sulfate of Coulson and Richardson: 722 kg of decahydrate from 3000 kg.
+    Heat is negative where it is to be removed. Sodium sulfate of Coulson and Richardson: 722 kg of
+    decahydrate from 3000 kg.
 
-    >>> out = crystallizer_batch_balance_library(mass=3000, solute_mass_fraction=1 / 6, temperature=283, temperature_inlet=333, evaporated_mass=50)
+    >>> out = crystallizer_batch_balance_library(
+    ...     mass=3000, solute_mass_fraction=1 / 6, temperature=283, temperature_inlet=333, evaporated_mass=50
+    ... )
     >>> round(out.crystal_mass / 722, 1)
     1.0
     """
-    found = crystallizer_balance_library.function(mass, solute_mass_fraction, temperature, temperature_inlet, evaporated_mass, system)
+    found = crystallizer_balance_library.function(
+        mass, solute_mass_fraction, temperature, temperature_inlet, evaporated_mass, system
+    )
     return KnownSoluteBatch(*found)

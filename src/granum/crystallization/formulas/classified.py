@@ -7,18 +7,36 @@ from typing import NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import Concentration, Density, Distance, Length, NucleationRate, PopulationDensity, PositiveNumber, Time
+from granum.core.kinds import (
+    Concentration,
+    Density,
+    Distance,
+    Length,
+    NucleationRate,
+    PopulationDensity,
+    PositiveNumber,
+    Time,
+)
 from granum.crystallization.formulas.msmpr import NO_GROWTH
 from granum.crystallization.kinds import ForwardGrowthRate, ProductionRate
 
 
 @formula(
     source="randolph1988, ch. 8",
-    equation=r"n = n_0 \exp\left(-\frac{R\min(L,L_f) + \max(0,\min(L,L_p)-L_f) + z\max(0,L-L_p)}{G\tau}\right)",
+    equation=(
+        r"n = n_0 \exp\left(-\frac{R\min(L,L_f) + \max(0,\min(L,L_p)-L_f) + " r"z\max(0,L-L_p)}{G\tau}\right)"
+    ),
     output="population_density",
-    typical={"crystal_size": (1e-5, 1e-3), "growth_rate": (2e-8, 1e-7), "residence_time": (1800.0, 7200.0), "fines_removal_ratio": (1.0, 5.0),
-             "product_removal_ratio": (1.0, 5.0), "fines_cut_size": (5e-5, 1e-4), "product_cut_size": (3e-4, 5e-4)},
-)  # fmt: skip
+    typical={
+        "crystal_size": (1e-5, 1e-3),
+        "growth_rate": (2e-8, 1e-7),
+        "residence_time": (1800.0, 7200.0),
+        "fines_removal_ratio": (1.0, 5.0),
+        "product_removal_ratio": (1.0, 5.0),
+        "fines_cut_size": (5e-5, 1e-4),
+        "product_cut_size": (3e-4, 5e-4),
+    },
+)
 def population_density_classified(
     crystal_size: Distance,
     nuclei_population_density: PopulationDensity,
@@ -29,20 +47,33 @@ def population_density_classified(
     product_removal_ratio: PositiveNumber,
     product_cut_size: Length,
 ) -> PopulationDensity:
-    """Population density with fines removed R times and coarse product z times as fast as the mother liquor, ideal cuts.
+    """Population density with fines removed R times and coarse product z times as fast as the mother liquor,
+    ideal cuts.
 
-    Fines removal (R above 1) makes fewer and larger crystals with a wider spread, classified product removal (z above 1) narrower and
-    smaller ones. R = z = 1 is the ideal continuous crystallizer.
+    Fines removal (R above 1) makes fewer and larger crystals with a wider spread, classified product removal
+    (z above 1) narrower and smaller ones. R = z = 1 is the ideal continuous crystallizer.
 
-    >>> n = population_density_classified(crystal_size=3e-4, nuclei_population_density=1.0, growth_rate=1e-7, residence_time=1000,
-    ...     fines_removal_ratio=3.0, fines_cut_size=1e-4, product_removal_ratio=2.0, product_cut_size=2e-4)
+    >>> n = population_density_classified(
+    ...     crystal_size=3e-4,
+    ...     nuclei_population_density=1.0,
+    ...     growth_rate=1e-7,
+    ...     residence_time=1000,
+    ...     fines_removal_ratio=3.0,
+    ...     fines_cut_size=1e-4,
+    ...     product_removal_ratio=2.0,
+    ...     product_cut_size=2e-4,
+    ... )
     >>> round(n, 6)
     0.002479
     """
     L, Lf, Lp = crystal_size, fines_cut_size, product_cut_size
     impossible(Lf > Lp, Lf, "fines_cut_size", 0.0, Lp)
     impossible(~(growth_rate * residence_time > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
-    path = fines_removal_ratio * jnp.minimum(L, Lf) + jnp.clip(L - Lf, 0.0, Lp - Lf) + product_removal_ratio * jnp.maximum(L - Lp, 0.0)
+    path = (
+        fines_removal_ratio * jnp.minimum(L, Lf)
+        + jnp.clip(L - Lf, 0.0, Lp - Lf)
+        + product_removal_ratio * jnp.maximum(L - Lp, 0.0)
+    )
     return nuclei_population_density * jnp.exp(-path / (growth_rate * residence_time))
 
 
@@ -50,7 +81,11 @@ def population_density_classified(
     source="randolph1988, ch. 4",
     equation=r"n_2 = n_0\,\frac{a}{a-b}\left(e^{-L/a} - e^{-L/b}\right),\; a = G_1\tau_1,\; b = G_2\tau_2",
     output="population_density",
-    typical={"crystal_size": (1e-5, 1e-3), "growth_length_first": (1e-4, 1.4e-4), "growth_length_second": (4e-5, 8e-5)},
+    typical={
+        "crystal_size": (1e-5, 1e-3),
+        "growth_length_first": (1e-4, 1.4e-4),
+        "growth_length_second": (4e-5, 8e-5),
+    },
 )
 def population_density_second_stage(
     crystal_size: Distance,
@@ -58,11 +93,18 @@ def population_density_second_stage(
     growth_length_first: Length,
     growth_length_second: Length,
 ) -> PopulationDensity:
-    """Population density leaving a second stage in which the crystals of the first only grow, both mixed, at equal flow.
+    """Population density leaving a second stage in which the crystals of the first only grow, both mixed, at
+    equal flow.
 
-    The growth lengths are growth rate times residence time of each stage; the nuclei density is that of the first stage.
+    The growth lengths are growth rate times residence time of each stage; the nuclei density is that of the
+    first stage.
 
-    >>> n = population_density_second_stage(crystal_size=2e-4, nuclei_population_density=1.0, growth_length_first=1e-4, growth_length_second=0.5e-4)
+    >>> n = population_density_second_stage(
+    ...     crystal_size=2e-4,
+    ...     nuclei_population_density=1.0,
+    ...     growth_length_first=1e-4,
+    ...     growth_length_second=0.5e-4,
+    ... )
     >>> round(n, 5)
     0.23404
     """
@@ -93,12 +135,19 @@ def production_classifying(
     crystal_density: Density,
     volume_shape_factor: PositiveNumber = 1.0,
 ) -> ClassifyingProduction:
-    """Production and births of a crystallizer in which every crystal leaves when it has reached the product size, and none before.
+    """Production and births of a crystallizer in which every crystal leaves when it has reached the product
+    size, and none before.
 
-    Per volume of what the magma density refers to. Copper sulfate pentahydrate of McCabe: 1.4 mm at 0.2 µm/s, 0.35 m³ of crystals of 2300 kg/m³ per m³
-    of mother liquor and shape factor 0.2 give 1656 kg/(m³ h).
+    Per volume of what the magma density refers to. Copper sulfate pentahydrate of McCabe: 1.4 mm at 0.2 µm/s,
+    0.35 m³ of crystals of 2300 kg/m³ per m³ of mother liquor and shape factor 0.2 give 1656 kg/(m³ h).
 
-    >>> out = production_classifying(growth_rate="0.2 um/s", product_size="1.4 mm", magma_density=0.35 * 2300, crystal_density=2300, volume_shape_factor=0.2)
+    >>> out = production_classifying(
+    ...     growth_rate="0.2 um/s",
+    ...     product_size="1.4 mm",
+    ...     magma_density=0.35 * 2300,
+    ...     crystal_density=2300,
+    ...     volume_shape_factor=0.2,
+    ... )
     >>> round(out.production_per_volume * 3600), round(out.nucleation_rate * 3600 / 1e9, 2)
     (1656, 1.31)
     """

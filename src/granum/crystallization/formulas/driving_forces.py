@@ -1,4 +1,6 @@
-"""What nucleation and growth laws raise to a power: the supersaturation, in the definition of the source of the kinetics."""
+"""What nucleation and growth laws raise to a power: the supersaturation, in the definition of the source of
+the kinetics.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,13 @@ class DrivingForce(eqx.Module):
         """Value in the unit of the kinetics."""
 
 
-@law("driving_force", name="relative", source="mullin2001, ch. 3", title="Relative supersaturation (C − C*)/C*",
-     equation=r"\sigma = (C - C^*)/C^*")  # fmt: skip
+@law(
+    "driving_force",
+    name="relative",
+    source="mullin2001, ch. 3",
+    title="Relative supersaturation (C − C*)/C*",
+    equation=r"\sigma = (C - C^*)/C^*",
+)
 class RelativeSupersaturation(DrivingForce):
     """Relative supersaturation on anhydrous solute per mass of solvent."""
 
@@ -29,8 +36,13 @@ class RelativeSupersaturation(DrivingForce):
         return (solute_per_solvent - solubility_per_solvent) / solubility_per_solvent
 
 
-@law("driving_force", name="absolute", source="mullin2001, ch. 3", title="Absolute supersaturation C − C*",
-     equation=r"\Delta C = C - C^*")  # fmt: skip
+@law(
+    "driving_force",
+    name="absolute",
+    source="mullin2001, ch. 3",
+    title="Absolute supersaturation C − C*",
+    equation=r"\Delta C = C - C^*",
+)
 class AbsoluteSupersaturation(DrivingForce):
     """Absolute supersaturation in kg of anhydrous solute per kg of solvent."""
 
@@ -38,8 +50,13 @@ class AbsoluteSupersaturation(DrivingForce):
         return solute_per_solvent - solubility_per_solvent
 
 
-@law("driving_force", name="logarithmic", source="mullin2001, ch. 3", title="Logarithm of the supersaturation ratio",
-     equation=r"\ln(C/C^*)")  # fmt: skip
+@law(
+    "driving_force",
+    name="logarithmic",
+    source="mullin2001, ch. 3",
+    title="Logarithm of the supersaturation ratio",
+    equation=r"\ln(C/C^*)",
+)
 class LogarithmicSupersaturation(DrivingForce):
     """Logarithm of the supersaturation ratio, the thermodynamic driving force of an ideal solution."""
 
@@ -47,8 +64,13 @@ class LogarithmicSupersaturation(DrivingForce):
         return safe_log(solute_per_solvent / solubility_per_solvent, otherwise=-700.0)
 
 
-@law("driving_force", name="molar", source="mullin2001, ch. 3", title="Molar supersaturation in kmol per cubic meter of solvent",
-     equation=r"\Delta C\,\rho_{solvent} / M")  # fmt: skip
+@law(
+    "driving_force",
+    name="molar",
+    source="mullin2001, ch. 3",
+    title="Molar supersaturation in kmol per cubic meter of solvent",
+    equation=r"\Delta C\,\rho_{solvent} / M",
+)
 class MolarSupersaturation(DrivingForce):
     """Absolute supersaturation in kmol of solute per cubic meter of solvent."""
 

@@ -32,11 +32,19 @@ from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 
 @formula(source="mullin2001, ch. 6", equation=r"G = \frac{k_a \Phi}{3 k_v \rho_c}", family="growth_formula")
 def growth_rate_from_flux(
-    growth_flux: MassFlux, crystal_density: Density, volume_shape_factor: PositiveNumber, surface_shape_factor: PositiveNumber
+    growth_flux: MassFlux,
+    crystal_density: Density,
+    volume_shape_factor: PositiveNumber,
+    surface_shape_factor: PositiveNumber,
 ) -> GrowthRate:
     """Growth rate of size that belongs to a mass flux to the crystal surface.
 
-    >>> round(growth_rate_from_flux(growth_flux=1e-4, crystal_density=2000, volume_shape_factor=1.0, surface_shape_factor=6.0), 12)
+    >>> round(
+    ...     growth_rate_from_flux(
+    ...         growth_flux=1e-4, crystal_density=2000, volume_shape_factor=1.0, surface_shape_factor=6.0
+    ...     ),
+    ...     12,
+    ... )
     1e-07
     """
     return surface_shape_factor * growth_flux / (3.0 * volume_shape_factor * crystal_density)
@@ -51,7 +59,9 @@ class FilmGrowth(NamedTuple):
 
 
 def _interface(C, C_star, kd, kr, r):
-    """Concentration at the crystal surface where both fluxes are equal; C* where there is no supersaturation."""
+    """Concentration at the crystal surface where both fluxes are equal; C* where there is no
+    supersaturation.
+    """
     driving = jnp.maximum(C - C_star, 0.0)
     some = driving > 0
     full = jnp.where(some, driving, 1.0)
@@ -75,26 +85,41 @@ def film_growth(
 ) -> FilmGrowth:
     """Mass flux to a crystal by diffusion through the film and integration at the surface in series.
 
-    The integration coefficient is the flux at a driving force of 1 kg/m³: Φ = k_r (Δc / 1 kg/m³)^r, so that its unit is the same at every order. Printed
-    coefficients in m/s (order 1) or m⁴/(kg s) (order 2) have the same number in SI.
+    The integration coefficient is the flux at a driving force of 1 kg/m³: Φ = k_r (Δc / 1 kg/m³)^r, so that
+    its unit is the same at every order. Printed coefficients in m/s (order 1) or m⁴/(kg s) (order 2) have the
+    same number in SI.
 
-    The effectiveness factor is the flux over the one that integration alone would allow: 1 means integration controls, 0
-    diffusion. For order 1 the resistances add.
+    The effectiveness factor is the flux over the one that integration alone would allow: 1 means integration
+    controls, 0 diffusion. For order 1 the resistances add.
 
-    >>> flux, surface, factor = film_growth(solute_concentration=110, solubility_concentration=100, diffusion_coefficient=1e-5,
-    ...                                     integration_coefficient=1e-5, integration_order=1.0)
+    >>> flux, surface, factor = film_growth(
+    ...     solute_concentration=110,
+    ...     solubility_concentration=100,
+    ...     diffusion_coefficient=1e-5,
+    ...     integration_coefficient=1e-5,
+    ...     integration_order=1.0,
+    ... )
     >>> round(flux * 1e5, 6), round(surface, 6), round(factor, 6)
     (5.0, 105.0, 0.5)
     """
-    C, C_star, kd, kr, r = solute_concentration, solubility_concentration, diffusion_coefficient, integration_coefficient, integration_order
+    C, C_star, kd, kr, r = (
+        solute_concentration,
+        solubility_concentration,
+        diffusion_coefficient,
+        integration_coefficient,
+        integration_order,
+    )
     C_i, found = _interface(C, C_star, kd, kr, r)
     unconverged(found)
     flux = kd * (jnp.maximum(C, C_star) - C_i)
     return FilmGrowth(flux, C_i, safe_divide(flux, kr * safe_power(C - C_star, r), 1.0))
 
 
-@formula(source="ranz1952", equation=r"\mathrm{Sh} = 2 + 0.6\,\mathrm{Re}^{1/2}\,\mathrm{Sc}^{1/3}",
-         fitted={"reynolds_number": (0.0, 200.0)})  # fmt: skip
+@formula(
+    source="ranz1952",
+    equation=r"\mathrm{Sh} = 2 + 0.6\,\mathrm{Re}^{1/2}\,\mathrm{Sc}^{1/3}",
+    fitted={"reynolds_number": (0.0, 200.0)},
+)
 def sherwood_number_ranz_marshall(reynolds_number: Ratio, schmidt_number: PositiveNumber) -> PositiveNumber:
     """Sherwood number of a sphere in a stream after Ranz and Marshall.
 
@@ -106,7 +131,10 @@ def sherwood_number_ranz_marshall(reynolds_number: Ratio, schmidt_number: Positi
 
 @formula(
     source="levins1972; garside1985",
-    equation=r"\mathrm{Sh} = 2 + 0.47\left(\frac{\varepsilon^{1/3} L^{4/3}}{\nu}\right)^{0.62}\left(\frac{D_a}{D_t}\right)^{0.17}\mathrm{Sc}^{0.36}",
+    equation=(
+        r"\mathrm{Sh} = 2 + 0.47\left(\frac{\varepsilon^{1/3} "
+        r"L^{4/3}}{\nu}\right)^{0.62}\left(\frac{D_a}{D_t}\right)^{0.17}\mathrm{Sc}^{0.36}"
+    ),
     typical={"agitator_to_tank": (0.2, 0.6)},
 )
 def sherwood_number_levins_glastonbury(
@@ -120,8 +148,15 @@ def sherwood_number_levins_glastonbury(
 
     For particles of nearly the density of the liquid; the specific power is in W/kg of suspension.
 
-    >>> round(sherwood_number_levins_glastonbury(crystal_size="1 mm", specific_power_input=0.125, kinematic_viscosity="1 mm^2/s",
-    ...                                          schmidt_number=1000.0), 2)
+    >>> round(
+    ...     sherwood_number_levins_glastonbury(
+    ...         crystal_size="1 mm",
+    ...         specific_power_input=0.125,
+    ...         kinematic_viscosity="1 mm^2/s",
+    ...         schmidt_number=1000.0,
+    ...     ),
+    ...     2,
+    ... )
     58.79
     """
     eddy = specific_power_input ** (1.0 / 3.0) * crystal_size ** (4.0 / 3.0) / kinematic_viscosity
@@ -140,13 +175,23 @@ def diffusion_coefficient_sherwood(
     return sherwood_number * diffusivity / crystal_size
 
 
-@law("growth_rate", name="film_growth_law", source="mullin2001, ch. 6", title="Growth by diffusion and integration in series",
-     equation=r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r,\quad G = \frac{k_a \Phi}{3 k_v \rho_c}")  # fmt: skip
+@law(
+    "growth_rate",
+    name="film_growth_law",
+    source="mullin2001, ch. 6",
+    title="Growth by diffusion and integration in series",
+    equation=(
+        r"\Phi = k_d (C - C_i) = k_r \left(\frac{C_i - C^*}{1\ \mathrm{kg/m^3}}\right)^r,\quad G = "
+        r"\frac{k_a \Phi}{3 k_v \rho_c}"
+    ),
+)
 class FilmGrowthLaw(GrowthLaw):
-    """Growth by diffusion through the film and integration at the surface in series, both with activation energies.
+    """Growth by diffusion through the film and integration at the surface in series, both with activation
+    energies.
 
-    Concentrations are taken per volume of solution with a constant density of the solution. ``diffusion_coefficient`` and
-    ``integration_coefficient`` multiply ``exp(-E/RT)``; the latter is the flux at a driving force of 1 kg/m³, in kg/(m² s) at every order.
+    Concentrations are taken per volume of solution with a constant density of the solution.
+    ``diffusion_coefficient`` and ``integration_coefficient`` multiply ``exp(-E/RT)``; the latter is the flux
+    at a driving force of 1 kg/m³, in kg/(m² s) at every order.
     """
 
     diffusion_coefficient: MassTransferCoefficient
@@ -159,7 +204,9 @@ class FilmGrowthLaw(GrowthLaw):
     diffusion_activation_energy: MolarEnergy = 0.0
     integration_activation_energy: MolarEnergy = 0.0
 
-    def __call__(self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature) -> GrowthRate:
+    def __call__(
+        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature
+    ) -> GrowthRate:
         C = self.liquid_density * solute_per_solvent / (1.0 + solute_per_solvent)
         C_star = self.liquid_density * solubility_per_solvent / (1.0 + solubility_per_solvent)
         kd = self.diffusion_coefficient * arrhenius(self.diffusion_activation_energy, temperature)
@@ -171,7 +218,10 @@ class FilmGrowthLaw(GrowthLaw):
 
 @formula(
     source="mullin2001, ch. 6",
-    equation=r"\mathrm{Da} = \frac{k_r}{k_d\,c_0}\left(\frac{C-C^*}{c_0}\right)^{r-1},\ c_0 = 1\ \mathrm{kg/m^3}",
+    equation=(
+        r"\mathrm{Da} = \frac{k_r}{k_d\,c_0}\left(\frac{C-C^*}{c_0}\right)^{r-1},\ c_0 = "
+        r"1\ \mathrm{kg/m^3}"
+    ),
     output="damkohler_growth",
 )
 def damkohler_growth(
@@ -185,8 +235,13 @@ def damkohler_growth(
 
     Well above 1 diffusion controls the growth, well below 1 the integration does.
 
-    >>> damkohler_growth(solute_concentration=110, solubility_concentration=100, diffusion_coefficient=1e-5,
-    ...                  integration_coefficient=1e-5, integration_order=1.0)
+    >>> damkohler_growth(
+    ...     solute_concentration=110,
+    ...     solubility_concentration=100,
+    ...     diffusion_coefficient=1e-5,
+    ...     integration_coefficient=1e-5,
+    ...     integration_order=1.0,
+    ... )
     1.0
     """
     driving = solute_concentration - solubility_concentration

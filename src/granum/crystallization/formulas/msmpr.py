@@ -1,4 +1,6 @@
-"""The ideal continuous crystallizer (mixed suspension, mixed product removal): its exponential size distribution."""
+"""The ideal continuous crystallizer (mixed suspension, mixed product removal): its exponential size
+distribution.
+"""
 
 from __future__ import annotations
 
@@ -33,11 +35,17 @@ _GROWTH = {"growth_rate": (1e-8, 1e-7), "residence_time": (1800.0, 7200.0)}
     typical=_GROWTH,
 )
 def population_density(
-    crystal_size: Distance, nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate, residence_time: Time
+    crystal_size: Distance,
+    nuclei_population_density: PopulationDensity,
+    growth_rate: ForwardGrowthRate,
+    residence_time: Time,
 ) -> PopulationDensity:
-    """Population density of an ideal continuous crystallizer (MSMPR) with growth that does not depend on size.
+    """Population density of an ideal continuous crystallizer (MSMPR) with growth that does not depend on
+    size.
 
-    >>> n = population_density(crystal_size="100 um", nuclei_population_density=1e14, growth_rate=1e-7, residence_time=1000)
+    >>> n = population_density(
+    ...     crystal_size="100 um", nuclei_population_density=1e14, growth_rate=1e-7, residence_time=1000
+    ... )
     >>> round(n / 1e14, 5)
     0.36788
     """
@@ -45,7 +53,9 @@ def population_density(
 
 
 @formula(source="randolph1988, ch. 4", equation=r"B_0 = n_0 G", family="nucleation_formula")
-def nucleation_rate_msmpr(nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate) -> NucleationRate:
+def nucleation_rate_msmpr(
+    nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate
+) -> NucleationRate:
     """Nucleation rate from the population density of nuclei and the growth rate.
 
     >>> round(nucleation_rate_msmpr(nuclei_population_density=1e14, growth_rate=1e-7), 6)
@@ -64,11 +74,25 @@ def magma_density(
 ) -> Concentration:
     """Magma density (crystals per suspension volume) of an ideal continuous crystallizer.
 
-    >>> round(magma_density(nuclei_population_density=1e14, growth_rate=1e-7, residence_time=1000, crystal_density=2000,
-    ...                     volume_shape_factor=0.5), 3)
+    >>> round(
+    ...     magma_density(
+    ...         nuclei_population_density=1e14,
+    ...         growth_rate=1e-7,
+    ...         residence_time=1000,
+    ...         crystal_density=2000,
+    ...         volume_shape_factor=0.5,
+    ...     ),
+    ...     3,
+    ... )
     60.0
     """
-    return 6.0 * volume_shape_factor * crystal_density * nuclei_population_density * (growth_rate * residence_time) ** 4
+    return (
+        6.0
+        * volume_shape_factor
+        * crystal_density
+        * nuclei_population_density
+        * (growth_rate * residence_time) ** 4
+    )
 
 
 @formula(source="randolph1988, ch. 4", equation=r"n_0 = \frac{M_T}{6 k_v \rho_c (G\tau)^4}", typical=_GROWTH)
@@ -81,7 +105,13 @@ def nuclei_population_density(
 ) -> PopulationDensity:
     """Population density of nuclei that an ideal continuous crystallizer needs for its magma density.
 
-    >>> n = nuclei_population_density(magma_density=60, growth_rate=1e-7, residence_time=1000, crystal_density=2000, volume_shape_factor=0.5)
+    >>> n = nuclei_population_density(
+    ...     magma_density=60,
+    ...     growth_rate=1e-7,
+    ...     residence_time=1000,
+    ...     crystal_density=2000,
+    ...     volume_shape_factor=0.5,
+    ... )
     >>> round(n / 1e14, 6)
     1.0
     """
@@ -98,7 +128,11 @@ def dominant_size(growth_rate: ForwardGrowthRate, residence_time: Time) -> Lengt
     return 3.0 * growth_rate * residence_time
 
 
-@formula(source="randolph1988, ch. 4; mullin2001, ch. 9", equation=r"W(L_{50}) = \tfrac12,\quad L_{50} = 3.672\,G\tau", typical=_GROWTH)
+@formula(
+    source="randolph1988, ch. 4; mullin2001, ch. 9",
+    equation=r"W(L_{50}) = \tfrac12,\quad L_{50} = 3.672\,G\tau",
+    typical=_GROWTH,
+)
 def mass_median_size(growth_rate: ForwardGrowthRate, residence_time: Time) -> Length:
     """Median size by mass of an ideal continuous crystallizer.
 
@@ -113,7 +147,9 @@ def mass_median_size(growth_rate: ForwardGrowthRate, residence_time: Time) -> Le
     equation=r"W = 1 - e^{-x}\left(1 + x + \frac{x^2}{2} + \frac{x^3}{6}\right),\; x = \frac{L}{G\tau}",
     typical=_GROWTH,
 )
-def undersize_mass_fraction(crystal_size: Distance, growth_rate: ForwardGrowthRate, residence_time: Time) -> Fraction:
+def undersize_mass_fraction(
+    crystal_size: Distance, growth_rate: ForwardGrowthRate, residence_time: Time
+) -> Fraction:
     """Mass fraction of the crystals of an ideal continuous crystallizer that is smaller than a size.
 
     >>> round(undersize_mass_fraction(crystal_size=3.672e-4, growth_rate=1e-7, residence_time=1000), 4)
@@ -170,12 +206,19 @@ def population_density_size_dependent(
     size_parameter: SizeParameter,
     size_exponent: Ratio,
 ) -> PopulationDensity:
-    """Population density of a continuous crystallizer whose growth depends on size after Abegg, Stevens and Larson.
+    """Population density of a continuous crystallizer whose growth depends on size after Abegg, Stevens and
+    Larson.
 
     The growth rate is that of nuclei. Abegg and others set the parameter to 1/(Gτ). Exponents below 1.
 
-    >>> n = population_density_size_dependent(crystal_size=1e-4, nuclei_population_density=1.0, growth_rate=1e-7, residence_time=1000,
-    ...                                       size_parameter=1e4, size_exponent=0.5)
+    >>> n = population_density_size_dependent(
+    ...     crystal_size=1e-4,
+    ...     nuclei_population_density=1.0,
+    ...     growth_rate=1e-7,
+    ...     residence_time=1000,
+    ...     size_parameter=1e4,
+    ...     size_exponent=0.5,
+    ... )
     >>> round(n, 5)
     0.30882
     """
@@ -185,12 +228,16 @@ def population_density_size_dependent(
     impossible(~(path > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
     u = (1.0 - b) * jnp.log(base)
     near = jnp.abs(u) < 1e-5
-    stretch = jnp.where(near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u))  # (base^(1-b) - 1)/(1-b) over ln base
+    stretch = jnp.where(
+        near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u)
+    )  # (base^(1-b) - 1)/(1-b) over ln base
     return nuclei_population_density * base**-b * jnp.exp(-jnp.log(base) * stretch / path)
 
 
 @formula(source="randolph1988, ch. 4; garside1980", equation=r"i = b/g")
-def relative_nucleation_order(nucleation_order: PositiveNumber, growth_order: PositiveNumber) -> PositiveNumber:
+def relative_nucleation_order(
+    nucleation_order: PositiveNumber, growth_order: PositiveNumber
+) -> PositiveNumber:
     """Relative nucleation order: nucleation as a power of growth, both driven by one supersaturation.
 
     >>> round(relative_nucleation_order(nucleation_order=1.78, growth_order=1.32), 3)
@@ -201,7 +248,10 @@ def relative_nucleation_order(nucleation_order: PositiveNumber, growth_order: Po
 
 @formula(
     source="randolph1988, ch. 4",
-    equation=r"\frac{L_{D,2}}{L_{D,1}} = \left(\frac{\tau_2}{\tau_1}\right)^{\frac{i-1}{i+3}} \left(\frac{M_{T,2}}{M_{T,1}}\right)^{\frac{1-j}{i+3}}",
+    equation=(
+        r"\frac{L_{D,2}}{L_{D,1}} = \left(\frac{\tau_2}{\tau_1}\right)^{\frac{i-1}{i+3}} "
+        r"\left(\frac{M_{T,2}}{M_{T,1}}\right)^{\frac{1-j}{i+3}}"
+    ),
     output="dominant_size",
     typical={"residence_time_ratio": (0.25, 4.0), "magma_density_ratio": (0.3, 3.0)},
 )
@@ -212,16 +262,30 @@ def dominant_size_changed(
     relative_nucleation_order: PositiveNumber,
     magma_order: Ratio = 1.0,
 ) -> Length:
-    """Dominant size of an ideal continuous crystallizer after residence time and magma density have changed.
+    """Dominant size of an ideal continuous crystallizer after residence time and magma density have
+    changed.
 
-    With a relative order of 1 the residence time has no effect: longer time, less supersaturation, fewer nuclei.
+    With a relative order of 1 the residence time has no effect: longer time, less supersaturation, fewer
+    nuclei.
 
-    >>> round(dominant_size_changed(dominant_size=500e-6, residence_time_ratio=2.0, magma_density_ratio=1.0, relative_nucleation_order=3.0)
-    ...       * 1e6, 1)
+    >>> round(
+    ...     dominant_size_changed(
+    ...         dominant_size=500e-6,
+    ...         residence_time_ratio=2.0,
+    ...         magma_density_ratio=1.0,
+    ...         relative_nucleation_order=3.0,
+    ...     )
+    ...     * 1e6,
+    ...     1,
+    ... )
     630.0
     """
     i, j = relative_nucleation_order, magma_order
-    return dominant_size * residence_time_ratio ** ((i - 1.0) / (i + 3.0)) * magma_density_ratio ** ((1.0 - j) / (i + 3.0))
+    return (
+        dominant_size
+        * residence_time_ratio ** ((i - 1.0) / (i + 3.0))
+        * magma_density_ratio ** ((1.0 - j) / (i + 3.0))
+    )
 
 
 @formula(
@@ -230,10 +294,16 @@ def dominant_size_changed(
     output="crystal_size",
     typical={"undersize_mass_fraction": (0.05, 0.95), **_GROWTH},
 )
-def crystal_size_at_undersize(undersize_mass_fraction: Fraction, growth_rate: ForwardGrowthRate, residence_time: Time) -> Distance:
+def crystal_size_at_undersize(
+    undersize_mass_fraction: Fraction, growth_rate: ForwardGrowthRate, residence_time: Time
+) -> Distance:
     """Size below which a given mass fraction of the crystals of an ideal continuous crystallizer lies.
 
-    >>> round(crystal_size_at_undersize(undersize_mass_fraction=0.5, growth_rate=1e-7, residence_time=1000) * 1e6, 1)
+    >>> round(
+    ...     crystal_size_at_undersize(undersize_mass_fraction=0.5, growth_rate=1e-7, residence_time=1000)
+    ...     * 1e6,
+    ...     1,
+    ... )
     367.2
     """
     root = find_root(lambda x: gamma_share(x) - undersize_mass_fraction, 0.0, 60.0, start=3.672)
@@ -251,7 +321,10 @@ def coefficient_of_variation(percentile_16: Length, percentile_50: Length, perce
 
     About 0.52 for an ideal continuous crystallizer, whatever its kinetics.
 
-    >>> round(coefficient_of_variation(percentile_16=186.0e-6, percentile_50=367.2e-6, percentile_84=568.0e-6), 3)
+    >>> round(
+    ...     coefficient_of_variation(percentile_16=186.0e-6, percentile_50=367.2e-6, percentile_84=568.0e-6),
+    ...     3,
+    ... )
     0.52
     """
     impossible(percentile_16 > percentile_50, percentile_16, "percentile_16", 0.0, percentile_50, RISING)

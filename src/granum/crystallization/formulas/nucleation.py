@@ -1,4 +1,6 @@
-"""Nucleation: classical theory, empirical primary and secondary rates; laws that a population balance takes."""
+"""Nucleation: classical theory, empirical primary and secondary rates; laws that a population balance
+takes.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,11 @@ class NucleationLaw(eqx.Module):
 
     @abstractmethod
     def __call__(
-        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
+        self,
+        solute_per_solvent: MassRatio,
+        solubility_per_solvent: PositiveNumber,
+        temperature: Temperature,
+        magma_density: Concentration,
     ) -> NucleationRate:
         """Nucleation rate; zero where the solution is not supersaturated."""
 
@@ -86,15 +92,35 @@ def nucleation_barrier(
 ) -> PositiveNumber:
     """Nucleation barrier of classical theory over kT.
 
-    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal
+    wets wholly (Volmer).
 
-    >>> round(nucleation_barrier(supersaturation_ratio=4.0, interfacial_energy="10 mN/m", crystal_density=2000, molar_mass=0.120443), 3)
+    >>> round(
+    ...     nucleation_barrier(
+    ...         supersaturation_ratio=4.0,
+    ...         interfacial_energy="10 mN/m",
+    ...         crystal_density=2000,
+    ...         molar_mass=0.120443,
+    ...     ),
+    ...     3,
+    ... )
     1.25
     """
-    impossible(~(jnp.asarray(supersaturation_ratio) > 1.0), supersaturation_ratio, "supersaturation_ratio", 1.0, jnp.inf)
+    impossible(
+        ~(jnp.asarray(supersaturation_ratio) > 1.0),
+        supersaturation_ratio,
+        "supersaturation_ratio",
+        1.0,
+        jnp.inf,
+    )
     log_ratio = safe_log(supersaturation_ratio, otherwise=0.0)
     return _barrier(
-        log_ratio, interfacial_energy, molecular_volume(crystal_density, molar_mass), temperature, ions_per_formula, heterogeneous_factor
+        log_ratio,
+        interfacial_energy,
+        molecular_volume(crystal_density, molar_mass),
+        temperature,
+        ions_per_formula,
+        heterogeneous_factor,
     )
 
 
@@ -103,7 +129,11 @@ def nucleation_barrier(
     fitted={"heterogeneous_factor": (0.0, 1.0)},
     equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
     family="nucleation_formula",
-    typical={"supersaturation_ratio": (2.0, 10.0), "interfacial_energy": (2e-3, 1e-2), "molar_mass": (0.05, 0.15)},
+    typical={
+        "supersaturation_ratio": (2.0, 10.0),
+        "interfacial_energy": (2e-3, 1e-2),
+        "molar_mass": (0.05, 0.15),
+    },
 )
 def nucleation_rate_classical(
     supersaturation_ratio: PositiveNumber,
@@ -119,16 +149,27 @@ def nucleation_rate_classical(
 
     The pre-exponential factor is in 1/(m³ s). Zero at and below saturation.
 
-    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal
+    wets wholly (Volmer).
 
-    >>> rate = nucleation_rate_classical(supersaturation_ratio=4.0, interfacial_energy="10 mN/m", crystal_density=2000,
-    ...                                  molar_mass=0.120443, nucleation_preexponential=1e30)
+    >>> rate = nucleation_rate_classical(
+    ...     supersaturation_ratio=4.0,
+    ...     interfacial_energy="10 mN/m",
+    ...     crystal_density=2000,
+    ...     molar_mass=0.120443,
+    ...     nucleation_preexponential=1e30,
+    ... )
     >>> round(rate / 1e29, 3)
     2.865
     """
     log_ratio = safe_log(supersaturation_ratio, otherwise=0.0)
     barrier = _barrier(
-        log_ratio, interfacial_energy, molecular_volume(crystal_density, molar_mass), temperature, ions_per_formula, heterogeneous_factor
+        log_ratio,
+        interfacial_energy,
+        molecular_volume(crystal_density, molar_mass),
+        temperature,
+        ions_per_formula,
+        heterogeneous_factor,
     )
     some = barrier < LARGEST_EXPONENT
     return jnp.where(some, nucleation_preexponential * jnp.exp(-jnp.where(some, barrier, 0.0)), 0.0)
@@ -152,21 +193,33 @@ def supersaturation_ratio_nucleation(
     ions_per_formula: PositiveNumber = 1.0,
     heterogeneous_factor: PositiveNumber = 1.0,
 ) -> PositiveNumber:
-    """Supersaturation ratio at which the classical theory gives a nucleation rate, such as the 1/(cm³ s) that counts as critical.
+    """Supersaturation ratio at which the classical theory gives a nucleation rate, such as the 1/(cm³ s) that
+    counts as critical.
 
-    No value where the rate is zero or not below the pre-exponential factor. Potassium chloride of McCabe, example 27.3 (2.5 erg/cm², 300 K): the
-    exponent is 0.00357/ln²β, so that one nucleus per cm³ and second wants ln β = 0.00788.
+    No value where the rate is zero or not below the pre-exponential factor. Potassium chloride of McCabe,
+    example 27.3 (2.5 erg/cm², 300 K): the exponent is 0.00357/ln²β, so that one nucleus per cm³ and second
+    wants ln β = 0.00788.
 
-    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal
+    wets wholly (Volmer).
 
-    >>> ratio = supersaturation_ratio_nucleation(nucleation_rate="1 1/(cm^3*s)", interfacial_energy="2.5 erg/cm^2", crystal_density="1.988 g/cm^3",
-    ...     molar_mass="74.56 g/mol", nucleation_preexponential="1e25 1/(cm^3*s)", temperature=300, ions_per_formula=2)
+    >>> ratio = supersaturation_ratio_nucleation(
+    ...     nucleation_rate="1 1/(cm^3*s)",
+    ...     interfacial_energy="2.5 erg/cm^2",
+    ...     crystal_density="1.988 g/cm^3",
+    ...     molar_mass="74.56 g/mol",
+    ...     nucleation_preexponential="1e25 1/(cm^3*s)",
+    ...     temperature=300,
+    ...     ions_per_formula=2,
+    ... )
     >>> round(ratio, 5)
     1.00791
     """
     below = (nucleation_rate > 0) & (nucleation_rate < nucleation_preexponential)
     impossible(~below, nucleation_rate, "nucleation_rate", 0.0, nucleation_preexponential)
-    exponent = safe_log(nucleation_preexponential / jnp.where(below, nucleation_rate, 0.5 * nucleation_preexponential))
+    exponent = safe_log(
+        nucleation_preexponential / jnp.where(below, nucleation_rate, 0.5 * nucleation_preexponential)
+    )
     v = molecular_volume(crystal_density, molar_mass)
     at_one = _barrier(1.0, interfacial_energy, v, temperature, ions_per_formula, heterogeneous_factor)
     return jnp.where(below, jnp.exp(jnp.sqrt(at_one / exponent)), jnp.nan)
@@ -179,16 +232,26 @@ def supersaturation_ratio_nucleation(
     typical={"crystal_molar_density": (5000.0, 40000.0), "solubility_molar": (1.0, 1000.0)},
 )
 def interfacial_energy_mersmann(
-    crystal_molar_density: MolarConcentration, solubility_molar: MolarConcentration, temperature: Temperature = 298.15
+    crystal_molar_density: MolarConcentration,
+    solubility_molar: MolarConcentration,
+    temperature: Temperature = 298.15,
 ) -> SurfaceTension:
     """Crystal–solution interfacial energy from the solubility, after Mersmann.
 
     >>> round(interfacial_energy_mersmann(crystal_molar_density=19000.0, solubility_molar=0.01) * 1e3, 1)
     125.1
     """
-    impossible(solubility_molar >= crystal_molar_density, solubility_molar, "solubility_molar", 0.0, crystal_molar_density)
+    impossible(
+        solubility_molar >= crystal_molar_density,
+        solubility_molar,
+        "solubility_molar",
+        0.0,
+        crystal_molar_density,
+    )
     ratio = crystal_molar_density / solubility_molar
-    return 0.414 * BOLTZMANN * temperature * (crystal_molar_density * AVOGADRO) ** (2.0 / 3.0) * safe_log(ratio)
+    return (
+        0.414 * BOLTZMANN * temperature * (crystal_molar_density * AVOGADRO) ** (2.0 / 3.0) * safe_log(ratio)
+    )
 
 
 @formula(
@@ -207,12 +270,18 @@ def nucleation_rate_secondary(
     temperature: Temperature = 298.15,
     nucleation_activation_energy: MolarEnergy = 0.0,
 ) -> NucleationRate:
-    """Secondary nucleation rate per volume of suspension, a power law in supersaturation, magma density and agitation.
+    """Secondary nucleation rate per volume of suspension, a power law in supersaturation, magma density and
+    agitation.
 
-    The coefficient is in 1/(m³ s) per (kg/m³)^j. Zero at and below saturation. Potassium nitrate of Miller and Rawlings, whose
-    4.63e11 per third moment is 2.20e8 per kg/m³ for crystals of 2110 kg/m³.
+    The coefficient is in 1/(m³ s) per (kg/m³)^j. Zero at and below saturation. Potassium nitrate of Miller
+    and Rawlings, whose 4.63e11 per third moment is 2.20e8 per kg/m³ for crystals of 2110 kg/m³.
 
-    >>> rate = nucleation_rate_secondary(relative_supersaturation=0.01, nucleation_coefficient=2.196e8, nucleation_order=1.78, magma_density=50)
+    >>> rate = nucleation_rate_secondary(
+    ...     relative_supersaturation=0.01,
+    ...     nucleation_coefficient=2.196e8,
+    ...     nucleation_order=1.78,
+    ...     magma_density=50,
+    ... )
     >>> round(rate / 1e6, 2)
     3.02
     """
@@ -225,10 +294,16 @@ def nucleation_rate_secondary(
     )
 
 
-@law("nucleation_rate", name="secondary_nucleation", source="garside1985; mullin2001, ch. 5", title="Nucleation by a power law",
-     equation=r"B_0 = k_b\,e^{-E_b/RT}\,S^b\,M_T^j\,(N/N_0)^p")  # fmt: skip
+@law(
+    "nucleation_rate",
+    name="secondary_nucleation",
+    source="garside1985; mullin2001, ch. 5",
+    title="Nucleation by a power law",
+    equation=r"B_0 = k_b\,e^{-E_b/RT}\,S^b\,M_T^j\,(N/N_0)^p",
+)
 class PowerLawNucleation(NucleationLaw):
-    """Nucleation rate by a power law in driving force, magma density and agitation; primary with magma order 0.
+    """Nucleation rate by a power law in driving force, magma density and agitation; primary with magma order
+    0.
 
     ``nucleation_coefficient`` is in 1/(m³ s) per (unit of the driving force)^b and (kg/m³)^j.
     """
@@ -242,7 +317,11 @@ class PowerLawNucleation(NucleationLaw):
     driving_force: Annotated[Any, Law("driving_force")] = RelativeSupersaturation()
 
     def __call__(
-        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
+        self,
+        solute_per_solvent: MassRatio,
+        solubility_per_solvent: PositiveNumber,
+        temperature: Temperature,
+        magma_density: Concentration,
     ) -> NucleationRate:
         S = self.driving_force(solute_per_solvent, solubility_per_solvent)
         k = self.nucleation_coefficient * arrhenius(self.nucleation_activation_energy, temperature)
@@ -250,12 +329,19 @@ class PowerLawNucleation(NucleationLaw):
         return rate * safe_power(magma_density, self.magma_order)
 
 
-@law("nucleation_rate", name="classical_nucleation", source="mullin2001, ch. 5; volmer1939", fitted={"heterogeneous_factor": (0.0, 1.0)}, title="Classical primary nucleation",
-     equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)")  # fmt: skip
+@law(
+    "nucleation_rate",
+    name="classical_nucleation",
+    source="mullin2001, ch. 5; volmer1939",
+    fitted={"heterogeneous_factor": (0.0, 1.0)},
+    title="Classical primary nucleation",
+    equation=r"J = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right)",
+)
 class ClassicalNucleation(NucleationLaw):
     """Primary nucleation of classical theory, homogeneous or heterogeneous.
 
-    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal wets wholly (Volmer).
+    The factor is a share of the homogeneous barrier: 1 without foreign surfaces, 0 for one that the crystal
+    wets wholly (Volmer).
     """
 
     interfacial_energy: SurfaceTension
@@ -266,17 +352,33 @@ class ClassicalNucleation(NucleationLaw):
     heterogeneous_factor: PositiveNumber = 1.0
 
     def __call__(
-        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
+        self,
+        solute_per_solvent: MassRatio,
+        solubility_per_solvent: PositiveNumber,
+        temperature: Temperature,
+        magma_density: Concentration,
     ) -> NucleationRate:
         log_ratio = safe_log(solute_per_solvent / solubility_per_solvent, otherwise=0.0)
         v = molecular_volume(self.crystal_density, self.molar_mass)
-        barrier = _barrier(log_ratio, self.interfacial_energy, v, temperature, self.ions_per_formula, self.heterogeneous_factor)
+        barrier = _barrier(
+            log_ratio,
+            self.interfacial_energy,
+            v,
+            temperature,
+            self.ions_per_formula,
+            self.heterogeneous_factor,
+        )
         some = barrier < LARGEST_EXPONENT
         return jnp.where(some, self.nucleation_preexponential * jnp.exp(-jnp.where(some, barrier, 0.0)), 0.0)
 
 
-@law("nucleation_rate", name="primary_and_secondary_nucleation", source="mullin2001, ch. 5", title="Sum of two nucleation laws",
-     equation=r"B_0 = B_1 + B_2")  # fmt: skip
+@law(
+    "nucleation_rate",
+    name="primary_and_secondary_nucleation",
+    source="mullin2001, ch. 5",
+    title="Sum of two nucleation laws",
+    equation=r"B_0 = B_1 + B_2",
+)
 class SummedNucleation(NucleationLaw):
     """Two nucleation mechanisms at work together, such as primary and secondary."""
 
@@ -284,17 +386,31 @@ class SummedNucleation(NucleationLaw):
     second_nucleation: Annotated[Any, Law("nucleation_rate")]
 
     def __call__(
-        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
+        self,
+        solute_per_solvent: MassRatio,
+        solubility_per_solvent: PositiveNumber,
+        temperature: Temperature,
+        magma_density: Concentration,
     ) -> NucleationRate:
         given = (solute_per_solvent, solubility_per_solvent, temperature, magma_density)
         return self.first_nucleation(*given) + self.second_nucleation(*given)
 
 
-@law("nucleation_rate", name="no_nucleation", source="mullin2001, ch. 5", title="No nucleation", equation="B_0 = 0")
+@law(
+    "nucleation_rate",
+    name="no_nucleation",
+    source="mullin2001, ch. 5",
+    title="No nucleation",
+    equation="B_0 = 0",
+)
 class NoNucleation(NucleationLaw):
     """Seeds grow and nothing is born: the ideal of a seeded batch."""
 
     def __call__(
-        self, solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber, temperature: Temperature, magma_density: Concentration
+        self,
+        solute_per_solvent: MassRatio,
+        solubility_per_solvent: PositiveNumber,
+        temperature: Temperature,
+        magma_density: Concentration,
     ) -> NucleationRate:
         return 0.0 * (solute_per_solvent + magma_density)

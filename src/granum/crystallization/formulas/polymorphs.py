@@ -9,15 +9,26 @@ from granum.core.constants import GAS_CONSTANT
 from granum.core.kinds import PositiveNumber, Temperature
 from granum.crystallization.kinds import PositiveMolarEnergy
 
-_TYPICAL = {"enthalpy_of_fusion": (2.5e4, 2.7e4), "enthalpy_of_fusion_other": (2.9e4, 3.2e4), "melting_temperature": (455.0, 465.0),
-            "melting_temperature_other": (440.0, 450.0), "temperature": (280.0, 320.0)}  # fmt: skip
+_TYPICAL = {
+    "enthalpy_of_fusion": (2.5e4, 2.7e4),
+    "enthalpy_of_fusion_other": (2.9e4, 3.2e4),
+    "melting_temperature": (455.0, 465.0),
+    "melting_temperature_other": (440.0, 450.0),
+    "temperature": (280.0, 320.0),
+}
 
-NO_TRANSITION = "With these heats of fusion and melting points one form is more soluble at every temperature: there is no transition."
+NO_TRANSITION = (
+    "With these heats of fusion and melting points one form is more soluble at every temperature: there is "
+    "no transition."
+)
 
 
 @formula(
     source="behme1991; mullin2001, ch. 7",
-    equation=r"\ln\frac{x}{x'} = \frac{\Delta H_f}{R}\left(\frac{1}{T_m} - \frac1T\right) - \frac{\Delta H_f'}{R}\left(\frac{1}{T_m'} - \frac1T\right)",
+    equation=(
+        r"\ln\frac{x}{x'} = \frac{\Delta H_f}{R}\left(\frac{1}{T_m} - \frac1T\right) - \frac{\Delta "
+        r"H_f'}{R}\left(\frac{1}{T_m'} - \frac1T\right)"
+    ),
     output="supersaturation_ratio",
     typical=_TYPICAL,
 )
@@ -28,10 +39,12 @@ def supersaturation_ratio_polymorphs(
     melting_temperature_other: Temperature,
     temperature: Temperature = 298.15,
 ) -> PositiveNumber:
-    """Solubility of one polymorph over that of another from their melting points and heats of fusion, in any solvent.
+    """Solubility of one polymorph over that of another from their melting points and heats of fusion, in any
+    solvent.
 
-    It is the supersaturation against the other form of a solution saturated with this one. The heats of fusion are taken as constant, so that
-    the ratio is the less certain the farther the temperature is from the melting points.
+    It is the supersaturation against the other form of a solution saturated with this one. The heats of
+    fusion are taken as constant, so that the ratio is the less certain the farther the temperature is from
+    the melting points.
 
     >>> round(supersaturation_ratio_polymorphs(26400, 462.15, 29300, 447.15, temperature=299.15), 2)
     1.17
@@ -53,10 +66,12 @@ def temperature_transition_polymorphs(
     enthalpy_of_fusion_other: PositiveMolarEnergy,
     melting_temperature_other: Temperature,
 ) -> Temperature:
-    """Temperature at which two polymorphs are equally soluble, from their melting points and heats of fusion.
+    """Temperature at which two polymorphs are equally soluble, from their melting points and heats of
+    fusion.
 
-    Below both melting points the forms are enantiotropic and change places there; otherwise one is the stable one throughout. Carbamazepine:
-    form I melts at 189 °C with 26.4 kJ/mol, form III at 174 °C with 29.3 kJ/mol; measured solubilities put the transition at 73 °C.
+    Below both melting points the forms are enantiotropic and change places there; otherwise one is the stable
+    one throughout. Carbamazepine: form I melts at 189 °C with 26.4 kJ/mol, form III at 174 °C with
+    29.3 kJ/mol; measured solubilities put the transition at 73 °C.
 
     >>> round(temperature_transition_polymorphs(26400, 462.15, 29300, 447.15) - 273.15)
     72

@@ -27,25 +27,48 @@ class Program(eqx.Module):
     source="mullin1971; jones1974",
     equation=r"T = T_0 - (T_0 - T_f)\left(\frac{t}{t_f}\right)^p",
     output="temperature",
-    typical={"time": (600.0, 3000.0), "duration": (3600.0, 7200.0), "temperature_start": (320.0, 340.0), "temperature_end": (280.0, 300.0)},
+    typical={
+        "time": (600.0, 3000.0),
+        "duration": (3600.0, 7200.0),
+        "temperature_start": (320.0, 340.0),
+        "temperature_end": (280.0, 300.0),
+    },
 )
 def temperature_cooling_power(
-    time: Time, duration: Time, temperature_start: Temperature, temperature_end: Temperature, cooling_exponent: PositiveNumber = 3.0
+    time: Time,
+    duration: Time,
+    temperature_start: Temperature,
+    temperature_end: Temperature,
+    cooling_exponent: PositiveNumber = 3.0,
 ) -> Temperature:
-    """Temperature of a programmed cooling batch, a power of time: 1 is linear, 3 the seeded optimum without nucleation.
+    """Temperature of a programmed cooling batch, a power of time: 1 is linear, 3 the seeded optimum without
+    nucleation.
 
-    For growth at constant rate on a given number of seeds, supersaturation stays constant when the crystal mass, and with it the
-    temperature fall, rises with the cube of time; natural cooling does the opposite.
+    For growth at constant rate on a given number of seeds, supersaturation stays constant when the crystal
+    mass, and with it the temperature fall, rises with the cube of time; natural cooling does the opposite.
 
-    >>> round(temperature_cooling_power(time="40 min", duration="80 min", temperature_start="32 degC", temperature_end="28 degC") - 273.15, 2)
+    >>> round(
+    ...     temperature_cooling_power(
+    ...         time="40 min", duration="80 min", temperature_start="32 degC", temperature_end="28 degC"
+    ...     )
+    ...     - 273.15,
+    ...     2,
+    ... )
     31.5
     """
     impossible(time > duration, time, "time", 0.0, duration, OVER)
-    return temperature_start - (temperature_start - temperature_end) * safe_power(time / duration, cooling_exponent)
+    return temperature_start - (temperature_start - temperature_end) * safe_power(
+        time / duration, cooling_exponent
+    )
 
 
-@law("program", name="power_cooling", source="mullin1971; jones1974", title="Cooling by a power of time",
-     equation=r"T = T_0 - (T_0 - T_f)(t/t_f)^p")  # fmt: skip
+@law(
+    "program",
+    name="power_cooling",
+    source="mullin1971; jones1974",
+    title="Cooling by a power of time",
+    equation=r"T = T_0 - (T_0 - T_f)(t/t_f)^p",
+)
 class PowerCooling(Program):
     """Cooling from one temperature to another by a power of time: 1 linear, 3 cubic."""
 
@@ -59,21 +82,35 @@ class PowerCooling(Program):
         return self.temperature_start - (self.temperature_start - self.temperature_end) * share
 
 
-@law("program", name="natural_cooling", source="mullin1971", title="Natural cooling",
-     equation=r"T = T_j + (T_0 - T_j)\,e^{-t/\tau}")  # fmt: skip
+@law(
+    "program",
+    name="natural_cooling",
+    source="mullin1971",
+    title="Natural cooling",
+    equation=r"T = T_j + (T_0 - T_j)\,e^{-t/\tau}",
+)
 class NaturalCooling(Program):
-    """Cooling towards a constant jacket temperature, fast at first: the exponential of an uncontrolled batch."""
+    """Cooling towards a constant jacket temperature, fast at first: the exponential of an uncontrolled
+    batch.
+    """
 
     temperature_start: Temperature
     jacket_temperature: Temperature
     cooling_time: Time
 
     def __call__(self, time: Time) -> Temperature:
-        return self.jacket_temperature + (self.temperature_start - self.jacket_temperature) * jnp.exp(-time / self.cooling_time)
+        return self.jacket_temperature + (self.temperature_start - self.jacket_temperature) * jnp.exp(
+            -time / self.cooling_time
+        )
 
 
-@law("program", name="temperature_points", source="mullin1971", title="Temperature by points",
-     equation=r"T(t) \text{ linear between points}")  # fmt: skip
+@law(
+    "program",
+    name="temperature_points",
+    source="mullin1971",
+    title="Temperature by points",
+    equation=r"T(t) \text{ linear between points}",
+)
 class TemperaturePoints(Program):
     """Temperature by points in time, straight in between, constant outside: a recipe, or a logged batch."""
 
@@ -81,15 +118,24 @@ class TemperaturePoints(Program):
     temperature: Annotated[Temperature, Series("points")]
 
     def __call__(self, time: Time) -> Temperature:
-        return jnp.interp(jnp.asarray(time, dtype=float), jnp.asarray(self.time_points), jnp.asarray(self.temperature))
+        return jnp.interp(
+            jnp.asarray(time, dtype=float), jnp.asarray(self.time_points), jnp.asarray(self.temperature)
+        )
 
 
-@law("program", name="cooling_shares", source="jones1974", title="Cooling by shares of the temperature fall",
-     equation=r"T(t_k) = T_0 - (T_0 - T_f)\frac{\sum_{i \le k} s_i}{\sum_i s_i}")  # fmt: skip
+@law(
+    "program",
+    name="cooling_shares",
+    source="jones1974",
+    title="Cooling by shares of the temperature fall",
+    equation=r"T(t_k) = T_0 - (T_0 - T_f)\frac{\sum_{i \le k} s_i}{\sum_i s_i}",
+)
 class CoolingShares(Program):
-    """Cooling that never heats: the shares of the temperature fall in equal intervals of time, straight inside each.
+    """Cooling that never heats: the shares of the temperature fall in equal intervals of time, straight
+    inside each.
 
-    The shares count relative to their sum, so that each may be varied on its own between zero and one, for instance by an optimization.
+    The shares count relative to their sum, so that each may be varied on its own between zero and one, for
+    instance by an optimization.
     """
 
     temperature_start: Temperature
@@ -105,8 +151,13 @@ class CoolingShares(Program):
         return self.temperature_start - (self.temperature_start - self.temperature_end) * share
 
 
-@law("program", name="constant_flow", source="mullin2001, ch. 8", title="Constant flow",
-     equation=r"m(t) = \dot m\, t")  # fmt: skip
+@law(
+    "program",
+    name="constant_flow",
+    source="mullin2001, ch. 8",
+    title="Constant flow",
+    equation=r"m(t) = \dot m\, t",
+)
 class ConstantFlow(Program):
     """Mass added (or evaporated) so far at a constant flow, from a start to an end."""
 

@@ -6,7 +6,17 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import GAS_CONSTANT
-from granum.core.kinds import Concentration, Density, Diffusivity, Length, MolarMass, PositiveNumber, SurfaceTension, Temperature, Time
+from granum.core.kinds import (
+    Concentration,
+    Density,
+    Diffusivity,
+    Length,
+    MolarMass,
+    PositiveNumber,
+    SurfaceTension,
+    Temperature,
+    Time,
+)
 
 _TYPICAL = {"crystal_size": (1e-8, 1e-5)}
 
@@ -25,15 +35,31 @@ def supersaturation_ratio_gibbs_thomson(
     temperature: Temperature = 298.15,
     ions_per_formula: PositiveNumber = 1.0,
 ) -> PositiveNumber:
-    """Solubility of a small crystal over that of a large one, after Gibbs, Thomson, Ostwald and Freundlich; the size is a diameter.
+    """Solubility of a small crystal over that of a large one, after Gibbs, Thomson, Ostwald and Freundlich;
+    the size is a diameter.
 
-    Barium sulfate of Mullin, 130 mN/m: crystals of 1, 0.1 and 0.01 µm are 0.5, 6 and 72 % more soluble than large ones.
+    Barium sulfate of Mullin, 130 mN/m: crystals of 1, 0.1 and 0.01 µm are 0.5, 6 and 72 % more soluble than
+    large ones.
 
-    >>> round(supersaturation_ratio_gibbs_thomson(crystal_size=0.1e-6, interfacial_energy="130 mN/m", crystal_density=4500,
-    ...                                           molar_mass=0.233, temperature=298.15, ions_per_formula=2.0), 3)
+    >>> round(
+    ...     supersaturation_ratio_gibbs_thomson(
+    ...         crystal_size=0.1e-6,
+    ...         interfacial_energy="130 mN/m",
+    ...         crystal_density=4500,
+    ...         molar_mass=0.233,
+    ...         temperature=298.15,
+    ...         ions_per_formula=2.0,
+    ...     ),
+    ...     3,
+    ... )
     1.056
     """
-    exponent = 4.0 * interfacial_energy * molar_mass / (ions_per_formula * GAS_CONSTANT * temperature * crystal_density * crystal_size)
+    exponent = (
+        4.0
+        * interfacial_energy
+        * molar_mass
+        / (ions_per_formula * GAS_CONSTANT * temperature * crystal_density * crystal_size)
+    )
     return jnp.exp(exponent)
 
 
@@ -55,8 +81,15 @@ def crystal_size_ripened(
 ) -> Length:
     """Mean diameter after ripening limited by diffusion, after Lifshitz, Slyozov and Wagner.
 
-    >>> size = crystal_size_ripened(crystal_size=1e-7, time=1e5, interfacial_energy=0.02, diffusivity=1e-9, solubility_concentration=1.0,
-    ...                             crystal_density=1500, molar_mass=0.2)
+    >>> size = crystal_size_ripened(
+    ...     crystal_size=1e-7,
+    ...     time=1e5,
+    ...     interfacial_energy=0.02,
+    ...     diffusivity=1e-9,
+    ...     solubility_concentration=1.0,
+    ...     crystal_density=1500,
+    ...     molar_mass=0.2,
+    ... )
     >>> round(size * 1e6, 3)
     7.989
     """

@@ -65,9 +65,11 @@ def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass:
     typical={"seed_size": (3e-5, 5e-4)},
 )
 def seed_loading_critical(seed_size: Length) -> Ratio:
-    """Critical seed loading (mass of seed over the theoretical crop) above which secondary nucleation is practically suppressed.
+    """Critical seed loading (mass of seed over the theoretical crop) above which secondary nucleation is
+    practically suppressed.
 
-    An empirical line through several inorganic and organic systems with natural cooling, after Kubota, Doki and others: use it as a first guess.
+    An empirical line through several inorganic and organic systems with natural cooling, after Kubota, Doki
+    and others: use it as a first guess.
 
     >>> round(seed_loading_critical(seed_size="100 um"), 4)
     0.0217
@@ -90,10 +92,14 @@ class SeedChart(NamedTuple):
     typical={"seed_loading": (0.005, 0.3)},
 )
 def seed_chart(
-    seed_loading: PositiveNumber, seed_size: Length, crystal_density: Density, volume_shape_factor: PositiveNumber = 1.0,
+    seed_loading: PositiveNumber,
+    seed_size: Length,
+    crystal_density: Density,
+    volume_shape_factor: PositiveNumber = 1.0,
     surface_shape_factor: PositiveNumber = 6.0,
-) -> SeedChart:  # fmt: skip
-    """Ideal growth line of the seed chart: product over seed size for a seed loading, with number and surface of the seeds.
+) -> SeedChart:
+    """Ideal growth line of the seed chart: product over seed size for a seed loading, with number and surface
+    of the seeds.
 
     The loading is the mass of seed over the theoretical crop (which does not include the seed).
 
@@ -142,11 +148,14 @@ def grown_seed(
     seed_mass: Mass,
     product_mass: Mass,
 ) -> GrownSeed:
-    """Size gained by all seed crystals alike, and the product's distribution by mass, after McCabe's ΔL law: no nuclei, growth the same at any size.
+    """Size gained by all seed crystals alike, and the product's distribution by mass, after McCabe's ΔL law:
+    no nuclei, growth the same at any size.
 
     Fractions of the seed are by mass. The product must weigh no less than the seed.
 
-    >>> out = grown_seed(class_sizes=[100e-6, 200e-6], class_fractions=[0.5, 0.5], seed_mass=1.0, product_mass=17.5)
+    >>> out = grown_seed(
+    ...     class_sizes=[100e-6, 200e-6], class_fractions=[0.5, 0.5], seed_mass=1.0, product_mass=17.5
+    ... )
     >>> round(out.size_increase * 1e6, 6), [round(float(w), 4) for w in out.class_fractions_product]
     (200.0, [0.7714, 0.2286])
     """

@@ -1,4 +1,5 @@
-"""Solubility as a law of temperature: from the materials library, or by the equations that solubility data are fitted with.
+"""Solubility as a law of temperature: from the materials library, or by the equations that solubility data
+are fitted with.
 
 Every law gives kg of anhydrous solute per kg of solvent.
 """
@@ -14,7 +15,16 @@ import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
-from granum.core.kinds import Law, MassFraction, MassRatio, MolarEnergy, MolarMass, Number, Series, Temperature
+from granum.core.kinds import (
+    Law,
+    MassFraction,
+    MassRatio,
+    MolarEnergy,
+    MolarMass,
+    Number,
+    Series,
+    Temperature,
+)
 from granum.crystallization.kinds import MolarEntropy
 from granum.materials.library import Library, session
 
@@ -27,8 +37,13 @@ class SolubilityLaw(eqx.Module):
         """kg of anhydrous solute per kg of solvent in equilibrium with the crystal."""
 
 
-@law("solubility_law", name="library_solubility", source="mullin2001, appendix", title="Solubility from the materials library",
-     equation=r"C^* = C^*_{library}(T)")  # fmt: skip
+@law(
+    "solubility_law",
+    name="library_solubility",
+    source="mullin2001, appendix",
+    title="Solubility from the materials library",
+    equation=r"C^* = C^*_{library}(T)",
+)
 class LibrarySolubility(SolubilityLaw):
     """Solubility of a system of the materials library, over its stable crystal or over a named one."""
 
@@ -46,10 +61,17 @@ class LibrarySolubility(SolubilityLaw):
         return (self.materials or session()).solute(self.solute).solubility(temperature, self.crystal or None)
 
 
-@law("solubility_law", name="polynomial_solubility", source="mullin2001, ch. 3", title="Solubility by a polynomial in °C",
-     equation=r"C^* = \sum_k a_k (T - 273.15)^k")  # fmt: skip
+@law(
+    "solubility_law",
+    name="polynomial_solubility",
+    source="mullin2001, ch. 3",
+    title="Solubility by a polynomial in °C",
+    equation=r"C^* = \sum_k a_k (T - 273.15)^k",
+)
 class PolynomialSolubility(SolubilityLaw):
-    """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of solvent."""
+    """Solubility as a polynomial in the temperature in degrees Celsius, lowest power first, in kg per kg of
+    solvent.
+    """
 
     coefficients: Annotated[Number, Series("powers")]
 
@@ -61,13 +83,20 @@ class PolynomialSolubility(SolubilityLaw):
 
 
 def from_mole_fraction(x: Any, solute: Any, solvent: Any) -> Any:
-    """Mass ratio of solute to solvent from the mole fraction of solute; none where an equation leaves no solvent."""
+    """Mass ratio of solute to solvent from the mole fraction of solute; none where an equation leaves no
+    solvent.
+    """
     some = x < 1.0
     return jnp.where(some, x * solute / ((1.0 - jnp.where(some, x, 0.0)) * solvent), jnp.nan)
 
 
-@law("solubility_law", name="apelblat_solubility", source="apelblat1999", title="Solubility by Apelblat's equation",
-     equation=r"\ln x = A + B/T + C \ln T")  # fmt: skip
+@law(
+    "solubility_law",
+    name="apelblat_solubility",
+    source="apelblat1999",
+    title="Solubility by Apelblat's equation",
+    equation=r"\ln x = A + B/T + C \ln T",
+)
 class ApelblatSolubility(SolubilityLaw):
     """Mole fraction at saturation by the modified Apelblat equation, T in kelvin."""
 
@@ -82,10 +111,17 @@ class ApelblatSolubility(SolubilityLaw):
         return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)
 
 
-@law("solubility_law", name="vant_hoff_solubility", source="mullin2001, ch. 3", title="Solubility by the van 't Hoff equation",
-     equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R}")  # fmt: skip
+@law(
+    "solubility_law",
+    name="vant_hoff_solubility",
+    source="mullin2001, ch. 3",
+    title="Solubility by the van 't Hoff equation",
+    equation=r"\ln x = -\frac{\Delta H}{R T} + \frac{\Delta S}{R}",
+)
 class VantHoffSolubility(SolubilityLaw):
-    """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of dissolution."""
+    """Mole fraction at saturation by the van 't Hoff equation: one enthalpy and one entropy of
+    dissolution.
+    """
 
     enthalpy_of_dissolution: MolarEnergy
     entropy_of_dissolution: MolarEntropy
@@ -97,12 +133,20 @@ class VantHoffSolubility(SolubilityLaw):
         return from_mole_fraction(x, self.molar_mass, self.solvent_molar_mass)
 
 
-@law("solubility_law", name="antisolvent_solubility", source="yalkowsky1981", title="Solubility in a mixture with an antisolvent (log-linear)",
-     equation=r"\ln C^* = \ln C^*_0(T) - \kappa\,w - \kappa_2\,w^2")  # fmt: skip
+@law(
+    "solubility_law",
+    name="antisolvent_solubility",
+    source="yalkowsky1981",
+    title="Solubility in a mixture with an antisolvent (log-linear)",
+    equation=r"\ln C^* = \ln C^*_0(T) - \kappa\,w - \kappa_2\,w^2",
+)
 class AntisolventSolubility(SolubilityLaw):
-    """Solubility that falls exponentially with the mass fraction of antisolvent in the solvent mixture, after Yalkowsky's log-linear rule.
+    """Solubility that falls exponentially with the mass fraction of antisolvent in the solvent mixture, after
+    Yalkowsky's log-linear rule.
 
-    The curvature takes up what departs from the rule; with a negative power it describes a mixture that dissolves more than either solvent. Both solubilities are per kg of the solvent mixture. Used alone, without an antisolvent fraction, it is the law of the pure solvent.
+    The curvature takes up what departs from the rule; with a negative power it describes a mixture that
+    dissolves more than either solvent. Both solubilities are per kg of the solvent mixture. Used alone,
+    without an antisolvent fraction, it is the law of the pure solvent.
     """
 
     pure_solubility: Annotated[Any, Law("solubility_law")]
@@ -113,4 +157,6 @@ class AntisolventSolubility(SolubilityLaw):
 
     def __call__(self, temperature: Temperature, antisolvent_fraction: MassFraction = 0.0) -> MassRatio:
         w = antisolvent_fraction
-        return self.pure_solubility(temperature) * jnp.exp(-w * (self.antisolvent_power + self.antisolvent_curvature * w))
+        return self.pure_solubility(temperature) * jnp.exp(
+            -w * (self.antisolvent_power + self.antisolvent_curvature * w)
+        )

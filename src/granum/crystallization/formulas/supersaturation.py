@@ -5,7 +5,15 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import MassFraction, MassRatio, Number, OpenFraction, PositiveNumber, Ratio, TemperatureDifference
+from granum.core.kinds import (
+    MassFraction,
+    MassRatio,
+    Number,
+    OpenFraction,
+    PositiveNumber,
+    Ratio,
+    TemperatureDifference,
+)
 from granum.crystallization.kinds import SolubilitySlope, SoluteShare
 from granum.numerics.smooth import safe_log
 
@@ -16,8 +24,8 @@ NO_FREE_WATER = "The crystal water of so much hydrate would be more than all the
 def supersaturation_ratio(solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber) -> Ratio:
     """Supersaturation ratio on the basis of anhydrous solute per mass of solvent.
 
-    The ratio depends on the basis: sucrose at 20 °C, 2.45 kg in 1 kg of water against a solubility of 2.04 gives 1.20 here and
-    1.06 on mass fractions of the solution.
+    The ratio depends on the basis: sucrose at 20 °C, 2.45 kg in 1 kg of water against a solubility of
+    2.04 gives 1.20 here and 1.06 on mass fractions of the solution.
 
     >>> round(supersaturation_ratio(solute_per_solvent=2.45, solubility_per_solvent=2.04), 2)
     1.2
@@ -48,7 +56,9 @@ def absolute_supersaturation(solute_per_solvent: MassRatio, solubility_per_solve
 
 
 @formula(source="mullin2001, ch. 3", equation=r"\beta_x = \frac{C/(1+C)}{C^*/(1+C^*)}")
-def supersaturation_ratio_solution_basis(solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber) -> Ratio:
+def supersaturation_ratio_solution_basis(
+    solute_per_solvent: MassRatio, solubility_per_solvent: PositiveNumber
+) -> Ratio:
     """Supersaturation ratio on the basis of mass fractions of the solution.
 
     >>> round(supersaturation_ratio_solution_basis(solute_per_solvent=2.45, solubility_per_solvent=2.04), 2)
@@ -96,11 +106,14 @@ def solute_per_solvent_fraction(solute_mass_fraction: OpenFraction) -> MassRatio
     output="solute_per_solvent",
     typical={"solute_per_solvent": (0.1, 0.5)},
 )
-def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare) -> MassRatio:
+def solute_per_solvent_hydrate(
+    solute_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare
+) -> MassRatio:
     """Hydrate per mass of free water from the anhydrous solute per mass of total water.
 
-    The water of the hydrate counts as solute, so the ratio grows without bound as the free water is used up; beyond that there
-    is no value. Supersaturation of a hydrate on this basis is larger than on the anhydrous basis.
+    The water of the hydrate counts as solute, so the ratio grows without bound as the free water is used up;
+    beyond that there is no value. Supersaturation of a hydrate on this basis is larger than on the anhydrous
+    basis.
 
     >>> round(solute_per_solvent_hydrate(solute_per_solvent=0.2, solute_fraction_of_crystal=0.4411), 3)
     0.607
@@ -118,21 +131,33 @@ def solute_per_solvent_hydrate(solute_per_solvent: MassRatio, solute_fraction_of
     title="Anhydrous solute per solvent from hydrate per water",
     typical={"hydrate_per_solvent": (0.3, 1.0)},
 )
-def solute_per_solvent_from_hydrate(hydrate_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare) -> MassRatio:
-    """Anhydrous solute per mass of all the water from the hydrate per mass of water it is dissolved in, as older tables give solubilities.
+def solute_per_solvent_from_hydrate(
+    hydrate_per_solvent: MassRatio, solute_fraction_of_crystal: SoluteShare
+) -> MassRatio:
+    """Anhydrous solute per mass of all the water from the hydrate per mass of water it is dissolved in, as
+    older tables give solubilities.
 
-    The water of the hydrate joins the solvent. Magnesium sulfate of Bhatt and Vora, example 6.10: 401.2 kg of heptahydrate in 100 kg of
-    water is 64.2 kg of sulfate per 100 kg of all the water.
+    The water of the hydrate joins the solvent. Magnesium sulfate of Bhatt and Vora, example 6.10: 401.2 kg of
+    heptahydrate in 100 kg of water is 64.2 kg of sulfate per 100 kg of all the water.
 
-    >>> round(solute_per_solvent_from_hydrate(hydrate_per_solvent=4.012, solute_fraction_of_crystal=120.3 / 246.3), 3)
+    >>> round(
+    ...     solute_per_solvent_from_hydrate(
+    ...         hydrate_per_solvent=4.012, solute_fraction_of_crystal=120.3 / 246.3
+    ...     ),
+    ...     3,
+    ... )
     0.642
     """
     h, x = hydrate_per_solvent, solute_fraction_of_crystal
     return h * x / (1.0 + h * (1.0 - x))
 
 
-@formula(source="mullin2001, ch. 3", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation")
-def driving_force_thermodynamic(supersaturation_ratio: PositiveNumber, ions_per_formula: PositiveNumber = 1.0) -> Number:
+@formula(
+    source="mullin2001, ch. 3", equation=r"\frac{\Delta\mu}{RT} = \nu \ln \beta", family="supersaturation"
+)
+def driving_force_thermodynamic(
+    supersaturation_ratio: PositiveNumber, ions_per_formula: PositiveNumber = 1.0
+) -> Number:
     """Thermodynamic driving force of crystallization over RT, for ideal activity coefficients.
 
     >>> round(driving_force_thermodynamic(supersaturation_ratio=1.2, ions_per_formula=2.0), 4)

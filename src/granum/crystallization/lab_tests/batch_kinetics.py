@@ -12,7 +12,19 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Density, Distance, Law, Length, MassRatio, MolarEnergy, Number, PositiveNumber, Series, Temperature, Time
+from granum.core.kinds import (
+    Density,
+    Distance,
+    Law,
+    Length,
+    MassRatio,
+    MolarEnergy,
+    Number,
+    PositiveNumber,
+    Series,
+    Temperature,
+    Time,
+)
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import TemperaturePoints
@@ -35,11 +47,13 @@ TRIED = np.log([1e5, 1e7, 1e9, 1e11])  # nucleation coefficients to start from, 
     equation=r"G = k_g S^g,\quad B_0 = k_b S^b M_T",
 )
 class BatchKinetics(LabTest):
-    """Growth and secondary nucleation coefficients and orders from the concentration (and mean size) of a seeded batch over time.
+    """Growth and secondary nucleation coefficients and orders from the concentration (and mean size) of a
+    seeded batch over time.
 
-    The whole batch is simulated for every trial, with exact derivatives. Coefficients are estimated by their logarithms, which are far less
-    correlated with the orders. Concentration alone fixes the growth; the nucleation needs the mean size D[4,3] as well, or runs with
-    little seed. Several runs are fitted together with ``fit_together``.
+    The whole batch is simulated for every trial, with exact derivatives. Coefficients are estimated by their
+    logarithms, which are far less correlated with the orders. Concentration alone fixes the growth; the
+    nucleation needs the mean size D[4,3] as well, or runs with little seed. Several runs are fitted together
+    with ``fit_together``.
     """
 
     time: Annotated[Time, Series("points")]
@@ -58,8 +72,12 @@ class BatchKinetics(LabTest):
     magma_order: PositiveNumber = 1.0
 
     least_points: ClassVar[int] = 6
-    estimates: ClassVar = {"log_growth_coefficient": Number, "growth_order": Number, "log_nucleation_coefficient": Number,
-                           "nucleation_order": Number}  # fmt: skip
+    estimates: ClassVar = {
+        "log_growth_coefficient": Number,
+        "growth_order": Number,
+        "log_nucleation_coefficient": Number,
+        "nucleation_order": Number,
+    }
     holds_for: ClassVar = ("temperature",)
     axes: ClassVar = {"time": Time, "solute_per_solvent": MassRatio}
 
@@ -73,25 +91,45 @@ class BatchKinetics(LabTest):
 
         minutes = np.asarray(self.time) / 60.0
         fitted = self.predicted({name: estimate.value for name, estimate in self.fit().parameters.items()})
-        drawing = figure(axis_title("time", "min"), axis_title("solute_per_solvent", "kg/kg"), title=type(self).card.title)
+        drawing = figure(
+            axis_title("time", "min"), axis_title("solute_per_solvent", "kg/kg"), title=type(self).card.title
+        )
         saturated = np.asarray(self.solubility(np.asarray(self.temperature)))
         add_line(drawing, minutes, saturated, _("solubility"), color=LIQUID, dash="dash")
         add_line(drawing, minutes, np.asarray(fitted[0]), _("model"))
         add_points(drawing, minutes, np.asarray(self.solute_per_solvent), _("data"))
         if self.mean_diameter is not None:
             add_line(drawing, minutes, 1e6 * np.asarray(fitted[1]), _("size, model"), color=SOLID, yaxis="y2")
-            add_points(drawing, minutes, 1e6 * np.asarray(self.mean_diameter), _("size, data"), color=SOLID, yaxis="y2")
-            right = {"overlaying": "y", "side": "right", "title": axis_title("mean_diameter_mass", "um"), "showgrid": False}
+            add_points(
+                drawing,
+                minutes,
+                1e6 * np.asarray(self.mean_diameter),
+                _("size, data"),
+                color=SOLID,
+                yaxis="y2",
+            )
+            right = {
+                "overlaying": "y",
+                "side": "right",
+                "title": axis_title("mean_diameter_mass", "um"),
+                "showgrid": False,
+            }
             drawing.update_layout(
-                yaxis2={**right, "tickmode": "auto", "nticks": 6}, margin={"r": 70, "t": 80}, legend={"orientation": "h", "y": 1.08}
+                yaxis2={**right, "tickmode": "auto", "nticks": 6},
+                margin={"r": 70, "t": 80},
+                legend={"orientation": "h", "y": 1.08},
             )
         return drawing
 
     def model(self, p: dict[str, Any]) -> Model:
         """The batch with trial kinetics."""
         crystal = Crystal(self.crystal_density, self.volume_shape_factor, self.solute_fraction_of_crystal)
-        growth = PowerLawGrowth(jnp.exp(p["log_growth_coefficient"]), p["growth_order"], self.growth_activation_energy)
-        nucleation = PowerLawNucleation(jnp.exp(p["log_nucleation_coefficient"]), p["nucleation_order"], self.magma_order)
+        growth = PowerLawGrowth(
+            jnp.exp(p["log_growth_coefficient"]), p["growth_order"], self.growth_activation_energy
+        )
+        nucleation = PowerLawNucleation(
+            jnp.exp(p["log_nucleation_coefficient"]), p["nucleation_order"], self.magma_order
+        )
         return Model(self.solubility, growth, nucleation, crystal, SuspensionVolume(self.liquid_density))
 
     def predicted(self, p: dict[str, Any]) -> Any:
@@ -100,7 +138,9 @@ class BatchKinetics(LabTest):
         mass_per_cube = self.crystal_density * self.volume_shape_factor
         seeds = narrow_seeds(self.seed_size, self.seed_width, self.seed_mass_per_solvent, mass_per_cube)
         operation = Programmed(TemperaturePoints(np.asarray(self.time), np.asarray(self.temperature)))
-        course = march(self.model(p), operation, seeds, float(np.asarray(self.solute_per_solvent)[0]), 1.0, times)
+        course = march(
+            self.model(p), operation, seeds, float(np.asarray(self.solute_per_solvent)[0]), 1.0, times
+        )
         ratio = course.solute_per_solvent[index]
         if self.mean_diameter is None:
             return (ratio,)
@@ -122,14 +162,18 @@ class BatchKinetics(LabTest):
         """Logarithm of the growth coefficient and order as if the seeds alone grew: the start of the fit."""
         t, c, T = (np.asarray(v) for v in (self.time, self.solute_per_solvent, self.temperature))
         saturated = np.asarray(self.solubility(T))
-        crystals = np.maximum(self.seed_mass_per_solvent + (c[0] - c) / self.solute_fraction_of_crystal, self.seed_mass_per_solvent)
+        crystals = np.maximum(
+            self.seed_mass_per_solvent + (c[0] - c) / self.solute_fraction_of_crystal,
+            self.seed_mass_per_solvent,
+        )
         size = self.seed_size * (crystals / self.seed_mass_per_solvent) ** (1 / 3)
         growth, S = np.gradient(size, t), c / saturated - 1.0
         good = (growth > 0) & (S > 0)
         if good.sum() < 3:
             raise InputError(
                 _(
-                    "The solution is hardly ever supersaturated while crystals grow: check that concentration and solubility have the same basis."
+                    "The solution is hardly ever supersaturated while crystals grow: check that "
+                    "concentration and solubility have the same basis."
                 )
             )
         order, level = straight_line(np.log(S[good]), np.log(growth[good]))
@@ -140,7 +184,9 @@ class BatchKinetics(LabTest):
 
 
 def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
-    """One set of kinetics from several batches, each data set weighted by its own scatter (taken as 1 % of its range)."""
+    """One set of kinetics from several batches, each data set weighted by its own scatter (taken as 1 % of
+    its range).
+    """
     for test in tests:
         test.increasing("time")
     starts = np.array([test.growth_start() for test in tests])
@@ -152,19 +198,44 @@ def fit_together(tests: Sequence[BatchKinetics]) -> Fit:
 
     best = None
     for log_kb in TRIED:
-        start = {"log_growth_coefficient": float(starts[:, 0].mean()), "growth_order": float(starts[:, 1].mean()),
-                 "log_nucleation_coefficient": float(log_kb), "nucleation_order": 2.0}  # fmt: skip
-        misfit = sum(float(jnp.sum(((a - b) / s) ** 2)) for a, b, s in zip(model(start, None), y, sigma, strict=True))
+        start = {
+            "log_growth_coefficient": float(starts[:, 0].mean()),
+            "growth_order": float(starts[:, 1].mean()),
+            "log_nucleation_coefficient": float(log_kb),
+            "nucleation_order": 2.0,
+        }
+        misfit = sum(
+            float(jnp.sum(((a - b) / s) ** 2)) for a, b, s in zip(model(start, None), y, sigma, strict=True)
+        )
         if best is None or misfit < best[0]:
             best = (misfit, start)
     assert best is not None
     alone = tests[0].rows(np.zeros(1), y) if len(tests) == 1 else None
     found = fit(
-        model, best[1], np.zeros(1), y, sigma=sigma, rows=alone, card=BatchKinetics.card.key, kinds=BatchKinetics.estimates,
-        scale={"log_growth_coefficient": 1.0, "growth_order": 0.5, "log_nucleation_coefficient": 2.0, "nucleation_order": 1.0},
-        bounds={"growth_order": (0.3, 6.0), "nucleation_order": (0.3, 12.0), "log_nucleation_coefficient": (0.0, 80.0)},
-        derived=lambda p: {"growth_coefficient": jnp.exp(p["log_growth_coefficient"]), "nucleation_coefficient": jnp.exp(p["log_nucleation_coefficient"])},
-    )  # fmt: skip
+        model,
+        best[1],
+        np.zeros(1),
+        y,
+        sigma=sigma,
+        rows=alone,
+        card=BatchKinetics.card.key,
+        kinds=BatchKinetics.estimates,
+        scale={
+            "log_growth_coefficient": 1.0,
+            "growth_order": 0.5,
+            "log_nucleation_coefficient": 2.0,
+            "nucleation_order": 1.0,
+        },
+        bounds={
+            "growth_order": (0.3, 6.0),
+            "nucleation_order": (0.3, 12.0),
+            "log_nucleation_coefficient": (0.0, 80.0),
+        },
+        derived=lambda p: {
+            "growth_coefficient": jnp.exp(p["log_growth_coefficient"]),
+            "nucleation_coefficient": jnp.exp(p["log_nucleation_coefficient"]),
+        },
+    )
     held = [test.ranges() for test in tests]
     ranges = {n: (min(r[n][0] for r in held), max(r[n][1] for r in held)) for n in held[0]}
     return replace(found, defaults=tests[0].defaults(), ranges=ranges)

@@ -41,18 +41,22 @@ def population_densities(
 ) -> Annotated[PopulationDensity, Series("classes")]:
     """Population densities at the middle of sieve classes from their mass fractions and the magma density.
 
-    The urea of Bennett and Van Buren: 4.4 % of 450 g/L between 0.833 and 1.168 mm is 44 270 crystals per liter and millimeter.
+    The urea of Bennett and Van Buren: 4.4 % of 450 g/L between 0.833 and 1.168 mm is 44 270 crystals per
+    liter and millimeter.
 
-    >>> n = population_densities(class_edges="[0.833, 1.168] mm", class_fractions=[0.044], magma_density=450, crystal_density=1335)
+    >>> n = population_densities(
+    ...     class_edges="[0.833, 1.168] mm", class_fractions=[0.044], magma_density=450, crystal_density=1335
+    ... )
     >>> round(float(n[0]) / 1e6)
     44207
     """
     edges, fractions = jnp.asarray(class_edges), jnp.asarray(class_fractions)
     if edges.size != fractions.size + 1:
         raise InputError(
-            _("{edges} class limits and {classes} fractions do not go together: n classes have n + 1 limits.").format(
-                edges=edges.size, classes=fractions.size
-            ),
+            _(
+                "{edges} class limits and {classes} fractions do not go together: n classes have n + "
+                "1 limits."
+            ).format(edges=edges.size, classes=fractions.size),
             name="class_edges",
         )
     middle = 0.5 * (edges[1:] + edges[:-1])
@@ -67,10 +71,12 @@ def population_densities(
     equation=r"\ln n = \ln n_0 - \frac{L}{G\tau}",
 )
 class MsmprAnalysis(LabTest):
-    """Growth rate, population density of nuclei and nucleation rate from the straight line of log population density against size.
+    """Growth rate, population density of nuclei and nucleation rate from the straight line of log population
+    density against size.
 
-    Points at the small end often lie above the line (growth that depends on size, or dispersion): leave them out or fit a law of size. With
-    crystal density and shape factor the magma density of the line is given for comparison with the measured one.
+    Points at the small end often lie above the line (growth that depends on size, or dispersion): leave them
+    out or fit a law of size. With crystal density and shape factor the magma density of the line is given for
+    comparison with the measured one.
     """
 
     crystal_size: Annotated[Distance, Series("points")]
@@ -83,27 +89,50 @@ class MsmprAnalysis(LabTest):
     axes: ClassVar = {"crystal_size": Distance, "population_density": PopulationDensity}
 
     def fit(self) -> Fit:
-        """Growth rate and population density of nuclei with 95 % intervals; nucleation rate and dominant size from them."""
-        L, n, tau = np.asarray(self.crystal_size), np.asarray(self.population_density), float(self.residence_time)
+        """Growth rate and population density of nuclei with 95 % intervals; nucleation rate and dominant size
+        from them.
+        """
+        L, n, tau = (
+            np.asarray(self.crystal_size),
+            np.asarray(self.population_density),
+            float(self.residence_time),
+        )
         if np.any(n <= 0):
-            raise InputError(_("A population density of zero has no logarithm: leave that point out."), name="population_density")
+            raise InputError(
+                _("A population density of zero has no logarithm: leave that point out."),
+                name="population_density",
+            )
         slope, level = straight_line(L, np.log(n))
         if slope >= 0:
-            raise InputError(_("The population density does not fall with size: this is no continuous crystallizer at steady state."))
+            raise InputError(
+                _(
+                    "The population density does not fall with size: this is no continuous crystallizer "
+                    "at steady state."
+                )
+            )
 
         def derived(p: dict[str, Any]) -> dict[str, Any]:
             G, n0 = p["growth_rate"], p["nuclei_population_density"]
             out = {"nucleation_rate": G * n0, "dominant_size": 3.0 * G * tau}
             if self.crystal_density is not None:
-                out["magma_density"] = 6.0 * self.volume_shape_factor * self.crystal_density * n0 * (G * tau) ** 4
+                out["magma_density"] = (
+                    6.0 * self.volume_shape_factor * self.crystal_density * n0 * (G * tau) ** 4
+                )
             return out
 
         return self.fitted(
             lambda p, L: jnp.log(p["nuclei_population_density"]) - L / (p["growth_rate"] * tau),
-            {"growth_rate": float(-1.0 / (slope * tau)), "nuclei_population_density": float(np.exp(level))}, L, np.log(n),
-            bounds={"growth_rate": (0.0, np.inf), "nuclei_population_density": (0.0, np.inf)}, derived=derived,
-            kinds={"nucleation_rate": NucleationRate, "dominant_size": Length, "magma_density": Concentration},
-        )  # fmt: skip
+            {"growth_rate": float(-1.0 / (slope * tau)), "nuclei_population_density": float(np.exp(level))},
+            L,
+            np.log(n),
+            bounds={"growth_rate": (0.0, np.inf), "nuclei_population_density": (0.0, np.inf)},
+            derived=derived,
+            kinds={
+                "nucleation_rate": NucleationRate,
+                "dominant_size": Length,
+                "magma_density": Concentration,
+            },
+        )
 
     def chart(self) -> Any:
         """Log population density against size, with the fitted line."""
@@ -113,7 +142,10 @@ class MsmprAnalysis(LabTest):
         L, n = np.asarray(self.crystal_size), np.asarray(self.population_density)
         grid = np.linspace(0.0, 1.05 * L.max(), 100)
         drawing = figure(
-            axis_title("crystal_size", "um"), axis_title("population_density", "1/m^4"), title=type(self).card.title, y_log=True
+            axis_title("crystal_size", "um"),
+            axis_title("population_density", "1/m^4"),
+            title=type(self).card.title,
+            y_log=True,
         )
         add_line(drawing, grid * 1e6, np.exp(found.predict(grid).value), _("model"))
         add_points(drawing, L * 1e6, n, _("data"))

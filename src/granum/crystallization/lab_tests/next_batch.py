@@ -40,10 +40,11 @@ STEPS_PER_SAMPLE = 10
 
 
 class NextBatches(NamedTuple):
-    """Candidates, the most informative first, with the standard errors that the kinetics would have after each.
+    """Candidates, the most informative first, with the standard errors that the kinetics would have after
+    each.
 
-    The errors are of the logarithms of the coefficients (relative errors) and of the orders. ``joint_error`` is the geometric mean of the axes
-    of the confidence ellipsoid: the smaller, the better (D-optimal design).
+    The errors are of the logarithms of the coefficients (relative errors) and of the orders. ``joint_error``
+    is the geometric mean of the axes of the confidence ellipsoid: the smaller, the better (D-optimal design).
     """
 
     seed_mass_per_solvent: Annotated[MassRatio, Series("candidates")]
@@ -99,26 +100,53 @@ def next_batch(
     size_is_measured: bool = True,
     samples: Annotated[int, Within(2, 10_000)] = 20,
 ) -> NextBatches:
-    """Candidate batches ranked by what they would teach about growth and secondary nucleation, given what was run already.
+    """Candidate batches ranked by what they would teach about growth and secondary nucleation, given what was
+    run already.
 
-    Linear cooling between two temperatures, sampled at even times; the information of each batch comes from exact sensitivities at the present estimates
-    of the kinetics, with the given errors of concentration (kg/kg) and of the mean size (relative), and adds to that of the batches done.
+    Linear cooling between two temperatures, sampled at even times; the information of each batch comes from
+    exact sensitivities at the present estimates of the kinetics, with the given errors of concentration
+    (kg/kg) and of the mean size (relative), and adds to that of the batches done.
 
-    >>> out = next_batch(growth_coefficient=1.16e-4, growth_order=1.32, nucleation_coefficient=2.2e8, nucleation_order=1.78,
-    ...     solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}, temperature_start=305.15, temperature_end=301.15,
-    ...     crystal_density=2110, candidate_seed_masses=[0.0005, 0.01], candidate_durations=["40 min", "80 min"])
+    >>> out = next_batch(
+    ...     growth_coefficient=1.16e-4,
+    ...     growth_order=1.32,
+    ...     nucleation_coefficient=2.2e8,
+    ...     nucleation_order=1.78,
+    ...     solubility={"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]},
+    ...     temperature_start=305.15,
+    ...     temperature_end=301.15,
+    ...     crystal_density=2110,
+    ...     candidate_seed_masses=[0.0005, 0.01],
+    ...     candidate_durations=["40 min", "80 min"],
+    ... )
     >>> bool(out.joint_error[0] < out.joint_error[1])
     True
     """
     masses, durations = np.atleast_1d(candidate_seed_masses), np.atleast_1d(candidate_durations)
     done = [np.atleast_1d(v) if v is not None else np.zeros(0) for v in (done_seed_masses, done_durations)]
     if len(masses) != len(durations) or len(done[0]) != len(done[1]):
-        raise InputError(_("Give each batch a seed mass and a duration: {masses} and {durations} were given.").format(
-            masses=len(masses) + len(done[0]), durations=len(durations) + len(done[1])), name="candidate_durations")  # fmt: skip
-    kinetics = jnp.array([np.log(growth_coefficient), growth_order, np.log(nucleation_coefficient), nucleation_order], dtype=float)
+        raise InputError(
+            _("Give each batch a seed mass and a duration: {masses} and {durations} were given.").format(
+                masses=len(masses) + len(done[0]), durations=len(durations) + len(done[1])
+            ),
+            name="candidate_durations",
+        )
+    kinetics = jnp.array(
+        [np.log(growth_coefficient), growth_order, np.log(nucleation_coefficient), nucleation_order],
+        dtype=float,
+    )
     crystal = Crystal(crystal_density, volume_shape_factor)
-    setting = (solubility, crystal, liquid_density, temperature_start, temperature_end, seed_size, seed_width,
-               (concentration_error, size_error), 1.0 if size_is_measured else 0.0)  # fmt: skip
+    setting = (
+        solubility,
+        crystal,
+        liquid_density,
+        temperature_start,
+        temperature_end,
+        seed_size,
+        seed_width,
+        (concentration_error, size_error),
+        1.0 if size_is_measured else 0.0,
+    )
 
     def information(mass: Any, duration: Any) -> np.ndarray:
         return np.asarray(_information(kinetics, setting, float(mass), float(duration), samples))
@@ -135,6 +163,11 @@ def next_batch(
         joint = float(np.exp(np.linalg.slogdet(covariance)[1] / 8.0))
         rows.append((float(mass), float(duration), joint, *np.sqrt(np.diag(covariance))))
     if not rows:
-        raise ApplicabilityError(_("None of these batches tells all four parameters apart: measure the size as well, or use less seed so that nuclei matter."))  # fmt: skip
+        raise ApplicabilityError(
+            _(
+                "None of these batches tells all four parameters apart: measure the size as well, or "
+                "use less seed so that nuclei matter."
+            )
+        )
     rows.sort(key=lambda row: row[2])
     return NextBatches(*(np.array(column) for column in zip(*rows, strict=True)))

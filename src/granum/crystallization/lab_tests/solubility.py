@@ -1,4 +1,6 @@
-"""Solubility against temperature or antisolvent: Apelblat, van 't Hoff, polynomial and log-linear fits, ready to use as laws."""
+"""Solubility against temperature or antisolvent: Apelblat, van 't Hoff, polynomial and log-linear fits, ready
+to use as laws.
+"""
 
 from __future__ import annotations
 
@@ -44,17 +46,26 @@ class _Solubility(LabTest):
 
         T = np.asarray(self.temperature)
         grid = np.linspace(T.min(), T.max(), 100)
-        drawing = figure(axis_title("temperature", "degC"), axis_title("solute_per_solvent", "kg/kg"), title=type(self).card.title)
+        drawing = figure(
+            axis_title("temperature", "degC"),
+            axis_title("solute_per_solvent", "kg/kg"),
+            title=type(self).card.title,
+        )
         add_line(drawing, grid - ZERO_CELSIUS, np.asarray(self.law()(grid)), _("model"))
         add_points(drawing, T - ZERO_CELSIUS, np.asarray(self.solute_per_solvent), _("data"))
         return drawing
 
 
 @lab_test(
-    "solubility_apelblat", source="apelblat1999", title="Solubility fitted with Apelblat's equation", equation=r"\ln x = A + B/T + C\ln T"
+    "solubility_apelblat",
+    source="apelblat1999",
+    title="Solubility fitted with Apelblat's equation",
+    equation=r"\ln x = A + B/T + C\ln T",
 )
 class SolubilityApelblat(_Solubility):
-    """Apelblat coefficients from the solubility at several temperatures, fitted on the logarithm of the mole fraction."""
+    """Apelblat coefficients from the solubility at several temperatures, fitted on the logarithm of the mole
+    fraction.
+    """
 
     temperature: Annotated[Temperature, Series("points")]
     solute_per_solvent: Annotated[MassRatio, Series("points")]
@@ -71,17 +82,27 @@ class SolubilityApelblat(_Solubility):
         mean = float(T.mean())
         return self.fitted(
             lambda p, T: p["apelblat_a"] + p["apelblat_b"] / T + p["apelblat_c"] * jnp.log(T),
-            {"apelblat_a": float(a), "apelblat_b": float(b), "apelblat_c": float(c)}, T, y,
-            derived=lambda p: {"enthalpy_of_dissolution": GAS_CONSTANT * (p["apelblat_c"] * mean - p["apelblat_b"])},
+            {"apelblat_a": float(a), "apelblat_b": float(b), "apelblat_c": float(c)},
+            T,
+            y,
+            derived=lambda p: {
+                "enthalpy_of_dissolution": GAS_CONSTANT * (p["apelblat_c"] * mean - p["apelblat_b"])
+            },
             kinds={"enthalpy_of_dissolution": MolarEnergy},
-        )  # fmt: skip
+        )
 
     def law(self) -> ApelblatSolubility:
-        return ApelblatSolubility(**self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass)
+        return ApelblatSolubility(
+            **self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass
+        )
 
 
-@lab_test("solubility_vant_hoff", source="mullin2001, ch. 3", title="Solubility fitted with the van 't Hoff equation",
-          equation=r"\ln x = -\frac{\Delta H}{RT} + \frac{\Delta S}{R}")  # fmt: skip
+@lab_test(
+    "solubility_vant_hoff",
+    source="mullin2001, ch. 3",
+    title="Solubility fitted with the van 't Hoff equation",
+    equation=r"\ln x = -\frac{\Delta H}{RT} + \frac{\Delta S}{R}",
+)
 class SolubilityVantHoff(_Solubility):
     """Enthalpy and entropy of dissolution from the solubility at several temperatures."""
 
@@ -98,11 +119,18 @@ class SolubilityVantHoff(_Solubility):
         slope, level = straight_line(1 / T, y)
         return self.fitted(
             lambda p, T: (p["entropy_of_dissolution"] - p["enthalpy_of_dissolution"] / T) / GAS_CONSTANT,
-            {"enthalpy_of_dissolution": float(-slope * GAS_CONSTANT), "entropy_of_dissolution": float(level * GAS_CONSTANT)}, T, y,
-        )  # fmt: skip
+            {
+                "enthalpy_of_dissolution": float(-slope * GAS_CONSTANT),
+                "entropy_of_dissolution": float(level * GAS_CONSTANT),
+            },
+            T,
+            y,
+        )
 
     def law(self) -> VantHoffSolubility:
-        return VantHoffSolubility(**self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass)
+        return VantHoffSolubility(
+            **self.fit().values, molar_mass=self.molar_mass, solvent_molar_mass=self.solvent_molar_mass
+        )
 
 
 @lab_test(
@@ -118,44 +146,77 @@ class SolubilityPolynomial(_Solubility):
     solute_per_solvent: Annotated[MassRatio, Series("points")]
 
     least_points: ClassVar[int] = 4
-    estimates: ClassVar = {"constant_coefficient": Number, "linear_coefficient": Number, "quadratic_coefficient": Number}
+    estimates: ClassVar = {
+        "constant_coefficient": Number,
+        "linear_coefficient": Number,
+        "quadratic_coefficient": Number,
+    }
 
     def fit(self) -> Fit:
         """Coefficients with 95 % intervals."""
         theta, y = np.asarray(self.temperature) - ZERO_CELSIUS, np.asarray(self.solute_per_solvent)
         a, b, c = polynomial(theta, y, 2)
         return self.fitted(
-            lambda p, t: p["constant_coefficient"] + t * (p["linear_coefficient"] + t * p["quadratic_coefficient"]),
-            {"constant_coefficient": float(a), "linear_coefficient": float(b), "quadratic_coefficient": float(c)}, theta, y,
-        )  # fmt: skip
+            lambda p, t: (
+                p["constant_coefficient"] + t * (p["linear_coefficient"] + t * p["quadratic_coefficient"])
+            ),
+            {
+                "constant_coefficient": float(a),
+                "linear_coefficient": float(b),
+                "quadratic_coefficient": float(c),
+            },
+            theta,
+            y,
+        )
 
     def law(self) -> PolynomialSolubility:
         return PolynomialSolubility(list(self.fit().values.values()))
 
 
-@lab_test("solubility_antisolvent", source="yalkowsky1981", title="Solubility fitted against the antisolvent",
-          equation=r"\ln C^* = \ln C^*_0 - \kappa\,w - \kappa_2\,w^2")  # fmt: skip
+@lab_test(
+    "solubility_antisolvent",
+    source="yalkowsky1981",
+    title="Solubility fitted against the antisolvent",
+    equation=r"\ln C^* = \ln C^*_0 - \kappa\,w - \kappa_2\,w^2",
+)
 class SolubilityAntisolvent(LabTest):
-    """Power and curvature of an antisolvent from the solubility in mixtures of two solvents at one temperature, per mass of the mixture."""
+    """Power and curvature of an antisolvent from the solubility in mixtures of two solvents at one
+    temperature, per mass of the mixture.
+    """
 
     antisolvent_fraction: Annotated[MassFraction, Series("points")]
     solute_per_solvent: Annotated[MassRatio, Series("points")]
 
     least_points: ClassVar[int] = 4
-    estimates: ClassVar = {"solubility_per_solvent": MassRatio, "antisolvent_power": Number, "antisolvent_curvature": Number}
+    estimates: ClassVar = {
+        "solubility_per_solvent": MassRatio,
+        "antisolvent_power": Number,
+        "antisolvent_curvature": Number,
+    }
     holds_for: ClassVar = ("antisolvent_fraction",)
     axes: ClassVar = {"antisolvent_fraction": MassFraction, "solute_per_solvent": MassRatio}
 
     def fit(self) -> Fit:
-        """Solubility in the pure solvent, power and curvature with 95 % intervals, fitted on the logarithm."""
+        """Solubility in the pure solvent, power and curvature with 95 % intervals, fitted on the
+        logarithm.
+        """
         self.above_zero("solute_per_solvent")
         w, y = np.asarray(self.antisolvent_fraction), np.log(np.asarray(self.solute_per_solvent))
         a, b, c = polynomial(w, y, 2)
         return self.fitted(
-            lambda p, w: jnp.log(p["solubility_per_solvent"]) - w * (p["antisolvent_power"] + w * p["antisolvent_curvature"]),
-            {"solubility_per_solvent": float(np.exp(a)), "antisolvent_power": float(-b), "antisolvent_curvature": float(-c)}, w, y,
+            lambda p, w: (
+                jnp.log(p["solubility_per_solvent"])
+                - w * (p["antisolvent_power"] + w * p["antisolvent_curvature"])
+            ),
+            {
+                "solubility_per_solvent": float(np.exp(a)),
+                "antisolvent_power": float(-b),
+                "antisolvent_curvature": float(-c),
+            },
+            w,
+            y,
             bounds={"solubility_per_solvent": (0.0, np.inf)},
-        )  # fmt: skip
+        )
 
     def law(self) -> AntisolventSolubility:
         """The fitted solubility as a law for simulations, at the temperature of the test."""

@@ -1,4 +1,6 @@
-"""Compilation once for all values: numbers in laws, vessels and charges become traced arrays, so that only structure recompiles."""
+"""Compilation once for all values: numbers in laws, vessels and charges become traced arrays, so that only
+structure recompiles.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        given, named = jax.tree.map(lambda v: jnp.asarray(v) if isinstance(v, (float, np.ndarray)) else v, (args, kwargs))
+        given, named = jax.tree.map(
+            lambda v: jnp.asarray(v) if isinstance(v, (float, np.ndarray)) else v, (args, kwargs)
+        )
         return jitted(*given, **named)
 
     return call

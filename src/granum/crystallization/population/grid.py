@@ -1,8 +1,9 @@
 """Crystals in size classes that move with the growth path: for batches in which they agglomerate or break.
 
-Every class carries its moments 0 to 4. Growth shifts classes and moments exactly, as it does packets, so that the grid adds
-no numerical diffusion; only agglomeration and breakage are discretized, by the cell average technique of J. Kumar and
-others, which keeps number and volume of what is born. Crystals that are born open new classes at the nucleus size.
+Every class carries its moments 0 to 4. Growth shifts classes and moments exactly, as it does packets, so that
+the grid adds no numerical diffusion; only agglomeration and breakage are discretized, by the cell average
+technique of J. Kumar and others, which keeps number and volume of what is born. Crystals that are born open
+new classes at the nucleus size.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ ORDERS = range(HIGHEST + 1)
 
 
 class Classes(Population):
-    """Adjacent size classes, each with the moments 0 to 4 of its crystals; the first ``slots`` are for nuclei, youngest first."""
+    """Adjacent size classes, each with the moments 0 to 4 of its crystals; the first ``slots`` are for
+    nuclei, youngest first.
+    """
 
     low: Any
     high: Any
@@ -52,8 +55,13 @@ class Classes(Population):
         position = jnp.arange(self.low.shape[0])
         low = jnp.where(position <= slot, nucleus_size, self.low + path)
         high = jnp.where(position < slot, nucleus_size, self.high + path)
-        shifted = jnp.stack([sum(comb(k, j) * path ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in ORDERS], axis=1)
-        fresh = jnp.stack([jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k), dtype=float) for k in ORDERS])
+        shifted = jnp.stack(
+            [sum(comb(k, j) * path ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in ORDERS],
+            axis=1,
+        )
+        fresh = jnp.stack(
+            [jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k), dtype=float) for k in ORDERS]
+        )
         return Classes(low, high, shifted.at[slot].add(born * fresh), self.slots, self.steps_per_slot)
 
     def kept(self, share: Any) -> Classes:
@@ -70,8 +78,13 @@ def classes_of(seeds: Seeds, steps: int, nuclei_classes: int) -> Classes:
     low, high = jnp.asarray(seeds.low, dtype=float), jnp.asarray(seeds.high, dtype=float)
     values = jnp.stack([seeds.number * mean_power(low, high, k) for k in ORDERS], axis=1)
     none = jnp.zeros(slots)
-    return Classes(jnp.append(none, low), jnp.append(none, high), jnp.concatenate([jnp.zeros((slots, HIGHEST + 1)), values]), slots,
-                   -(-steps // slots))  # fmt: skip
+    return Classes(
+        jnp.append(none, low),
+        jnp.append(none, high),
+        jnp.concatenate([jnp.zeros((slots, HIGHEST + 1)), values]),
+        slots,
+        -(-steps // slots),
+    )
 
 
 class Collisions(eqx.Module):
@@ -88,15 +101,18 @@ class Collisions(eqx.Module):
     nuclei_classes: int = eqx.field(static=True, default=80)
 
     def rates(self, classes: Classes, volume: Any, span: Any) -> tuple[Any, Any, Any]:
-        """Births by class (1/s, at its mean cube), frequency (1/s) with which crystals of a class disappear, and its unlimited value.
+        """Births by class (1/s, at its mean cube), frequency (1/s) with which crystals of a class disappear,
+        and its unlimited value.
 
-        A class that would lose more than it holds in the span collides less often, with the same for its partners: nothing
-        becomes negative and volume is kept whatever the step.
+        A class that would lose more than it holds in the span collides less often, with the same for its
+        partners: nothing becomes negative and volume is kept whatever the step.
         """
         x, number = classes.cubes, classes.values[:, 0]
         size = jnp.maximum(x, SMALLEST**3) ** (1.0 / 3.0)
         none = jnp.zeros((x.shape[0],) * 2)
-        kernel = none if self.agglomeration is None else self.agglomeration(size[:, None], size[None, :]) / volume
+        kernel = (
+            none if self.agglomeration is None else self.agglomeration(size[:, None], size[None, :]) / volume
+        )
         rate = jnp.zeros_like(x) if self.breakage is None else self.breakage(size)
         free = kernel @ number + rate
         limit = jnp.minimum(1.0, safe_divide(1.0, free * span, 1.0))
@@ -109,7 +125,9 @@ class Collisions(eqx.Module):
         return born, lost, free
 
     def act(self, classes: Classes, volume: Any, span: Any) -> tuple[Classes, Any]:
-        """The classes after a span of time (Heun's step), and the share of the crystals that would collide in it."""
+        """The classes after a span of time (Heun's step), and the share of the crystals that would collide in
+        it.
+        """
         number = classes.values[:, 0]
 
         def euler(values: Any) -> tuple[Any, Any]:
@@ -126,7 +144,9 @@ class Collisions(eqx.Module):
 
 
 def births_by_pairs(numbers: Any, kernel: Any, x: Any, low: Any, high: Any) -> Any:
-    """Births by class (1/s) by agglomeration (kernel per volume already), number and volume of the newborn kept; ``x`` mean cubes."""
+    """Births by class (1/s) by agglomeration (kernel per volume already), number and volume of the newborn
+    kept; ``x`` mean cubes.
+    """
     n = x.shape[0]
     j, k = jnp.triu_indices(n)
     rate = kernel[j, k] * numbers[j] * numbers[k] * jnp.where(j == k, 0.5, 1.0)
@@ -141,7 +161,9 @@ def births_by_pairs(numbers: Any, kernel: Any, x: Any, low: Any, high: Any) -> A
 
 
 def _shared_out(born: Any, mean: Any, x: Any, live: Any) -> Any:
-    """Newborn of each cell given to its pivot and the neighbor on the side of their mean, keeping number and volume."""
+    """Newborn of each cell given to its pivot and the neighbor on the side of their mean, keeping number and
+    volume.
+    """
     up = mean >= x
     right = jnp.append(x[1:], 2.0 * x[-1])
     left = jnp.concatenate([jnp.zeros(1), x[:-1]])
@@ -157,21 +179,31 @@ def _shared_out(born: Any, mean: Any, x: Any, live: Any) -> Any:
 
 
 def fragments(breakage: Any, x: Any, low: Any, high: Any) -> Any:
-    """Fragments by class (rows) of one breaking crystal of each class (columns), number and volume kept; ``x`` mean cubes."""
+    """Fragments by class (rows) of one breaking crystal of each class (columns), number and volume kept;
+    ``x`` mean cubes.
+    """
 
     def column(parent: Any) -> Any:
         count, share = breakage.daughters(low**3, high**3, jnp.maximum(parent, SMALLEST**3))
         return _shared_out(count, safe_divide(share * parent, count, x), x, high > low)
 
     found = jax.vmap(column, out_axes=1)(x)
-    # Fragments below the grid keep their volume in the first classes: scale so that every parent's volume is met exactly.
+    # Fragments below the grid keep their volume in the first classes: scale so that every parent's volume is
+    # met exactly.
     return found * safe_divide(x, x @ found, 1.0)[None, :]
 
 
 def check_classes(model: Any, seeds: Seeds) -> None:
     """Raise where the classes could not follow a batch."""
     if model.dissolution is not None or model.size_map is not None:
-        raise ApplicabilityError(_("Crystals that agglomerate or break are followed only while they grow, at a rate that does not depend on size."))  # fmt: skip
+        raise ApplicabilityError(
+            _(
+                "Crystals that agglomerate or break are followed only while they grow, at a rate that "
+                "does not depend on size."
+            )
+        )
     low, high = jax.device_get((seeds.low, seeds.high))
     if len(low) > 1 and abs(high[:-1] - low[1:]).max() > 1e-9 * high[-1]:
-        raise InputError(_("The size classes of the seeds must stand side by side where crystals agglomerate or break."))
+        raise InputError(
+            _("The size classes of the seeds must stand side by side where crystals agglomerate or break.")
+        )

@@ -1,8 +1,10 @@
-"""The default engine: packets along the growth path, the solute by algebra, one bracketed scalar equation a step.
+"""The default engine: packets along the growth path, the solute by algebra, one bracketed scalar equation a
+step.
 
-Each step solves ``d = dt [(1 − θ) G_n + θ G(c(d))]`` for the growth path ``d``, where the composition ``c(d)`` follows exactly from
-the solute balance. θ is fitted so that exponential relaxation is met: 1/2 for slow steps (second order), 1 for stiff ones,
-which never undershoots saturation. Mass is conserved to rounding whatever the step.
+Each step solves ``d = dt [(1 − θ) G_n + θ G(c(d))]`` for the growth path ``d``, where the composition
+``c(d)`` follows exactly from the solute balance. θ is fitted so that exponential relaxation is met: 1/2 for
+slow steps (second order), 1 for stiff ones, which never undershoots saturation. Mass is conserved to rounding
+whatever the step.
 """
 
 from __future__ import annotations
@@ -30,7 +32,10 @@ from granum.crystallization.population.packets import (
 )
 from granum.crystallization.vessels.crystals import Crystal, ratio_left
 
-MOST_ROUNDS, SETTLED = 80, 1e-7  # of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
+MOST_ROUNDS, SETTLED = (
+    80,
+    1e-7,
+)  # of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
 
 
 class SuspensionVolume(eqx.Module):
@@ -43,7 +48,9 @@ class SuspensionVolume(eqx.Module):
 
 
 class SolventVolume(eqx.Module):
-    """Volume on which nucleation is counted: the pure solvent, as in kinetics given per mass or volume of solvent."""
+    """Volume on which nucleation is counted: the pure solvent, as in kinetics given per mass or volume of
+    solvent.
+    """
 
     solvent_density: Any
 
@@ -52,7 +59,9 @@ class SolventVolume(eqx.Module):
 
 
 class Equilibrium(eqx.Module):
-    """Saturation that depends on more of the contents than temperature, such as the ions of a precipitating salt."""
+    """Saturation that depends on more of the contents than temperature, such as the ions of a precipitating
+    salt.
+    """
 
     @abstractmethod
     def ratio(self, contents: Any, crystals: Any) -> Any:
@@ -68,13 +77,15 @@ class Model(eqx.Module):
 
     Parameters
     ----------
-    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, where the law takes it), or an
-        ``Equilibrium``.
-    growth: rate of size from (solute per solvent, solubility, temperature). nucleation: the same with the magma density.
+    solubility: kg of anhydrous solute per kg of solvent from temperature (and antisolvent fraction, where the
+        law takes it), or an ``Equilibrium``.
+    growth: rate of size from (solute per solvent, solubility, temperature). nucleation: the same with the
+        magma density.
     crystal: the crystal. volume: what nucleation rates and magma densities are counted on.
     dissolution: positive rate of shrinking below saturation; None where the solution stays supersaturated.
     size_map: size dependence of growth, or None. nucleus_size: m.
-    dispersion: growth rates that differ between crystals, or None; not together with dissolution or size dependence.
+    dispersion: growth rates that differ between crystals, or None; not together with dissolution or size
+        dependence.
     """
 
     solubility: Any
@@ -120,7 +131,12 @@ class Model(eqx.Module):
     def conditions(self, contents: Contents, crystals: Any) -> tuple[Any, Any, Any, Any]:
         """Composition, solubility, growth rate and births of the vessel as it is."""
         ratio, saturated = self.ratio(contents, crystals), self.saturated(contents)
-        return ratio, saturated, self.rate(ratio, saturated, contents.temperature), self.births(ratio, saturated, contents, crystals)
+        return (
+            ratio,
+            saturated,
+            self.rate(ratio, saturated, contents.temperature),
+            self.births(ratio, saturated, contents, crystals),
+        )
 
 
 class Course(NamedTuple):
@@ -129,8 +145,8 @@ class Course(NamedTuple):
     time: s. temperature: K. solute_per_solvent, solubility_per_solvent: kg/kg. crystals: kg in the vessel.
     moments: 0 to 4 of all crystals in the vessel, (steps + 1, 5). growth_rate: m/s. births: 1/s.
     solvent: total, kg. path: growth path since the start, m. born: crystals born in each step, (steps,).
-    residual: of the closure of each step, relative. collided: share of the crystals that met another or broke in each half
-        step (0 without collisions); well below 1 where the steps are short enough.
+    residual: of the closure of each step, relative. collided: share of the crystals that met another or broke
+        in each half step (0 without collisions); well below 1 where the steps are short enough.
     """
 
     time: Any
@@ -163,15 +179,21 @@ class _State(NamedTuple):
 
 @compiled
 def march(
-    model: Model, operation: Operation, seeds: Seeds, solute: Any, solvent: Any, times: Any, collisions: Collisions | None = None
+    model: Model,
+    operation: Operation,
+    seeds: Seeds,
+    solute: Any,
+    solvent: Any,
+    times: Any,
+    collisions: Collisions | None = None,
 ) -> Course:
     """Follow a batch through given times (the first is the start).
 
     Parameters
     ----------
     solute: dissolved anhydrous solute at the start, kg. solvent: kg at the start.
-    collisions: agglomeration and breakage, in halves before and after the growth of each step; the seeds must then be classes
-        side by side that reach up to the largest agglomerate.
+    collisions: agglomeration and breakage, in halves before and after the growth of each step; the seeds must
+        then be classes side by side that reach up to the largest agglomerate.
     """
     times = jnp.asarray(times, dtype=float)
     steps = times.shape[0] - 1
@@ -187,10 +209,14 @@ def march(
     elif tracked:
         population = _packets(seeds, steps, model.size_map)
     mass = crystal.mass_per_cube * moments[3]
-    contents = operation.start(solute + crystal.solute_fraction * mass, solvent + (1.0 - crystal.solute_fraction) * mass)
+    contents = operation.start(
+        solute + crystal.solute_fraction * mass, solvent + (1.0 - crystal.solute_fraction) * mass
+    )
     contents = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), contents)
 
-    def collided(population: Population, contents: Contents, crystals: Any, span: Any) -> tuple[Population, Any]:
+    def collided(
+        population: Population, contents: Contents, crystals: Any, span: Any
+    ) -> tuple[Population, Any]:
         if collisions is None or not isinstance(population, Classes):
             return population, jnp.zeros(())
         return collisions.act(population, model.suspension(contents, crystals), 0.5 * span)
@@ -200,7 +226,14 @@ def march(
         span = end - start
         before, busy = collided(state.population, state.contents, state.crystals, span)
         population, path, born, residual, there, crystals = react(
-            model, operation, before, state.contents, state.crystals, (state.rate, state.births), (start, end), kept + index
+            model,
+            operation,
+            before,
+            state.contents,
+            state.crystals,
+            (state.rate, state.births),
+            (start, end),
+            kept + index,
         )
         population, busier = collided(population, there, crystals, span)
         crystals = crystal.mass_per_cube * population.moments()[3]
@@ -225,25 +258,61 @@ def march(
     first = _State(population, contents, mass, *model.conditions(contents, mass), jnp.zeros(()))
     first = jax.tree.map(lambda v: jnp.asarray(v, dtype=float), first)
     last, rows = lax.scan(advance, first, (times[:-1], times[1:], jnp.arange(steps)))
-    at_start = (contents, mass, first.ratio, first.saturated, first.rate, first.births, moments, jnp.zeros(()))
-    joined = [jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), a, b) for a, b in zip(at_start, rows, strict=False)]
+    at_start = (
+        contents,
+        mass,
+        first.ratio,
+        first.saturated,
+        first.rate,
+        first.births,
+        moments,
+        jnp.zeros(()),
+    )
+    joined = [
+        jax.tree.map(lambda a, b: jnp.concatenate([jnp.asarray(a)[None], b]), a, b)
+        for a, b in zip(at_start, rows, strict=False)
+    ]
     course, crystals, ratio, saturated, rate, births, all_moments, path = joined
     born, residual, busy = rows[-3:]
     if isinstance(last.population, Classes):
         final = last.population.packets()
     else:
-        final = last.population if isinstance(last.population, Packets) else _rebuilt(seeds, path, born, model)
-    return Course(times, course.temperature, ratio, saturated, crystals, all_moments, rate, births, course.solute, course.solvent, path, born,
-                  residual, busy, final)  # fmt: skip
+        final = (
+            last.population if isinstance(last.population, Packets) else _rebuilt(seeds, path, born, model)
+        )
+    return Course(
+        times,
+        course.temperature,
+        ratio,
+        saturated,
+        crystals,
+        all_moments,
+        rate,
+        births,
+        course.solute,
+        course.solvent,
+        path,
+        born,
+        residual,
+        busy,
+        final,
+    )
 
 
 def react(
-    model: Model, operation: Operation, population: Population, contents: Contents, crystals: Any, rates: tuple[Any, Any],
-    span: tuple[Any, Any], slot: Any,
-) -> tuple[Population, Any, Any, Any, Contents, Any]:  # fmt: skip
+    model: Model,
+    operation: Operation,
+    population: Population,
+    contents: Contents,
+    crystals: Any,
+    rates: tuple[Any, Any],
+    span: tuple[Any, Any],
+    slot: Any,
+) -> tuple[Population, Any, Any, Any, Contents, Any]:
     """Growth and nucleation over one step, from the growth rate and births at its start.
 
-    Returns the population, the growth path, the number born, the residual of the closure, and contents and crystals.
+    Returns the population, the growth path, the number born, the residual of the closure, and contents and
+    crystals.
     """
     start, end = span
     rate, births = rates
@@ -257,7 +326,8 @@ def react(
 class _Step(eqx.Module):
     """What the end of a step is like for a trial growth path.
 
-    The newborn count as they will be added, so that even a burst of nuclei cannot take more solute than there is.
+    The newborn count as they will be added, so that even a burst of nuclei cannot take more solute than there
+    is.
     """
 
     model: Model
@@ -277,7 +347,9 @@ class _Step(eqx.Module):
         return self.operation.step(self.contents, self.start, self.end, self.crystals, crystals), crystals
 
     def born(self, path: Any) -> Any:
-        """Crystals born: the mean of the births at both ends (at the later one beside the older crystals) over the step."""
+        """Crystals born: the mean of the births at both ends (at the later one beside the older crystals)
+        over the step.
+        """
         model, crystals = self.model, self.model.crystal.mass_per_cube * self.population.cubes_after(path)
         there = self.operation.step(self.contents, self.start, self.end, self.crystals, crystals)
         later = model.births(model.ratio(there, crystals), model.saturated(there), there, crystals)
@@ -299,12 +371,14 @@ def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
     there, slope = jax.jvp(step.rate, (jnp.zeros(()),), (jnp.ones(()),))
     weight = _fitted_weight(-slope * span)
     ratio, saturated, _rate = step.state((1.0 - weight) * span * rate)
-    # An explicit part that would cross saturation (or leave it on the wrong side) gives way to the implicit step.
+    # An explicit part that would cross saturation (or leave it on the wrong side) gives way to the implicit
+    # step.
     crosses = (ratio - saturated) * jnp.where(rate == 0, there, rate) <= 0
     weight = jnp.where(crosses, 1.0, weight)
     explicit, implicit = (1.0 - weight) * span * rate, weight * span
 
-    # Newton's steps carry no derivatives; the last one, on the live step, gives the exact derivative of the root.
+    # Newton's steps carry no derivatives; the last one, on the live step, gives the exact derivative of the
+    # root.
     frozen = jax.tree.map(lambda v: lax.stop_gradient(v) if eqx.is_array(v) else v, step)
     begin, factor = lax.stop_gradient((explicit, implicit))
     far = begin + factor * frozen.rate(begin)
@@ -332,7 +406,9 @@ def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
 
 
 def _fitted_weight(z: Any) -> Any:
-    """Weight of the end of the step that makes ``y' = −λ y`` exact: ``1/(1 − e^(−z)) − 1/z``, from 1/2 to 1."""
+    """Weight of the end of the step that makes ``y' = −λ y`` exact: ``1/(1 − e^(−z)) − 1/z``, from 1/2 to
+    1.
+    """
     z = jnp.maximum(z, 0.0)
     small = z < 1e-2
     safe = jnp.where(small, 1.0, z)
@@ -354,12 +430,20 @@ def _packets(seeds: Seeds, steps: int, size_map: SizeMap | None) -> Packets:
 def _rebuilt(seeds: Seeds, path: Any, born: Any, model: Model) -> Packets:
     """Packets at the end of a run in which only the moments were carried."""
     end, nucleus = path[-1], model.nucleus_size
-    low, high = jnp.append(seeds.low, nucleus + jnp.zeros_like(born)), jnp.append(seeds.high, nucleus + jnp.zeros_like(born))
-    since, until = jnp.append(end + jnp.zeros_like(seeds.low), end - path[1:]), jnp.append(end + jnp.zeros_like(seeds.low), end - path[:-1])
+    low, high = (
+        jnp.append(seeds.low, nucleus + jnp.zeros_like(born)),
+        jnp.append(seeds.high, nucleus + jnp.zeros_like(born)),
+    )
+    since, until = (
+        jnp.append(end + jnp.zeros_like(seeds.low), end - path[1:]),
+        jnp.append(end + jnp.zeros_like(seeds.low), end - path[:-1]),
+    )
     number = jnp.append(seeds.number, born)
     if model.dispersion is None:
         return Packets(low + since, high + until, number)
     shares, factors = model.dispersion.factors()
-    rows = [(low + f * since, high + f * until, share * number) for share, f in zip(shares, factors, strict=True)]
+    rows = [
+        (low + f * since, high + f * until, share * number) for share, f in zip(shares, factors, strict=True)
+    ]
     lows, highs, numbers = (jnp.concatenate(parts) for parts in zip(*rows, strict=True))
     return Packets(lows, highs, numbers)

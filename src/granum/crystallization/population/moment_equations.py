@@ -1,6 +1,8 @@
-"""Moments 0 to 4 as ordinary differential equations with an adaptive integrator: an independent check of the packets.
+"""Moments 0 to 4 as ordinary differential equations with an adaptive integrator: an independent check of the
+packets.
 
-Closed only where growth does not depend on size, nothing dissolves, agglomerates or breaks; elsewhere it is refused.
+Closed only where growth does not depend on size, nothing dissolves, agglomerates or breaks; elsewhere it is
+refused.
 """
 
 from __future__ import annotations
@@ -18,7 +20,9 @@ from granum.crystallization.population.packets import HIGHEST, Seeds
 from granum.numerics import integrate
 
 
-def march_moments(model: Model, operation: Any, seeds: Seeds, solute: Any, solvent: Any, times: Any, tolerance: float = 1e-9) -> Any:
+def march_moments(
+    model: Model, operation: Any, seeds: Seeds, solute: Any, solvent: Any, times: Any, tolerance: float = 1e-9
+) -> Any:
     """Moments 0 to 4 of all crystals at given times, shape (times, 5).
 
     Raises
@@ -27,15 +31,22 @@ def march_moments(model: Model, operation: Any, seeds: Seeds, solute: Any, solve
     """
     if model.dissolution is not None or model.size_map is not None:
         raise ApplicabilityError(
-            _("Moment equations are closed only for growth that does not depend on size, without dissolution; use the packet engine.")
+            _(
+                "Moment equations are closed only for growth that does not depend on size, without "
+                "dissolution; use the packet engine."
+            )
         )
     if not isinstance(operation, Programmed):
-        raise ApplicabilityError(_("Moment equations take a temperature program; use the packet engine for a heat balance."))
+        raise ApplicabilityError(
+            _("Moment equations take a temperature program; use the packet engine for a heat balance.")
+        )
     return _solve(model, operation, seeds, solute, solvent, jnp.asarray(times, dtype=float), tolerance)
 
 
 @compiled
-def _solve(model: Model, operation: Programmed, seeds: Seeds, solute: Any, solvent: Any, times: Any, tolerance: float) -> Any:
+def _solve(
+    model: Model, operation: Programmed, seeds: Seeds, solute: Any, solvent: Any, times: Any, tolerance: float
+) -> Any:
     start = seeds.moments()
     scale = jnp.where(start > 0, start, 1.0)
     k, x = model.crystal.mass_per_cube, model.crystal.solute_fraction
@@ -48,7 +59,13 @@ def _solve(model: Model, operation: Programmed, seeds: Seeds, solute: Any, solve
         ratio, saturated = model.ratio(contents, crystals), model.saturated(contents)
         G = model.growth(ratio, saturated, contents.temperature)
         born = model.births(ratio, saturated, contents, crystals)
-        fresh = [born * model.nucleus_size**order + (order * G * m[order - 1] if order else 0.0) for order in range(HIGHEST + 1)]
+        fresh = [
+            born * model.nucleus_size**order + (order * G * m[order - 1] if order else 0.0)
+            for order in range(HIGHEST + 1)
+        ]
         return jnp.stack(fresh) / scale
 
-    return integrate(rates, start / scale, times, rtol=tolerance, atol=tolerance * 1e-3, max_steps=65536).states * scale
+    return (
+        integrate(rates, start / scale, times, rtol=tolerance, atol=tolerance * 1e-3, max_steps=65536).states
+        * scale
+    )

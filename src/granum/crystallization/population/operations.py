@@ -1,8 +1,8 @@
 """How a batch is driven: what happens to temperature, solute and solvent in one time step.
 
-An operation maps the contents at the start of a step and the crystal mass at its end to the contents at its end, so that
-the one unknown of a step stays the growth path. Solute and solvent are totals, those inside crystals included: a closed batch
-keeps them, whatever crystallizes.
+An operation maps the contents at the start of a step and the crystal mass at its end to the contents at its
+end, so that the one unknown of a step stays the growth path. Solute and solvent are totals, those inside
+crystals included: a closed batch keeps them, whatever crystallizes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from granum.numerics.smooth import safe_divide
 
 
 class Contents(NamedTuple):
-    """Temperature (K), total solute and solvent (kg, those in crystals included), antisolvent within the solvent (kg)."""
+    """Temperature (K), total solute and solvent (kg, those in crystals included), antisolvent within the
+    solvent (kg).
+    """
 
     temperature: Any
     solute: Any
@@ -58,7 +60,11 @@ class Addition(eqx.Module):
             return 0.0 if what is None else what(end) - what(start)
 
         more = added(self.antisolvent)
-        return old.solute + added(self.solute), old.solvent + added(self.solvent) + more - added(self.evaporated), old.antisolvent + more
+        return (
+            old.solute + added(self.solute),
+            old.solvent + added(self.solvent) + more - added(self.evaporated),
+            old.antisolvent + more,
+        )
 
 
 class Programmed(Operation):
@@ -102,11 +108,14 @@ class HeatData(Heat):
         return (contents.solute + contents.solvent - crystals) * self.liquid + crystals * self.crystal
 
     def freed(self, old: Contents, crystals_before: Any, temperature: Any, crystals: Any) -> Any:
-        return self.capacity(old, crystals_before) * (old.temperature - temperature) + self.released * (crystals - crystals_before)
+        return self.capacity(old, crystals_before) * (old.temperature - temperature) + self.released * (
+            crystals - crystals_before
+        )
 
 
 class Jacketed(Operation):
-    """A vessel cooled through a jacket: temperature from the heat balance, exact for a step of constant heat release.
+    """A vessel cooled through a jacket: temperature from the heat balance, exact for a step of constant heat
+    release.
 
     Parameters
     ----------
@@ -134,13 +143,15 @@ class Jacketed(Operation):
 
 
 class Flashing(Operation):
-    """A batch under vacuum: the pressure program sets the temperature, heat balance gives the solvent that flashes off.
+    """A batch under vacuum: the pressure program sets the temperature, heat balance gives the solvent that
+    flashes off.
 
     Parameters
     ----------
     temperature: K as a function of time, the boiling point of the solution at the pressure of that time.
     heat_of_vaporization: J/kg as a function of temperature.
-    initial_temperature: of the charge, which flashes down to the program in the first step, K; None where it starts there.
+    initial_temperature: of the charge, which flashes down to the program in the first step, K; None where it
+        starts there.
     """
 
     temperature: Callable[[Any], Any]

@@ -1,9 +1,9 @@
 """Crystals as packets that move with the growth path: no grid, no numerical diffusion.
 
-A packet holds a number of crystals spread evenly between two sizes. Growth that does not depend on size shifts every packet
-by the same distance, so for growth and nucleation alone the first five moments are shifted exactly and the packets are
-rebuilt at the end (``ShiftedMoments``). Where crystals dissolve or growth depends on size, the packets themselves are carried
-(``Packets``). Both answer the same questions.
+A packet holds a number of crystals spread evenly between two sizes. Growth that does not depend on size
+shifts every packet by the same distance, so for growth and nucleation alone the first five moments are
+shifted exactly and the packets are rebuilt at the end (``ShiftedMoments``). Where crystals dissolve or growth
+depends on size, the packets themselves are carried (``Packets``). Both answer the same questions.
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ HIGHEST = 4  # order of the highest moment carried: D[4,3] over time
 
 
 def mean_power(low: Any, high: Any, order: int) -> Any:
-    """Mean of ``L**order`` over crystals spread evenly between two sizes, without dividing by their difference."""
+    """Mean of ``L**order`` over crystals spread evenly between two sizes, without dividing by their
+    difference.
+    """
     return sum(low**k * high ** (order - k) for k in range(order + 1)) / (order + 1)
 
 
@@ -62,7 +64,10 @@ class ShiftedMoments(Population):
         return m[3] + d * (3.0 * m[2] + d * (3.0 * m[1] + d * m[0]))
 
     def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> ShiftedMoments:
-        shifted = [sum(comb(k, j) * path ** (k - j) * self.values[j] for j in range(k + 1)) for k in range(HIGHEST + 1)]
+        shifted = [
+            sum(comb(k, j) * path ** (k - j) * self.values[j] for j in range(k + 1))
+            for k in range(HIGHEST + 1)
+        ]
         fresh = [jnp.asarray(mean_power(nucleus_size, nucleus_size + path, k)) for k in range(HIGHEST + 1)]
         return ShiftedMoments(jnp.stack(shifted) + born * jnp.stack(fresh))
 
@@ -71,7 +76,9 @@ class ShiftedMoments(Population):
 
 
 class GrowthDispersion(eqx.Module):
-    """Crystals that grow at rates of their own, constant multiples of the mean rate: log-normal with a coefficient of variation."""
+    """Crystals that grow at rates of their own, constant multiples of the mean rate: log-normal with a
+    coefficient of variation.
+    """
 
     variation: Any
 
@@ -83,7 +90,9 @@ class GrowthDispersion(eqx.Module):
 
 
 class DispersedMoments(Population):
-    """Moments of crystals sorted by their own growth rate: one row of moments 0 to 4 for each multiple of the mean rate."""
+    """Moments of crystals sorted by their own growth rate: one row of moments 0 to 4 for each multiple of the
+    mean rate.
+    """
 
     values: Any
     factors: Any
@@ -104,16 +113,22 @@ class DispersedMoments(Population):
 
     def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> DispersedMoments:
         d = path * self.factors
-        shifted = [sum(comb(k, j) * d ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in range(HIGHEST + 1)]
+        shifted = [
+            sum(comb(k, j) * d ** (k - j) * self.values[:, j] for j in range(k + 1))
+            for k in range(HIGHEST + 1)
+        ]
         fresh = [self.shares * mean_power(nucleus_size, nucleus_size + d, k) for k in range(HIGHEST + 1)]
-        return DispersedMoments(jnp.stack(shifted, axis=1) + born * jnp.stack(fresh, axis=1), self.factors, self.shares)
+        return DispersedMoments(
+            jnp.stack(shifted, axis=1) + born * jnp.stack(fresh, axis=1), self.factors, self.shares
+        )
 
     def kept(self, share: Any) -> DispersedMoments:
         return DispersedMoments(self.values * share, self.factors, self.shares)
 
 
 class SizeMap(eqx.Module):
-    """Growth that depends on size as ``G(C, T) φ(L)`` with ``φ = (1 + γL)^b``: sizes as functions of the growth path.
+    """Growth that depends on size as ``G(C, T) φ(L)`` with ``φ = (1 + γL)^b``: sizes as functions of the
+    growth path.
 
     ``path_of(L) = ∫ dL/φ`` from zero, ``size_of`` its inverse. With γ = 0 growth does not depend on size.
     """
@@ -133,7 +148,9 @@ class SizeMap(eqx.Module):
 
 
 class Packets(Population):
-    """Every packet with its lower and upper end (as growth paths) and its number; vanished ones have number zero."""
+    """Every packet with its lower and upper end (as growth paths) and its number; vanished ones have number
+    zero.
+    """
 
     low: Any
     high: Any
@@ -163,7 +180,11 @@ class Packets(Population):
 
     def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> Packets:
         low, high, number = self._shifted(path)
-        start = nucleus_size if self.size_map is None else self.size_map.path_of(jnp.asarray(nucleus_size, dtype=float))
+        start = (
+            nucleus_size
+            if self.size_map is None
+            else self.size_map.path_of(jnp.asarray(nucleus_size, dtype=float))
+        )
         slot = jnp.asarray(index)
         low = lax.dynamic_update_index_in_dim(low, jnp.asarray(start, dtype=float), slot, 0)
         high = lax.dynamic_update_index_in_dim(high, start + jnp.maximum(path, 0.0), slot, 0)
@@ -177,10 +198,14 @@ class Packets(Population):
         return jnp.sum(self.number * share * mean_power(low, top, order), axis=-1)
 
     def in_classes(self, edges: Any, order: int = 3) -> Any:
-        """Moment of the crystals in each size class; what lies beyond the last boundary joins the last class."""
+        """Moment of the crystals in each size class; what lies beyond the last boundary joins the last
+        class.
+        """
         low, high = self.sizes()
         total = jnp.sum(self.number * mean_power(low, high, order))
-        return jnp.maximum(jnp.diff(jnp.append(self.below(jnp.asarray(edges)[:-1], order).at[0].set(0.0), total)), 0.0)
+        return jnp.maximum(
+            jnp.diff(jnp.append(self.below(jnp.asarray(edges)[:-1], order).at[0].set(0.0), total)), 0.0
+        )
 
     def mean_size(self, upper: int, lower: int) -> Any:
         """Mean diameter D[p, q]; zero without crystals."""
@@ -210,7 +235,9 @@ class Seeds(eqx.Module):
         edges = jnp.asarray(edges, dtype=float)
         low, high = edges[:-1], edges[1:]
         fractions = jnp.asarray(mass_fractions, dtype=float)
-        return cls(low, high, mass * fractions / jnp.sum(fractions) / (mass_per_cube * mean_power(low, high, 3)))
+        return cls(
+            low, high, mass * fractions / jnp.sum(fractions) / (mass_per_cube * mean_power(low, high, 3))
+        )
 
     @classmethod
     def of_density(cls, density: Any, edges: Any, mass: Any, mass_per_cube: Any, order: int = 8) -> Seeds:
@@ -233,4 +260,6 @@ class Seeds(eqx.Module):
 
     def moments(self) -> Any:
         """Moments 0 to 4."""
-        return jnp.stack([jnp.sum(self.number * mean_power(self.low, self.high, k)) for k in range(HIGHEST + 1)])
+        return jnp.stack(
+            [jnp.sum(self.number * mean_power(self.low, self.high, k)) for k in range(HIGHEST + 1)]
+        )

@@ -15,7 +15,8 @@ class Crystal(eqx.Module):
     Parameters
     ----------
     density: kg/m³.
-    volume_shape_factor: crystal volume over the cube of its size (1 for a cube by its edge, π/6 for a sphere).
+    volume_shape_factor: crystal volume over the cube of its size (1 for a cube by its edge, π/6 for a
+        sphere).
     solute_fraction: anhydrous solute in the crystal, kg/kg; below 1 for a hydrate.
     heat_of_crystallization: heat given off per kg of crystal that forms, J/kg (positive when exothermic).
     heat_capacity: J/(kg K).
@@ -33,10 +34,14 @@ class Crystal(eqx.Module):
         return self.density * self.volume_shape_factor
 
 
-def crystals_at(solute: Any, solvent: Any, solute_per_solvent: Any, solute_fraction: Any, bound: Any = None) -> Any:
-    """Crystals that form when a liquor of given total solute and solvent is left with ``solute_per_solvent``.
+def crystals_at(
+    solute: Any, solvent: Any, solute_per_solvent: Any, solute_fraction: Any, bound: Any = None
+) -> Any:
+    """Crystals that form when a liquor of given total solute and solvent is left with
+    ``solute_per_solvent``.
 
-    ``bound`` is the solvent lost to the liquor per kg of crystals: what a hydrate takes, unless more is said. Negative when the liquor would have to dissolve crystals.
+    ``bound`` is the solvent lost to the liquor per kg of crystals: what a hydrate takes, unless more is said.
+    Negative when the liquor would have to dissolve crystals.
 
     >>> round(crystals_at(solute=50.0, solvent=100.0, solute_per_solvent=0.2, solute_fraction=1.0), 6)
     30.0

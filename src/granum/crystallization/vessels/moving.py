@@ -1,7 +1,9 @@
-"""Crystals of a flow vessel in time: equally wide cells that move with the growth path, so that growth spreads nothing.
+"""Crystals of a flow vessel in time: equally wide cells that move with the growth path, so that growth
+spreads nothing.
 
-Every cell carries its moments 0 to 4, which growth shifts exactly. What enters or is born over a step joins at the size and with the survival
-that its age gives it, so that a vessel at rest holds the crystals of the steady model whatever the step.
+Every cell carries its moments 0 to 4, which growth shifts exactly. What enters or is born over a step joins
+at the size and with the survival that its age gives it, so that a vessel at rest holds the crystals of the
+steady model whatever the step.
 """
 
 from __future__ import annotations
@@ -28,8 +30,10 @@ class Moving(Population):
 
     Parameters
     ----------
-    values: moments 0 to 4 of each cell, of what stays over the step. The first cell reaches from zero to ``offset``, the last takes all larger ones.
-    numbers, sizes: crystals that enter over the step, and their size on entering. turnovers: volumes of the vessel that leave over the step.
+    values: moments 0 to 4 of each cell, of what stays over the step. The first cell reaches from zero to
+        ``offset``, the last takes all larger ones.
+    numbers, sizes: crystals that enter over the step, and their size on entering. turnovers: volumes of the
+        vessel that leave over the step.
     """
 
     values: Any
@@ -47,13 +51,21 @@ class Moving(Population):
 
     @classmethod
     def standing(cls, largest: Any, rates: Any, sizes: Any, length: Any, time: Any) -> Moving:
-        """What a vessel at rest holds: sources (1/s) at their sizes, growth in a residence time, residence time."""
+        """What a vessel at rest holds: sources (1/s) at their sizes, growth in a residence time, residence
+        time.
+        """
         blank = cls.empty(largest)
         levels = blank.width * jnp.arange(CELLS)
         t = jnp.maximum(levels[:, None] - sizes, 0.0) / length
         tails = [jnp.exp(-t) * factorial(p) * sum(t**j / factorial(j) for j in range(p + 1)) for p in ORDERS]
         above = jnp.stack(
-            [sum(comb(k, p) * jnp.sum(tails[p] * rates * sizes ** (k - p), axis=1) * length**p for p in range(k + 1)) for k in ORDERS],
+            [
+                sum(
+                    comb(k, p) * jnp.sum(tails[p] * rates * sizes ** (k - p), axis=1) * length**p
+                    for p in range(k + 1)
+                )
+                for k in ORDERS
+            ],
             axis=1,
         )
         return eqx.tree_at(lambda m: m.values, blank, time * (above - jnp.pad(above[1:], ((0, 1), (0, 0)))))
@@ -78,24 +90,42 @@ class Moving(Population):
 
     def grown(self, path: Any, born: Any, nucleus_size: Any, index: Any) -> Moving:
         """``born`` are those nuclei of the step that survive it."""
-        shifted = jnp.stack([sum(comb(k, j) * path ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in ORDERS], axis=1)
+        shifted = jnp.stack(
+            [sum(comb(k, j) * path ** (k - j) * self.values[:, j] for j in range(k + 1)) for k in ORDERS],
+            axis=1,
+        )
         offset = self.offset + path
         cells = jnp.floor(jax.lax.stop_gradient(offset / self.width))
         offset = offset - cells * self.width
         place = jnp.minimum(jnp.arange(CELLS) + cells.astype(int), CELLS - 1)
         moved = jax.ops.segment_sum(shifted, place, CELLS)
-        numbers = jnp.append(self.numbers, safe_divide(born, self.survival))[:, None] * SHARES * jnp.exp(-self.turnovers * AGES)
+        numbers = (
+            jnp.append(self.numbers, safe_divide(born, self.survival))[:, None]
+            * SHARES
+            * jnp.exp(-self.turnovers * AGES)
+        )
         size = jnp.append(self.sizes, nucleus_size)[:, None] + path * AGES
-        into = jnp.clip(jnp.ceil(jax.lax.stop_gradient((size - offset) / self.width)), 0, CELLS - 1).astype(int)
+        into = jnp.clip(jnp.ceil(jax.lax.stop_gradient((size - offset) / self.width)), 0, CELLS - 1).astype(
+            int
+        )
         fresh = jnp.stack([numbers * size**k for k in ORDERS], axis=-1)
         moved = moved + jax.ops.segment_sum(fresh.reshape(-1, HIGHEST + 1), into.reshape(-1), CELLS)
-        return Moving(moved, offset, self.width, jnp.zeros_like(self.numbers), self.sizes, jnp.zeros_like(self.turnovers))
+        return Moving(
+            moved,
+            offset,
+            self.width,
+            jnp.zeros_like(self.numbers),
+            self.sizes,
+            jnp.zeros_like(self.turnovers),
+        )
 
     def kept(self, share: Any) -> Moving:
         return eqx.tree_at(lambda m: m.values, self, self.values * share)
 
     def cubes_in(self, edges: Any) -> Any:
-        """Third moment in size classes, the first and the last open; inside a cell it is spread on a straight line that keeps its mean size."""
+        """Third moment in size classes, the first and the last open; inside a cell it is spread on a straight
+        line that keeps its mean size.
+        """
         low = jnp.maximum(self.offset + self.width * (jnp.arange(CELLS) - 1.0), 0.0)
         high = self.offset + self.width * jnp.arange(CELLS)
         half = 0.5 * jnp.maximum(high - low, 1e-12)

@@ -1,8 +1,9 @@
 """Steady continuous crystallizer, mixed suspension and mixed product removal (MSMPR), as pure functions.
 
-Every crystal that is born in the vessel or enters it stays for an exponentially distributed time and grows at the same
-rate, so the product is a sum of shifted exponentials: one for the nuclei, one for each size class of the feed. Class masses
-and moments are then exact, and the only unknown is the composition of the mother liquor.
+Every crystal that is born in the vessel or enters it stays for an exponentially distributed time and grows at
+the same rate, so the product is a sum of shifted exponentials: one for the nuclei, one for each size class of
+the feed. Class masses and moments are then exact, and the only unknown is the composition of the mother
+liquor.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ SCAN = 96  # trial compositions between saturation and feed among which the firs
 
 
 class Feed(NamedTuple):
-    """What enters: dissolved solute and free solvent (kg/s), and crystals already there by size class (kg/s)."""
+    """What enters: dissolved solute and free solvent (kg/s), and crystals already there by size class
+    (kg/s).
+    """
 
     solute: Any
     solvent: Any
@@ -39,7 +42,8 @@ class SteadyState(NamedTuple):
     crystals: product by size class, kg/s; the last class takes the tail beyond the grid.
     solute, solvent: mother liquor leaving, kg/s. evaporation: vapor leaving, kg/s.
     growth_rate: m/s. nucleation_rate: 1/(m³ s). residence_time: s. suspension_flow: m³/s.
-    magma_density: crystals per suspension volume in the vessel, kg/m³. length: growth in one residence time, m.
+    magma_density: crystals per suspension volume in the vessel, kg/m³. length: growth in one residence time,
+        m.
     washed_out: no steady crystals: the solution leaves supersaturated as it came.
     converged: whether the mass balance was closed.
     """
@@ -62,7 +66,9 @@ class SteadyState(NamedTuple):
 
 
 class AdditiveVolumes(eqx.Module):
-    """Volume flow of a liquor whose parts add up: constant densities, and other liquids that come along (m³/s)."""
+    """Volume flow of a liquor whose parts add up: constant densities, and other liquids that come along
+    (m³/s).
+    """
 
     solute_density: Any
     solvent_density: Any
@@ -77,7 +83,8 @@ class Removal(eqx.Module):
 
     Parameters
     ----------
-    fines_ratio, fines_cut: crystals below the cut are drawn R times as fast; what is drawn beyond the product is dissolved and comes back.
+    fines_ratio, fines_cut: crystals below the cut are drawn R times as fast; what is drawn beyond the product
+        is dissolved and comes back.
     product_ratio, product_cut: crystals above the cut leave as product z times as fast.
     """
 
@@ -90,14 +97,21 @@ class Removal(eqx.Module):
         """Growth weighted with the removal, m: what the logarithm of the survivors falls with."""
         between = jnp.clip(size - self.fines_cut, 0.0, self.product_cut - self.fines_cut)
         return (
-            self.fines_ratio * jnp.minimum(size, self.fines_cut) + between + self.product_ratio * jnp.maximum(size - self.product_cut, 0.0)
+            self.fines_ratio * jnp.minimum(size, self.fines_cut)
+            + between
+            + self.product_ratio * jnp.maximum(size - self.product_cut, 0.0)
         )
 
     def beyond(self, level: Any, start: Any, length: Any, held: bool = False) -> Any:
-        """Cube of the crystals of one start size that leave as product above a level; what the vessel holds of them with ``held``."""
+        """Cube of the crystals of one start size that leave as product above a level; what the vessel holds
+        of them with ``held``.
+        """
         total = 0.0
-        parts = ((0.0, self.fines_cut, self.fines_ratio, 1.0), (self.fines_cut, self.product_cut, 1.0, 1.0),
-                 (self.product_cut, None, self.product_ratio, self.product_ratio))  # fmt: skip
+        parts = (
+            (0.0, self.fines_cut, self.fines_ratio, 1.0),
+            (self.fines_cut, self.product_cut, 1.0, 1.0),
+            (self.product_cut, None, self.product_ratio, self.product_ratio),
+        )
         for low, high, rate, share in parts:
             begin = jnp.maximum(jnp.maximum(level, start), low)
             part = self._term(begin, start, length, rate)
@@ -132,15 +146,18 @@ def steady_msmpr(
     ----------
     temperature: K. volume: of suspension, m³.
     solubility: anhydrous solute per solvent from the temperature.
-    growth: rate of size from (solute per solvent, solubility, temperature); nucleation: the same with the magma density.
+    growth: rate of size from (solute per solvent, solubility, temperature); nucleation: the same with the
+        magma density.
     liquor_volume: m³/s of mother liquor from its solute and its solvent (kg/s).
     edges: size class boundaries of the crystals, m.
-    evaporation: solvent taken off as vapor, kg/s, and what is added to it per kg of crystals that form: the heat of
-        crystallization over that of vaporization in an adiabatic vessel, which keeps every balance linear.
+    evaporation: solvent taken off as vapor, kg/s, and what is added to it per kg of crystals that form: the
+        heat of crystallization over that of vaporization in an adiabatic vessel, which keeps every balance
+        linear.
     removal: fines dissolved and product classified; None where every size leaves with the liquor.
 
-    Of several steady states the one with most crystals is taken; the one without any is taken when it is the only one.
-    Crystals that enter with an undersaturated liquor dissolve until it is saturated or they are gone.
+    Of several steady states the one with most crystals is taken; the one without any is taken when it is the
+    only one. Crystals that enter with an undersaturated liquor dissolve until it is saturated or they are
+    gone.
     """
     edges = jnp.asarray(edges, dtype=float)
     saturated = solubility(temperature)
@@ -163,19 +180,32 @@ def steady_msmpr(
         held = 1.0
         if removal is not None:  # the vessel holds another concentration than the product
             length = jnp.maximum(G * volume / flow, 1e-15)
-            held = removal.beyond(0.0, nucleus_size, length, held=True) / removal.beyond(0.0, nucleus_size, length)
-        return product, flow, G, nucleation(c, saturated, temperature, held * product / flow), held * product / flow
+            held = removal.beyond(0.0, nucleus_size, length, held=True) / removal.beyond(
+                0.0, nucleus_size, length
+            )
+        return (
+            product,
+            flow,
+            G,
+            nucleation(c, saturated, temperature, held * product / flow),
+            held * product / flow,
+        )
 
     def cubes(start: Any, length: Any) -> Any:
         """Mean cube at which crystals of a start size leave."""
-        return _third(start, length) if removal is None else removal.beyond(0.0, start, jnp.maximum(length, 1e-15))
+        return (
+            _third(start, length)
+            if removal is None
+            else removal.beyond(0.0, start, jnp.maximum(length, 1e-15))
+        )
 
     def grown(c: Any) -> Any:
         """Crystal mass that the kinetics make, kg/s."""
         _product, flow, G, B, _magma = state(c)
         length = G * volume / flow
         return crystal.mass_per_cube * (
-            B * volume * cubes(nucleus_size, length) + _dot(start_numbers, cubes(start_sizes, length[..., None]))
+            B * volume * cubes(nucleus_size, length)
+            + _dot(start_numbers, cubes(start_sizes, length[..., None]))
         )
 
     def excess(c: Any) -> Any:
@@ -189,7 +219,9 @@ def steady_msmpr(
     first = jnp.argmax(rises)
     some = jnp.any(rises) & supersaturated
     below, above = jnp.where(some, trials[first], low), jnp.where(some, trials[first + 1], high)
-    root = find_root(lambda c: jnp.where(some, excess(c), c - highest), below, jnp.where(some, above, high * (1 + 1e-9)))
+    root = find_root(
+        lambda c: jnp.where(some, excess(c), c - highest), below, jnp.where(some, above, high * (1 + 1e-9))
+    )
     dissolved_down = jnp.clip(crystals_at(all_solute, all_solvent, saturated, x, bound), 0.0, total)
     rest = jnp.where(supersaturated, total, dissolved_down)
     c = jnp.where(some, root.value, ratio_left(all_solute, all_solvent, rest, x, bound))
@@ -197,17 +229,35 @@ def steady_msmpr(
     product = jnp.where(some, product, rest)
     length = G * volume / flow
     born = jnp.where(some, B * volume, 0.0)
-    classes = _classes(jnp.append(start_numbers, born), jnp.append(start_sizes, nucleus_size), length, edges, crystal, removal)
+    classes = _classes(
+        jnp.append(start_numbers, born),
+        jnp.append(start_sizes, nucleus_size),
+        length,
+        edges,
+        crystal,
+        removal,
+    )
     # The closure fixes the total; the classes share it, so that mass is conserved to rounding.
     made = jnp.sum(classes)
     classes = classes * jnp.where(made > 0, product / jnp.where(made > 0, made, 1.0), 0.0)
     left = all_solvent - bound * product
     return SteadyState(
-        c, saturated, c / saturated - 1.0, classes, left * c, left,
-        evaporation + evaporation_per_crystal * (product - total), G, B, volume / flow, flow,
-        jnp.where(some, magma, product / flow), length,
-        ~jnp.any(rises) & supersaturated & (total == 0), jnp.where(some, root.converged, True),
-    )  # fmt: skip
+        c,
+        saturated,
+        c / saturated - 1.0,
+        classes,
+        left * c,
+        left,
+        evaporation + evaporation_per_crystal * (product - total),
+        G,
+        B,
+        volume / flow,
+        flow,
+        jnp.where(some, magma, product / flow),
+        length,
+        ~jnp.any(rises) & supersaturated & (total == 0),
+        jnp.where(some, root.converged, True),
+    )
 
 
 def _trial_points() -> Any:
@@ -226,14 +276,20 @@ def _dot(a: Any, b: Any) -> Any:
 
 
 def packets_of(crystals: Any, edges: Any, crystal: Crystal) -> tuple[Any, Any]:
-    """Numbers per second and sizes that stand for the classes of the feed: the mean cube of a uniform class."""
+    """Numbers per second and sizes that stand for the classes of the feed: the mean cube of a uniform
+    class.
+    """
     low, high = edges[:-1], edges[1:]
     size = (0.25 * (low + high) * (low**2 + high**2)) ** (1.0 / 3.0)
     return crystals / (crystal.mass_per_cube * size**3), size
 
 
-def _classes(numbers: Any, sizes: Any, length: Any, edges: Any, crystal: Crystal, removal: Removal | None) -> Any:
-    """Crystal mass of the product in each class, kg/s; the last class is open upwards, the first takes what is below the grid."""
+def _classes(
+    numbers: Any, sizes: Any, length: Any, edges: Any, crystal: Crystal, removal: Removal | None
+) -> Any:
+    """Crystal mass of the product in each class, kg/s; the last class is open upwards, the first takes what
+    is below the grid.
+    """
     safe = jnp.maximum(length, 1e-15)
     levels = jnp.concatenate([jnp.zeros(1), edges[1:-1]])[:, None]
     if removal is not None:

@@ -38,7 +38,8 @@ TRACE = 1e-30  # mol/kg, of an ion that is not there
 
 
 class Ions(NamedTuple):
-    """Contents of a precipitator; both ions as the salt that they could form (kg), those in crystals included.
+    """Contents of a precipitator; both ions as the salt that they could form (kg), those in crystals
+    included.
 
     spectators: sum of amount times charge squared of the ions that do not precipitate, mol.
     """
@@ -52,7 +53,9 @@ class Ions(NamedTuple):
 
 
 class SaltEquilibrium(Equilibrium):
-    """Supersaturation of a salt on ion activities (Davies): ``(IAP/Ksp)^(1/ν)`` is the ratio of the two measures."""
+    """Supersaturation of a salt on ion activities (Davies): ``(IAP/Ksp)^(1/ν)`` is the ratio of the two
+    measures.
+    """
 
     salt: Salt
     molar_mass: Any
@@ -60,20 +63,31 @@ class SaltEquilibrium(Equilibrium):
     def molalities(self, contents: Ions, crystals: Any) -> tuple[Any, Any]:
         """Free cation and anion, mol per kg of water."""
         amounts = ((contents.solute, self.salt.cation_count), (contents.partner, self.salt.anion_count))
-        cation, anion = (count * jnp.maximum(mass - crystals, 0.0) / self.molar_mass / contents.solvent for mass, count in amounts)
+        cation, anion = (
+            count * jnp.maximum(mass - crystals, 0.0) / self.molar_mass / contents.solvent
+            for mass, count in amounts
+        )
         return cation, anion
 
     def ratio(self, contents: Ions, crystals: Any) -> Any:
         s = self.salt
         cation, anion = (jnp.maximum(m, TRACE) for m in self.molalities(contents, crystals))
-        charges = cation * s.cation_charge**2 + anion * s.anion_charge**2 + contents.spectators / contents.solvent
+        charges = (
+            cation * s.cation_charge**2 + anion * s.anion_charge**2 + contents.spectators / contents.solvent
+        )
         strength = jnp.minimum(0.5 * charges, LARGEST_STRENGTH)
-        activity = [activity_coefficient_davies.function(z, strength, contents.temperature) for z in (s.cation_charge, s.anion_charge)]
+        activity = [
+            activity_coefficient_davies.function(z, strength, contents.temperature)
+            for z in (s.cation_charge, s.anion_charge)
+        ]
         logs = s.cation_count * jnp.log(activity[0] * cation) + s.anion_count * jnp.log(activity[1] * anion)
         return self.molar_mass * jnp.exp(logs / s.ion_count)
 
     def saturated(self, contents: Ions) -> Any:
-        return self.molar_mass * safe_power(self.salt.solubility_product, 1.0 / self.salt.ion_count) + 0.0 * contents.solvent
+        return (
+            self.molar_mass * safe_power(self.salt.solubility_product, 1.0 / self.salt.ion_count)
+            + 0.0 * contents.solvent
+        )
 
 
 class ReagentAddition(Operation):
@@ -82,7 +96,8 @@ class ReagentAddition(Operation):
     Parameters
     ----------
     dissolved: cation at the start, as kg of salt. added: kg of water that the reagent has brought, of time.
-    per_water: anion brought per kg of that water, as kg of salt. spectators: of the vessel at the start (mol), and per kg of water added.
+    per_water: anion brought per kg of that water, as kg of salt. spectators: of the vessel at the start
+        (mol), and per kg of water added.
     """
 
     temperature: Any
@@ -94,12 +109,20 @@ class ReagentAddition(Operation):
 
     def start(self, solute: Any, solvent: Any) -> Any:
         seed = solute - self.dissolved
-        return Ions(jnp.asarray(self.temperature, dtype=float), solute, solvent, jnp.zeros(()), seed, self.spectators)
+        return Ions(
+            jnp.asarray(self.temperature, dtype=float), solute, solvent, jnp.zeros(()), seed, self.spectators
+        )
 
     def step(self, old: Any, start: Any, end: Any, crystals_before: Any, crystals: Any) -> Any:
         water = self.added(end) - self.added(start)
-        return Ions(old.temperature, old.solute, old.solvent + water, old.antisolvent, old.partner + self.per_water * water,
-                    old.spectators + self.spectators_per_water * water)  # fmt: skip
+        return Ions(
+            old.temperature,
+            old.solute,
+            old.solvent + water,
+            old.antisolvent,
+            old.partner + self.per_water * water,
+            old.spectators + self.spectators_per_water * water,
+        )
 
 
 class PrecipitationCourse(NamedTuple):
@@ -116,7 +139,11 @@ class PrecipitationCourse(NamedTuple):
     step_error: Ratio
 
 
-@procedure(source="mullin2001, ch. 8; davies1962, ch. 3", title="Precipitation by adding a reagent", typical={"duration": (600.0, 3600.0)})
+@procedure(
+    source="mullin2001, ch. 8; davies1962, ch. 3",
+    title="Precipitation by adding a reagent",
+    typical={"duration": (600.0, 3600.0)},
+)
 def precipitation_batch(
     cation_molality: Molality,
     anion_molality: Molality,
@@ -134,16 +161,30 @@ def precipitation_batch(
     temperature: Temperature = 298.15,
     steps: Annotated[int, Within(2, 100_000)] = 400,
 ) -> PrecipitationCourse:
-    """Supersaturation, ions and crystals of a stirred vessel into which the reagent with the anion is run, mixing being perfect.
+    """Supersaturation, ions and crystals of a stirred vessel into which the reagent with the anion is run,
+    mixing being perfect.
 
-    Supersaturation is on ion activities against the solubility product at 25 °C; the growth and nucleation laws take its ratio. The program gives
-    the water brought with the reagent per kg of water in the vessel; the counter-ions stay dissolved and count in the ionic strength.
-    Molalities are in mol per kg of water. Where mixing is slower than nucleation the crystals become more and smaller than this.
+    Supersaturation is on ion activities against the solubility product at 25 °C; the growth and nucleation
+    laws take its ratio. The program gives the water brought with the reagent per kg of water in the vessel;
+    the counter-ions stay dissolved and count in the ionic strength. Molalities are in mol per kg of water.
+    Where mixing is slower than nucleation the crystals become more and smaller than this.
 
-    >>> out = precipitation_batch(cation_molality=0.01, anion_molality=0.1, duration="20 min", crystal_density=4500, molar_mass=0.2334,
+    >>> out = precipitation_batch(
+    ...     cation_molality=0.01,
+    ...     anion_molality=0.1,
+    ...     duration="20 min",
+    ...     crystal_density=4500,
+    ...     molar_mass=0.2334,
     ...     reagent_program={"law": "constant_flow", "mass_flow": 0.1 / 1200},
     ...     growth={"law": "power_law_growth", "growth_coefficient": 4e-11, "growth_order": 2},
-    ...     nucleation={"law": "secondary_nucleation", "nucleation_coefficient": 1e7, "nucleation_order": 2, "magma_order": 0}, steps=100)
+    ...     nucleation={
+    ...         "law": "secondary_nucleation",
+    ...         "nucleation_coefficient": 1e7,
+    ...         "nucleation_order": 2,
+    ...         "magma_order": 0,
+    ...     },
+    ...     steps=100,
+    ... )
     >>> 0.95 < out.yield_fraction <= 1.0
     True
     """
@@ -151,7 +192,10 @@ def precipitation_batch(
     M = molar_mass
     dissolved, per_water = cation_molality * M / found.cation_count, anion_molality * M / found.anion_count
     # Electroneutrality: the counter-ions carry the charge of the ions they came with.
-    extra = cation_molality * abs(found.cation_charge) * spectator_charge, anion_molality * abs(found.anion_charge) * spectator_charge
+    extra = (
+        cation_molality * abs(found.cation_charge) * spectator_charge,
+        anion_molality * abs(found.anion_charge) * spectator_charge,
+    )
     operation = ReagentAddition(temperature, dissolved, reagent_program, per_water, *extra)
     crystal = Crystal(crystal_density, volume_shape_factor)
     equilibrium = SaltEquilibrium(found, M)
@@ -163,6 +207,13 @@ def precipitation_batch(
     cation, anion = equilibrium.molalities(ions, course.crystals)
     limiting = np.minimum(dissolved, per_water * water[-1])
     return PrecipitationCourse(
-        course.time, course.solute_per_solvent / course.solubility_per_solvent, cation, anion, course.crystals, course.moments[:, 0],
-        mass_mean(course), float((course.crystals[-1] - course.crystals[0]) / limiting), error,
-    )  # fmt: skip
+        course.time,
+        course.solute_per_solvent / course.solubility_per_solvent,
+        cation,
+        anion,
+        course.crystals,
+        course.moments[:, 0],
+        mass_mean(course),
+        float((course.crystals[-1] - course.crystals[0]) / limiting),
+        error,
+    )

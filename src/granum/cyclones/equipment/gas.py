@@ -1,4 +1,6 @@
-"""Gas cyclones in streams: dust and gas parted by a grade efficiency, class by class, with pressure drop and checks."""
+"""Gas cyclones in streams: dust and gas parted by a grade efficiency, class by class, with pressure drop and
+checks.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,17 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Fraction, Law, Length, MassRatio, PositiveNumber, Pressure, PressureDrop, Speed, Within
+from granum.core.kinds import (
+    Fraction,
+    Law,
+    Length,
+    MassRatio,
+    PositiveNumber,
+    Pressure,
+    PressureDrop,
+    Speed,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.cyclones.formulas.efficiency import (
     cut_size_muschelknautz,
@@ -48,7 +60,8 @@ class CycloneFigures(NamedTuple):
 
 
 class Swirl(NamedTuple):
-    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by the swirl, saltation velocity, wear, m/s.
+    """What is known of the flow in each cyclone: inlet velocity, cut size, dust per gas fed and carried by
+    the swirl, saltation velocity, wear, m/s.
 
     ``grade``: share of each species and size class collected by the inner vortex.
     """
@@ -65,11 +78,13 @@ class Swirl(NamedTuple):
 
 @equipment("gas_cyclone", source="hoffmann2008; muschelknautz1972; stairmand1949", title="Gas cyclone")
 class GasCyclone(Unit):
-    """One or several equal cyclones in parallel: a grade efficiency for every size class, and the overload that falls out at the inlet.
+    """One or several equal cyclones in parallel: a grade efficiency for every size class, and the overload
+    that falls out at the inlet.
 
-    What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the grade efficiency. Liquid
-    travels with the dust. The pressure drop is taken from the gas. In series: connect the gas of one to the feed of the next. The wear is
-    that of a ductile wall of the given hardness, in its order of magnitude.
+    What the swirl cannot carry (Muschelknautz' limit loading) is collected whatever its size; the rest by the
+    grade efficiency. Liquid travels with the dust. The pressure drop is taken from the gas. In series:
+    connect the gas of one to the feed of the next. The wear is that of a ductile wall of the given hardness,
+    in its order of magnitude.
     """
 
     diameter: Length
@@ -94,21 +109,34 @@ class GasCyclone(Unit):
         m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
         volume = feed.gas_volume_flow
         flow = jnp.maximum(volume, LEAST) / self.parallel_number
-        density = jnp.where(volume > 0.0, safe_divide(feed.gas_flow, volume), LEAST)  # without gas nothing is carried
+        density = jnp.where(
+            volume > 0.0, safe_divide(feed.gas_flow, volume), LEAST
+        )  # without gas nothing is carried
         velocity = flow / (shape.inlet_height * shape.inlet_width)
         loading = safe_divide(feed.solid_flow, feed.gas_flow)
         each = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * each
         cut = cut_size_muschelknautz(flow, dust, density, viscosity, *shape, loading)
         median = jnp.maximum(median_of(feed.size_fractions, m.edges), LEAST)
-        saltation = saltation_velocity_kalen_zenz(velocity, self.diameter, shape.inlet_width, dust, density, viscosity)
-        flux = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) / (self.parallel_number * shape.inlet_height * shape.inlet_width)
-        wear = wear_velocity_cyclone_inlet(velocity, flux, self.diameter, shape.inlet_width, size, each, viscosity, self.wall_hardness)
+        saltation = saltation_velocity_kalen_zenz(
+            velocity, self.diameter, shape.inlet_width, dust, density, viscosity
+        )
+        flux = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) / (
+            self.parallel_number * shape.inlet_height * shape.inlet_width
+        )
+        wear = wear_velocity_cyclone_inlet(
+            velocity, flux, self.diameter, shape.inlet_width, size, each, viscosity, self.wall_hardness
+        )
         return Swirl(
-            velocity, cut, loading, limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
-            self.inlet_heads(*shape) * 0.5 * density * velocity**2, saltation, jnp.sum(wear),
+            velocity,
+            cut,
+            loading,
+            limit_loading_muschelknautz(jnp.maximum(loading, LEAST), cut, median),
+            self.inlet_heads(*shape) * 0.5 * density * velocity**2,
+            saltation,
+            jnp.sum(wear),
             self.cyclone_efficiency(size, flow, each, density, viscosity, *shape),
-        )  # fmt: skip
+        )
 
     def outlets(self, inside: Swirl, feed: Stream) -> CycloneOutlets:
         passes = jnp.clip(
@@ -119,13 +147,27 @@ class GasCyclone(Unit):
         total = safe_divide(jnp.sum(feed.solid * share), feed.solid_flow)
         dust = feed.part(solid=share, liquid=total)
         gas = feed.replace(solid=feed.solid - dust.solid, liquid=feed.liquid - dust.liquid)
-        return CycloneOutlets(gas.replace(pressure=jnp.maximum(feed.pressure - inside.pressure_drop, 1.0)), dust)
+        return CycloneOutlets(
+            gas.replace(pressure=jnp.maximum(feed.pressure - inside.pressure_drop, 1.0)), dust
+        )
 
     def figures(self, inside: Swirl, outlets: CycloneOutlets, feed: Stream) -> CycloneFigures:
         return CycloneFigures(
-            inside.velocity, safe_divide(outlets.dust.solid_flow, feed.solid_flow), inside.cut, inside.pressure_drop,
-            inside.saltation, inside.loading, inside.carried, inside.wear,
-        )  # fmt: skip
+            inside.velocity,
+            safe_divide(outlets.dust.solid_flow, feed.solid_flow),
+            inside.cut,
+            inside.pressure_drop,
+            inside.saltation,
+            inside.loading,
+            inside.carried,
+            inside.wear,
+        )
 
-    def measured(self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream) -> dict[str, Any]:
-        return {"velocity": inside.velocity, "saltation": inside.velocity / inside.saltation, "wear": 1e3 * YEAR * inside.wear}
+    def measured(
+        self, inside: Swirl, outlets: CycloneOutlets, figures: CycloneFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {
+            "velocity": inside.velocity,
+            "saltation": inside.velocity / inside.saltation,
+            "wear": 1e3 * YEAR * inside.wear,
+        }

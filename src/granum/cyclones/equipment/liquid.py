@@ -9,7 +9,11 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.kinds import Fraction, Length, PositiveNumber, PressureDrop, Within
 from granum.core.limits import Limit
-from granum.cyclones.formulas.hydrocyclones import HydrocycloneFigures, hydrocyclone_castilho_medronho, hydrocyclone_efficiency
+from granum.cyclones.formulas.hydrocyclones import (
+    HydrocycloneFigures,
+    hydrocyclone_castilho_medronho,
+    hydrocyclone_efficiency,
+)
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
@@ -34,9 +38,11 @@ class SplitFigures(NamedTuple):
 
 @equipment("hydrocyclone", source="castilho2000; svarovsky2001", title="Hydrocyclone")
 class Hydrocyclone(Unit):
-    """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the liquid by the water split.
+    """Equal hydrocyclones of Rietema's proportions in parallel: every size class split by its efficiency, the
+    liquid by the water split.
 
-    Solids lighter than the liquid are outside the model: they are divided like the liquid, and a check tells it.
+    Solids lighter than the liquid are outside the model: they are divided like the liquid, and a check tells
+    it.
     """
 
     diameter: Length
@@ -46,23 +52,40 @@ class Hydrocyclone(Unit):
     limits: ClassVar[Limits] = {
         "drop": Limit("pressure drop", 3e4, 4e5, "Pa", "svarovsky2001"),
         "solids": Limit("solids by volume in the feed", 0.0, 0.1, "dimensionless", "castilho2000"),
-        "sinking": Limit("share of the solids that is heavier than the liquid", 1.0 - 1e-3, 1.0, "dimensionless", "castilho2000"),
+        "sinking": Limit(
+            "share of the solids that is heavier than the liquid",
+            1.0 - 1e-3,
+            1.0,
+            "dimensionless",
+            "castilho2000",
+        ),
     }
 
     def cut(self, feed: Stream, density: Any) -> HydrocycloneFigures:
         """Cut, pressure drop, split and sharpness for solids of a density."""
         flow = jnp.maximum(feed.slurry_volume_flow, 1e-12) / self.parallel_number
-        return hydrocyclone_castilho_medronho(flow, self.diameter, self.underflow_diameter, jnp.minimum(feed.solids_volume_fraction, 0.999),
-                                              density, feed.liquid_density, feed.liquid_viscosity)  # fmt: skip
+        return hydrocyclone_castilho_medronho(
+            flow,
+            self.diameter,
+            self.underflow_diameter,
+            jnp.minimum(feed.solids_volume_fraction, 0.999),
+            density,
+            feed.liquid_density,
+            feed.liquid_viscosity,
+        )
 
     def _sinking(self, feed: Stream) -> tuple[Any, Any]:
-        """Share by mass of the solids that is heavier than the liquid, and its mean density; that of the liquid where there is none."""
+        """Share by mass of the solids that is heavier than the liquid, and its mean density; that of the
+        liquid where there is none.
+        """
         density = feed.mixture.densities("solids", feed.temperature)
         flows = jnp.sum(feed.solid, axis=tuple(range(1, feed.solid.ndim)))
         sinking = jnp.where(density > feed.liquid_density, flows, 0.0)
         some = jnp.sum(sinking) > 0.0
         mean = jnp.where(some, jnp.sum(sinking), 1.0) / jnp.where(some, jnp.sum(sinking / density), 1.0)
-        return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(some, mean, feed.solid_density)
+        return safe_divide(jnp.sum(sinking), feed.solid_flow, otherwise=1.0), jnp.where(
+            some, mean, feed.solid_density
+        )
 
     def inside(self, feed: Stream) -> tuple[HydrocycloneFigures, Any]:
         """Cut and split of the solids that sink, and their share of all solids."""
@@ -74,7 +97,9 @@ class Hydrocyclone(Unit):
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         heavy = density > feed.liquid_density
         found = self.cut(feed, jnp.where(heavy, density, 2.0 * feed.liquid_density))
-        share = hydrocyclone_efficiency(jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share)
+        share = hydrocyclone_efficiency(
+            jnp.asarray(m.sizes) + 0.0 * density, found.cut_size, found.sharpness, found.underflow_share
+        )
         share = jnp.where(heavy, share, found.underflow_share)
         share = share.reshape(share.shape + (1,) * len(m.axes))
         under = feed.part(solid=share, liquid=jnp.ravel(found.underflow_share)[0])
@@ -85,5 +110,7 @@ class Hydrocyclone(Unit):
     def figures(self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, feed: Stream) -> SplitFigures:
         return SplitFigures(*inside[0], safe_divide(outlets.underflow.solid_flow, feed.solid_flow))
 
-    def measured(self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: tuple[HydrocycloneFigures, Any], outlets: Split, figures: SplitFigures, feed: Stream
+    ) -> dict[str, Any]:
         return {"drop": figures.pressure_drop, "solids": feed.solids_volume_fraction, "sinking": inside[1]}

@@ -7,7 +7,17 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Angle, Density, DynamicViscosity, Fraction, Length, MassFlux, Pressure, Speed, Within
+from granum.core.kinds import (
+    Angle,
+    Density,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    MassFlux,
+    Pressure,
+    Speed,
+    Within,
+)
 
 WORST = 0.6155  # radian, where sin α cos² α is greatest
 
@@ -17,10 +27,20 @@ def striking_angle(diameter: Any, inlet_width: Any) -> Any:
     return jnp.arccos(jnp.clip(1.0 - 2.0 * inlet_width / diameter, -1.0, 1.0))
 
 
-@formula(source="finnie1960; hutchings1992",
-         equation=r"w = \frac{c\,\dot m'' v^2}{4 p}\begin{cases}\sin 2\alpha - 3\sin^2\alpha & \tan\alpha \le 1/3\\ \tfrac13\cos^2\alpha\end{cases}",
-         fitted={"cutting_share": (0.03, 0.6)},
-         typical={"velocity": (15.0, 25.0), "mass_flux": (0.01, 1.0), "impact_angle": (0.1, 1.2), "wall_hardness": (1e9, 3e9)})  # fmt: skip
+@formula(
+    source="finnie1960; hutchings1992",
+    equation=(
+        r"w = \frac{c\,\dot m'' v^2}{4 p}\begin{cases}\sin 2\alpha - 3\sin^2\alpha & \tan\alpha \le "
+        r"1/3\\ \tfrac13\cos^2\alpha\end{cases}"
+    ),
+    fitted={"cutting_share": (0.03, 0.6)},
+    typical={
+        "velocity": (15.0, 25.0),
+        "mass_flux": (0.01, 1.0),
+        "impact_angle": (0.1, 1.2),
+        "wall_hardness": (1e9, 3e9),
+    },
+)
 def wear_velocity_finnie(
     velocity: Speed,
     mass_flux: MassFlux,
@@ -28,11 +48,13 @@ def wear_velocity_finnie(
     wall_hardness: Pressure,
     cutting_share: Fraction = 0.1,
 ) -> Speed:
-    """Thickness of a ductile wall worn off per time by hard particles that strike it at an angle, by Finnie.
+    """Thickness of a ductile wall worn off per time by hard particles that strike it at an angle, by
+    Finnie.
 
-    The flux is the mass of particles per wall area and time, the hardness the flow stress of the wall (some 1.2 GPa for mild steel),
-    share is that of the particles that cut as the theory has it: 0.03 to 0.6 covers the wear measured on metals (Hutchings' 5e-3 to 0.1
-    of ρv²/2H), so trust the order of magnitude. Brittle linings wear most at right angles and are not covered.
+    The flux is the mass of particles per wall area and time, the hardness the flow stress of the wall (some
+    1.2 GPa for mild steel), share is that of the particles that cut as the theory has it: 0.03 to 0.6 covers
+    the wear measured on metals (Hutchings' 5e-3 to 0.1 of ρv²/2H), so trust the order of magnitude. Brittle
+    linings wear most at right angles and are not covered.
 
     At 20 m/s and 0.1 kg/(m² s), 45° onto mild steel, millimeters in 8000 h:
 
@@ -46,12 +68,24 @@ def wear_velocity_finnie(
     return cutting_share * mass_flux * velocity**2 / (4.0 * wall_hardness) * cut
 
 
-@formula(source="finnie1960; hoffmann2008, ch. 12; hutchings1992", output="wear_velocity",
-         equation=r"w = w(\alpha),\ \dot m'' = c\,v\sin\alpha,\ \tan\alpha = \frac{2\tau v}{D},\ \cos\alpha \ge 1 - \frac{2b}{D}",
-         fitted={"cutting_share": (0.03, 0.6)},
-         typical={"velocity": (15.0, 25.0), "mass_flux": (0.01, 1.0), "diameter": (0.9, 1.1), "inlet_width": (0.18, 0.22),
-                  "wall_hardness": (1e9, 3e9), "particle_diameter": (5e-6, 1e-4),
-                  "dynamic_viscosity": (1.7e-5, 3e-5)})  # fmt: skip
+@formula(
+    source="finnie1960; hoffmann2008, ch. 12; hutchings1992",
+    output="wear_velocity",
+    equation=(
+        r"w = w(\alpha),\ \dot m'' = c\,v\sin\alpha,\ \tan\alpha = \frac{2\tau v}{D},\ \cos\alpha \ge 1 - "
+        r"\frac{2b}{D}"
+    ),
+    fitted={"cutting_share": (0.03, 0.6)},
+    typical={
+        "velocity": (15.0, 25.0),
+        "mass_flux": (0.01, 1.0),
+        "diameter": (0.9, 1.1),
+        "inlet_width": (0.18, 0.22),
+        "wall_hardness": (1e9, 3e9),
+        "particle_diameter": (5e-6, 1e-4),
+        "dynamic_viscosity": (1.7e-5, 3e-5),
+    },
+)
 def wear_velocity_cyclone_inlet(
     velocity: Speed,
     mass_flux: MassFlux,
@@ -65,11 +99,13 @@ def wear_velocity_cyclone_inlet(
 ) -> Speed:
     """Greatest wear of the wall of a cyclone opposite its tangential inlet, for dust of one size.
 
-    The flux is that of the dust through the inlet. Fine dust drifts to the wall at its settling velocity in the swirl, coarse dust flies
-    straight on, at most at the angle under which the slot sees the wall. The share of the particles that cut was found from 0.03 to 0.6 on
-    metals (Hutchings).
+    The flux is that of the dust through the inlet. Fine dust drifts to the wall at its settling velocity in
+    the swirl, coarse dust flies straight on, at most at the angle under which the slot sees the wall. The
+    share of the particles that cut was found from 0.03 to 0.6 on metals (Hutchings).
 
-    >>> coarse, fine = (wear_velocity_cyclone_inlet(20.0, 0.5, 1.0, 0.2, d, 2600.0, 1.8e-5, 1.2e9) for d in (1e-4, 1e-5))
+    >>> coarse, fine = (
+    ...     wear_velocity_cyclone_inlet(20.0, 0.5, 1.0, 0.2, d, 2600.0, 1.8e-5, 1.2e9) for d in (1e-4, 1e-5)
+    ... )
     >>> coarse > 10 * fine
     True
     """

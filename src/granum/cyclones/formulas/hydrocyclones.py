@@ -1,4 +1,6 @@
-"""Hydrocyclones: Plitt, Rietema, Castilho and Medronho (Rietema's and Bradley's families stay similar in Stk Eu)."""
+"""Hydrocyclones: Plitt, Rietema, Castilho and Medronho (Rietema's and Bradley's families stay similar in Stk
+Eu).
+"""
 
 from __future__ import annotations
 
@@ -7,11 +9,20 @@ from typing import NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, limit_active
-from granum.core.kinds import Density, DynamicViscosity, Fraction, Length, PositiveNumber, PressureDrop, VolumeFlow, VolumeFraction
+from granum.core.kinds import (
+    Density,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    PositiveNumber,
+    PressureDrop,
+    VolumeFlow,
+    VolumeFraction,
+)
 from granum.cyclones.formulas.efficiency import heavier
 
 SLURRY = {
-    "volume_flow": (1e-3, 3e-3), "diameter": (0.09, 0.12), "inlet_diameter": (0.025, 0.035), "outlet_diameter": (0.03, 0.04),
+    "volume_flow": (1e-3, 3e-3), "diameter": (0.09, 0.12), "inlet_diameter": (0.025, 0.035), "outlet_diameter": (0.03, 0.04),  # noqa: E501
     "underflow_diameter": (0.015, 0.025), "free_height": (0.3, 0.5), "solids_volume_fraction": (0.01, 0.1),
     "pressure_drop": (5e4, 2e5), "length": (0.4, 0.6),
 }  # fmt: skip
@@ -31,9 +42,14 @@ class HydrocycloneFigures(NamedTuple):
     sharpness: PositiveNumber
 
 
-@formula(source="plitt1976; flintoff1987",
-         equation=r"d_{50c} = \frac{39.7\,D_c^{0.46}D_i^{0.6}D_o^{1.21}\eta^{0.5}e^{0.063\varphi}}{D_u^{0.71}h^{0.38}Q^{0.45}[(\rho_s-\rho)/1.6]^{0.5}}",
-         typical=SLURRY)  # fmt: skip
+@formula(
+    source="plitt1976; flintoff1987",
+    equation=(
+        r"d_{50c} = "
+        r"\frac{39.7\,D_c^{0.46}D_i^{0.6}D_o^{1.21}\eta^{0.5}e^{0.063\varphi}}{D_u^{0.71}h^{0.38}Q^{0.45}[(\rho_s-\rho)/1.6]^{0.5}}"
+    ),
+    typical=SLURRY,
+)
 def hydrocyclone_plitt(
     volume_flow: VolumeFlow,
     diameter: Length,
@@ -46,14 +62,24 @@ def hydrocyclone_plitt(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> HydrocycloneFigures:
-    """Corrected cut size, pressure drop, share of the slurry to the underflow and sharpness of a hydrocyclone by Plitt.
+    """Corrected cut size, pressure drop, share of the slurry to the underflow and sharpness of a hydrocyclone
+    by Plitt.
 
-    The free height runs from the end of the vortex finder to the apex. The print is in cm, L/min, kPa and percent, from 297 tests with
-    silica in water; the viscosity is Flintoff's addition.
+    The free height runs from the end of the vortex finder to the apex. The print is in cm, L/min, kPa and
+    percent, from 297 tests with silica in water; the viscosity is Flintoff's addition.
 
-    >>> x = hydrocyclone_plitt(volume_flow="100 L/min", diameter=0.1, inlet_diameter=0.03, outlet_diameter=0.035, underflow_diameter=0.02,
-    ...                        free_height=0.4, solids_volume_fraction=0.05, particle_density=2650, fluid_density=1000,
-    ...                        dynamic_viscosity="1 cP")
+    >>> x = hydrocyclone_plitt(
+    ...     volume_flow="100 L/min",
+    ...     diameter=0.1,
+    ...     inlet_diameter=0.03,
+    ...     outlet_diameter=0.035,
+    ...     underflow_diameter=0.02,
+    ...     free_height=0.4,
+    ...     solids_volume_fraction=0.05,
+    ...     particle_density=2650,
+    ...     fluid_density=1000,
+    ...     dynamic_viscosity="1 cP",
+    ... )
     >>> 5e-6 < x.cut_size < 4e-5 and 0.0 < x.underflow_share < 0.5
     True
     """
@@ -63,7 +89,9 @@ def hydrocyclone_plitt(
         (underflow_diameter, "underflow_diameter"),
     ):
         impossible(~(opening < diameter), opening, name, 0.0, diameter, WIDE_OPENING)
-    Dc, Di, Do, Du, h = (100.0 * x for x in (diameter, inlet_diameter, outlet_diameter, underflow_diameter, free_height))
+    Dc, Di, Do, Du, h = (
+        100.0 * x for x in (diameter, inlet_diameter, outlet_diameter, underflow_diameter, free_height)
+    )
     Q, phi = 6e4 * volume_flow, 100.0 * solids_volume_fraction
     excess = heavier(particle_density, fluid_density) / 1600.0
     cut = 39.7e-6 * Dc**0.46 * Di**0.6 * Do**1.21 * jnp.exp(0.063 * phi) / (Du**0.71 * h**0.38 * Q**0.45)
@@ -78,8 +106,12 @@ def hydrocyclone_plitt(
     return HydrocycloneFigures(cut, 1e3 * kilopascal, share, sharpness)
 
 
-@formula(source="rietema1961; svarovsky2001", equation=r"\mathrm{Cy}_{50} = \frac{d_{50}^2(\rho_s-\rho)L\,\Delta p}{\eta\rho Q} = 3.5",
-         output="cut_size", typical=SLURRY)  # fmt: skip
+@formula(
+    source="rietema1961; svarovsky2001",
+    equation=r"\mathrm{Cy}_{50} = \frac{d_{50}^2(\rho_s-\rho)L\,\Delta p}{\eta\rho Q} = 3.5",
+    output="cut_size",
+    typical=SLURRY,
+)
 def cut_size_rietema(
     volume_flow: VolumeFlow,
     pressure_drop: PressureDrop,
@@ -91,17 +123,36 @@ def cut_size_rietema(
 ) -> Length:
     """Cut size of a hydrocyclone of Rietema's best proportions, from its length, flow and pressure drop.
 
-    >>> round(1e6 * cut_size_rietema(volume_flow=1e-3, pressure_drop=1e5, length=0.5, particle_density=2000, fluid_density=1000,
-    ...                              dynamic_viscosity=1e-3), 2)
+    >>> round(
+    ...     1e6
+    ...     * cut_size_rietema(
+    ...         volume_flow=1e-3,
+    ...         pressure_drop=1e5,
+    ...         length=0.5,
+    ...         particle_density=2000,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity=1e-3,
+    ...     ),
+    ...     2,
+    ... )
     8.37
     """
     excess = heavier(particle_density, fluid_density)
-    return jnp.sqrt(cyclone_number * dynamic_viscosity * fluid_density * volume_flow / (excess * length * pressure_drop))
+    return jnp.sqrt(
+        cyclone_number * dynamic_viscosity * fluid_density * volume_flow / (excess * length * pressure_drop)
+    )
 
 
-@formula(source="castilho2000; svarovsky2001",
-         equation=r"\mathrm{Stk}'_{50}\mathrm{Eu} = 0.0474\left[\ln\frac{1}{R_w}\right]^{0.742}e^{8.96 C_v},\ \mathrm{Eu} = 371.5\,\mathrm{Re}^{0.116}e^{-2.12 C_v},\ R_w = 1218\left(\frac{D_u}{D_c}\right)^{4.75}\mathrm{Eu}^{-0.30}",
-         fitted={"solids_volume_fraction": (0.0, 0.1)}, typical={**SLURRY, "underflow_diameter": (0.01, 0.018)})  # fmt: skip
+@formula(
+    source="castilho2000; svarovsky2001",
+    equation=(
+        r"\mathrm{Stk}'_{50}\mathrm{Eu} = 0.0474\left[\ln\frac{1}{R_w}\right]^{0.742}e^{8.96 "
+        r"C_v},\ \mathrm{Eu} = 371.5\,\mathrm{Re}^{0.116}e^{-2.12 C_v},\ R_w = "
+        r"1218\left(\frac{D_u}{D_c}\right)^{4.75}\mathrm{Eu}^{-0.30}"
+    ),
+    fitted={"solids_volume_fraction": (0.0, 0.1)},
+    typical={**SLURRY, "underflow_diameter": (0.01, 0.018)},
+)
 def hydrocyclone_castilho_medronho(
     volume_flow: VolumeFlow,
     diameter: Length,
@@ -112,10 +163,18 @@ def hydrocyclone_castilho_medronho(
     dynamic_viscosity: DynamicViscosity,
     sharpness: PositiveNumber = 2.7,
 ) -> HydrocycloneFigures:
-    """Reduced cut size, pressure drop, water split and sharpness of a hydrocyclone of Rietema's proportions by Castilho and Medronho.
+    """Reduced cut size, pressure drop, water split and sharpness of a hydrocyclone of Rietema's proportions
+    by Castilho and Medronho.
 
-    >>> x = hydrocyclone_castilho_medronho(volume_flow=1e-3, diameter=0.1, underflow_diameter=0.015, solids_volume_fraction=0.01,
-    ...                                    particle_density=2650, fluid_density=1000, dynamic_viscosity=1e-3)
+    >>> x = hydrocyclone_castilho_medronho(
+    ...     volume_flow=1e-3,
+    ...     diameter=0.1,
+    ...     underflow_diameter=0.015,
+    ...     solids_volume_fraction=0.01,
+    ...     particle_density=2650,
+    ...     fluid_density=1000,
+    ...     dynamic_viscosity=1e-3,
+    ... )
     >>> 2e-5 < x.cut_size < 5e-5
     True
     """
@@ -132,12 +191,28 @@ def hydrocyclone_castilho_medronho(
     return HydrocycloneFigures(cut, Eu * rho * v**2 / 2.0, water, sharpness * jnp.ones_like(water))
 
 
-@formula(source="svarovsky2001", equation=r"G = R_w + (1 - R_w)\left[1 - e^{-\ln 2\,(d/d_{50})^m}\right]",
-         typical={"cut_size": (5e-6, 3e-5), "sharpness": (2.0, 3.5), "underflow_share": (0.05, 0.3), "particle_diameter": (1e-6, 1e-4)})  # fmt: skip
-def hydrocyclone_efficiency(particle_diameter: Length, cut_size: Length, sharpness: PositiveNumber, underflow_share: Fraction) -> Fraction:
-    """Grade efficiency of a hydrocyclone: what follows the water to the underflow, and Plitt's curve for the rest.
+@formula(
+    source="svarovsky2001",
+    equation=r"G = R_w + (1 - R_w)\left[1 - e^{-\ln 2\,(d/d_{50})^m}\right]",
+    typical={
+        "cut_size": (5e-6, 3e-5),
+        "sharpness": (2.0, 3.5),
+        "underflow_share": (0.05, 0.3),
+        "particle_diameter": (1e-6, 1e-4),
+    },
+)
+def hydrocyclone_efficiency(
+    particle_diameter: Length, cut_size: Length, sharpness: PositiveNumber, underflow_share: Fraction
+) -> Fraction:
+    """Grade efficiency of a hydrocyclone: what follows the water to the underflow, and Plitt's curve for the
+    rest.
 
-    >>> round(hydrocyclone_efficiency(particle_diameter=1e-5, cut_size=1e-5, sharpness=2.5, underflow_share=0.2), 6)
+    >>> round(
+    ...     hydrocyclone_efficiency(
+    ...         particle_diameter=1e-5, cut_size=1e-5, sharpness=2.5, underflow_share=0.2
+    ...     ),
+    ...     6,
+    ... )
     0.6
     """
     sorted_out = -jnp.expm1(-jnp.log(2.0) * (particle_diameter / cut_size) ** sharpness)

@@ -1,4 +1,6 @@
-"""Grade efficiency of gas cyclones by Mothes and Löffler: dust in a downward and an upward vortex that exchange by drift and turbulence."""
+"""Grade efficiency of gas cyclones by Mothes and Löffler: dust in a downward and an upward vortex that
+exchange by drift and turbulence.
+"""
 
 from __future__ import annotations
 
@@ -15,15 +17,21 @@ LEAST = 1e-12
 
 
 def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
-    """Meissner and Löffler's tangential velocity as a function of the radius; friction on cylinder, roof and cone."""
+    """Meissner and Löffler's tangential velocity as a function of the radius; friction on cylinder, roof and
+    cone.
+    """
     D, a, b, _De, _S, h, H, B = cyclone
     R = D / 2.0
     v_z = Q / (jnp.pi * R**2)
     entry = Q / (a * b * (0.889 - 0.204 * b / R))  # of the contracted jet
     angle = jnp.arccos(jnp.clip(1.0 - b / R, -1.0, 1.0))
-    depth = friction / v_z * jnp.maximum(h / R - a / R * angle / (2.0 * jnp.pi), LEAST)  # wall of the cylinder less the inlet
+    depth = (
+        friction / v_z * jnp.maximum(h / R - a / R * angle / (2.0 * jnp.pi), LEAST)
+    )  # wall of the cylinder less the inlet
     wall = 2.0 * entry / (1.0 + jnp.sqrt(1.0 + 4.0 * depth * entry))
-    slope = jnp.maximum((R - B / 2.0) / jnp.hypot(H - h, R - B / 2.0), LEAST)  # sine of half the angle of the cone
+    slope = jnp.maximum(
+        (R - B / 2.0) / jnp.hypot(H - h, R - B / 2.0), LEAST
+    )  # sine of half the angle of the cone
     damping = wall / v_z * (friction + friction / slope)
 
     def at(r: Any) -> Any:
@@ -32,10 +40,16 @@ def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
     return at
 
 
-@formula(source="mothes1988; meissner1978", family="cyclone_efficiency",
-         equation=r"\eta = 1 - \frac{m - a}{b}\,e^{-A(S - a_e/2)},\quad m = \frac{a+d}{2} + \sqrt{\left(\frac{a-d}{2}\right)^2 + bc}",
-         fitted={"velocity": (5.0, 20.0)},
-         typical={**TYPICAL, "diffusivity": (0.01, 0.015), "wall_friction": (0.006, 0.009)})  # fmt: skip
+@formula(
+    source="mothes1988; meissner1978",
+    family="cyclone_efficiency",
+    equation=(
+        r"\eta = 1 - \frac{m - a}{b}\,e^{-A(S - a_e/2)},\quad m = \frac{a+d}{2} + "
+        r"\sqrt{\left(\frac{a-d}{2}\right)^2 + bc}"
+    ),
+    fitted={"velocity": (5.0, 20.0)},
+    typical={**TYPICAL, "diffusivity": (0.01, 0.015), "wall_friction": (0.006, 0.009)},
+)
 @takes_lengths
 def cyclone_efficiency_mothes_loffler(
     particle_diameter: Length,
@@ -47,17 +61,33 @@ def cyclone_efficiency_mothes_loffler(
     diffusivity: Diffusivity = 0.0125,
     wall_friction: Ratio = 0.0075,
 ) -> Fraction:
-    """Grade efficiency of a gas cyclone by Mothes and Löffler, with turbulent exchange between outer and inner vortex.
+    """Grade efficiency of a gas cyclone by Mothes and Löffler, with turbulent exchange between outer and
+    inner vortex.
 
-    Dust settles to the wall of a cylinder of equal volume, in the entrance and along the outer vortex; gas and fine dust drift through
-    the core surface, coarse dust drifts back, turbulence mixes (0.0125 m²/s, measured at 5 to 20 m/s). With A, B, C for settling,
-    exchange and drift per height l = H - S: a = -1 + l(A + B), b = -l(B + C), c = lB, d = b - 1 where dust drifts outwards, and
-    a = -1 + l(A + B - C), b = -lB, c = l(B - C), d = b - 1 where it drifts inwards. Dust picked up again at the bottom is left out.
+    Dust settles to the wall of a cylinder of equal volume, in the entrance and along the outer vortex; gas
+    and fine dust drift through the core surface, coarse dust drifts back, turbulence mixes (0.0125 m²/s,
+    measured at 5 to 20 m/s). With A, B, C for settling, exchange and drift per height l = H - S: a = -1 + l(A
+    + B), b = -l(B + C), c = lB, d = b - 1 where dust drifts outwards, and a = -1 + l(A + B - C), b = -lB, c =
+    l(B - C), d = b - 1 where it drifts inwards. Dust picked up again at the bottom is left out.
 
-    >>> d = dict(diameter=1.0, inlet_height=0.5, inlet_width=0.2, outlet_diameter=0.5, finder_length=0.5, cylinder_height=1.5,
-    ...          height=4.0, dust_outlet_diameter=0.375)
-    >>> 0.9 < cyclone_efficiency_mothes_loffler(particle_diameter="10 um", volume_flow=1.5, particle_density=2000, fluid_density=1.2,
-    ...                                         dynamic_viscosity=1.8e-5, **d) < 1.0
+    >>> d = dict(
+    ...     diameter=1.0,
+    ...     inlet_height=0.5,
+    ...     inlet_width=0.2,
+    ...     outlet_diameter=0.5,
+    ...     finder_length=0.5,
+    ...     cylinder_height=1.5,
+    ...     height=4.0,
+    ...     dust_outlet_diameter=0.375,
+    ... )
+    >>> 0.9 < cyclone_efficiency_mothes_loffler(
+    ...     particle_diameter="10 um",
+    ...     volume_flow=1.5,
+    ...     particle_density=2000,
+    ...     fluid_density=1.2,
+    ...     dynamic_viscosity=1.8e-5,
+    ...     **d,
+    ... ) < 1.0
     True
     """
     D, inlet_height, _width, De, S, h, H, B = cyclone

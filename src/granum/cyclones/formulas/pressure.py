@@ -29,7 +29,12 @@ def inlet_over_outlet(cyclone: Dimensions) -> Any:
     return cyclone.inlet_height * cyclone.inlet_width / cyclone.outlet_diameter**2
 
 
-@formula(source="shepherd1939; cooper2011", equation=r"N_H = 16\,\frac{ab}{D_e^2}", family="inlet_heads", typical=TYPICAL)
+@formula(
+    source="shepherd1939; cooper2011",
+    equation=r"N_H = 16\,\frac{ab}{D_e^2}",
+    family="inlet_heads",
+    typical=TYPICAL,
+)
 @takes_lengths
 def inlet_heads_shepherd_lapple(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Shepherd and Lapple.
@@ -42,7 +47,12 @@ def inlet_heads_shepherd_lapple(cyclone: Dimensions) -> PositiveNumber:
     return 16.0 * inlet_over_outlet(cyclone)
 
 
-@formula(source="casal1983", equation=r"N_H = 11.3\left(\frac{ab}{D_e^2}\right)^2 + 3.33", family="inlet_heads", typical=TYPICAL)
+@formula(
+    source="casal1983",
+    equation=r"N_H = 11.3\left(\frac{ab}{D_e^2}\right)^2 + 3.33",
+    family="inlet_heads",
+    typical=TYPICAL,
+)
 @takes_lengths
 def inlet_heads_casal_martinez(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Casal and Martínez-Benet.
@@ -53,8 +63,12 @@ def inlet_heads_casal_martinez(cyclone: Dimensions) -> PositiveNumber:
     return 11.3 * inlet_over_outlet(cyclone) ** 2 + 3.33
 
 
-@formula(source="ramachandran1991", equation=r"N_H = 20\,\frac{ab}{D_e^2}\left[\frac{S/D}{(H/D)(h/D)(B/D)}\right]^{1/3}", family="inlet_heads",
-         typical=TYPICAL)  # fmt: skip
+@formula(
+    source="ramachandran1991",
+    equation=r"N_H = 20\,\frac{ab}{D_e^2}\left[\frac{S/D}{(H/D)(h/D)(B/D)}\right]^{1/3}",
+    family="inlet_heads",
+    typical=TYPICAL,
+)
 @takes_lengths
 def inlet_heads_ramachandran(cyclone: Dimensions) -> PositiveNumber:
     """Pressure drop of a cyclone in inlet velocity heads by Ramachandran and others, from 98 designs.
@@ -66,14 +80,19 @@ def inlet_heads_ramachandran(cyclone: Dimensions) -> PositiveNumber:
     return 20.0 * inlet_over_outlet(cyclone) * (S * D**2 / (H * h * B)) ** (1.0 / 3.0)
 
 
-@formula(source="stairmand1949; hoffmann2008",
-         equation=r"N_H = 1 + 2q^2\left[\frac{2(D-b)}{D_e} - 1\right] + 2\left(\frac{4ab}{\pi D_e^2}\right)^2", family="inlet_heads", typical=TYPICAL)  # fmt: skip
+@formula(
+    source="stairmand1949; hoffmann2008",
+    equation=r"N_H = 1 + 2q^2\left[\frac{2(D-b)}{D_e} - 1\right] + 2\left(\frac{4ab}{\pi D_e^2}\right)^2",
+    family="inlet_heads",
+    typical=TYPICAL,
+)
 @takes_lengths
 def inlet_heads_stairmand(
     cyclone: Dimensions,
     wall_friction: PositiveNumber = 0.005,
 ) -> PositiveNumber:
-    """Pressure drop of a cyclone in inlet velocity heads by Stairmand, from wall friction and the losses at both ends.
+    """Pressure drop of a cyclone in inlet velocity heads by Stairmand, from wall friction and the losses at
+    both ends.
 
     Stairmand's high-efficiency design loses between 5 and 6:
 
@@ -86,9 +105,16 @@ def inlet_heads_stairmand(
     return 1.0 + 2.0 * q**2 * (1.0 / ratio - 1.0) + 2.0 * (4.0 * a * b / (jnp.pi * De**2)) ** 2
 
 
-@formula(source="barth1956; hoffmann2008",
-         equation=r"\Delta p = \frac{\rho v_x^2}{2}\left\{\frac{D_e}{D}\left[\frac{1}{(v_x/v_\theta - 2\lambda(H-S)/D_e)^2} - \frac{v_\theta^2}{v_x^2}\right] + K\left(\frac{v_\theta}{v_x}\right)^{4/3} + \left(\frac{v_\theta}{v_x}\right)^2\right\}",
-         output="pressure_drop", typical=TYPICAL)  # fmt: skip
+@formula(
+    source="barth1956; hoffmann2008",
+    equation=(
+        r"\Delta p = \frac{\rho v_x^2}{2}\left\{\frac{D_e}{D}\left[\frac{1}{(v_x/v_\theta - "
+        r"2\lambda(H-S)/D_e)^2} - \frac{v_\theta^2}{v_x^2}\right] + "
+        r"K\left(\frac{v_\theta}{v_x}\right)^{4/3} + \left(\frac{v_\theta}{v_x}\right)^2\right\}"
+    ),
+    output="pressure_drop",
+    typical=TYPICAL,
+)
 @takes_lengths
 def pressure_drop_barth(
     volume_flow: VolumeFlow,
@@ -112,9 +138,15 @@ def pressure_drop_barth(
     return 0.5 * fluid_density * v_x**2 * (body + finder_loss * u ** (4.0 / 3.0) + u**2)
 
 
-@formula(source="muschelknautz1972; hoffmann2008, ch. 6",
-         equation=r"\Delta p = \frac{f A_R\rho(v_w v_\theta)^{1.5}}{2\cdot 0.9 Q} + \frac{\rho v_x^2}{2}\left[2 + \left(\frac{v_\theta}{v_x}\right)^2 + 3\left(\frac{v_\theta}{v_x}\right)^{4/3}\right]",
-         output="pressure_drop", typical=TYPICAL)  # fmt: skip
+@formula(
+    source="muschelknautz1972; hoffmann2008, ch. 6",
+    equation=(
+        r"\Delta p = \frac{f A_R\rho(v_w v_\theta)^{1.5}}{2\cdot 0.9 Q} + \frac{\rho v_x^2}{2}\left[2 + "
+        r"\left(\frac{v_\theta}{v_x}\right)^2 + 3\left(\frac{v_\theta}{v_x}\right)^{4/3}\right]"
+    ),
+    output="pressure_drop",
+    typical=TYPICAL,
+)
 @takes_lengths
 def pressure_drop_muschelknautz(
     volume_flow: VolumeFlow,
@@ -124,12 +156,15 @@ def pressure_drop_muschelknautz(
     dust_loading: MassRatio = 0.0,
     gas_friction: Ratio = 0.005,
 ) -> PressureDrop:
-    """Pressure drop of a gas cyclone by Muschelknautz: wall friction and core; little dust lowers it, for it brakes the swirl.
+    """Pressure drop of a gas cyclone by Muschelknautz: wall friction and core; little dust lowers it, for it
+    brakes the swirl.
 
     >>> 300 < pressure_drop_muschelknautz(1.5, 2000.0, 1.2, 1.0, 0.5, 0.2, 0.5, 0.5, 1.5, 4.0, 0.375) < 2000
     True
     """
-    wall, core, v_x, friction, area = muschelknautz_flow(volume_flow, fluid_density, particle_density, dust_loading, cyclone, gas_friction)
+    wall, core, v_x, friction, area = muschelknautz_flow(
+        volume_flow, fluid_density, particle_density, dust_loading, cyclone, gas_friction
+    )
     u = core / v_x
     body = friction * area * fluid_density * (wall * core) ** 1.5 / (2.0 * 0.9 * volume_flow)
     return body + 0.5 * fluid_density * v_x**2 * (2.0 + u**2 + 3.0 * u ** (4.0 / 3.0))
@@ -149,9 +184,14 @@ def loading_factor_briggs(concentration: Concentration) -> PositiveNumber:
     return 1.0 / (1.0 + 0.0086 * jnp.sqrt(1e3 * concentration + 1e-300))
 
 
-@formula(source="kalen1974; cooper2011",
-         equation=r"v_s = 4.913\,W\,\frac{(b/D)^{0.4} D^{0.067} v_i^{2/3}}{(1 - b/D)^{1/3}},\ W = \left[\frac{4 g\eta(\rho_p-\rho_g)}{3\rho_g^2}\right]^{1/3}",
-         typical={**TYPICAL, "velocity": (12.0, 25.0)})  # fmt: skip
+@formula(
+    source="kalen1974; cooper2011",
+    equation=(
+        r"v_s = 4.913\,W\,\frac{(b/D)^{0.4} D^{0.067} v_i^{2/3}}{(1 - b/D)^{1/3}},\ W = \left[\frac{4 "
+        r"g\eta(\rho_p-\rho_g)}{3\rho_g^2}\right]^{1/3}"
+    ),
+    typical={**TYPICAL, "velocity": (12.0, 25.0)},
+)
 def saltation_velocity_kalen_zenz(
     velocity: Speed,
     diameter: Length,
@@ -167,7 +207,13 @@ def saltation_velocity_kalen_zenz(
     >>> 8 < saltation_velocity_kalen_zenz(15.0, 1.0, 0.2, 2000.0, 1.2, 1.8e-5) < 20
     True
     """
-    W = (4.0 * STANDARD_GRAVITY * dynamic_viscosity * heavier(particle_density, fluid_density) / (3.0 * fluid_density**2)) ** (1.0 / 3.0)
+    W = (
+        4.0
+        * STANDARD_GRAVITY
+        * dynamic_viscosity
+        * heavier(particle_density, fluid_density)
+        / (3.0 * fluid_density**2)
+    ) ** (1.0 / 3.0)
     impossible(inlet_width >= diameter, inlet_width, "inlet_width", 0.0, diameter, WIDE_INLET)
     K = inlet_width / diameter
     return 4.913 * W * K**0.4 * diameter**0.067 * velocity ** (2.0 / 3.0) / (1.0 - K) ** (1.0 / 3.0)

@@ -1,8 +1,9 @@
 """A small equation system that is solved from any consistent set of knowns.
 
-Which quantities are known is fixed before tracing, so the order of solution is found once, in Python, and the numbers run through it as
-plain array code. Relations are used one after the other wherever they fix something; where that stops, one quantity is guessed, the rest
-follows, and the relation left over decides the guess by a bracketed root.
+Which quantities are known is fixed before tracing, so the order of solution is found once, in Python, and the
+numbers run through it as plain array code. Relations are used one after the other wherever they fix
+something; where that stops, one quantity is guessed, the rest follows, and the relation left over decides the
+guess by a bracketed root.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ Values = dict[str, Any]
 class Relation(NamedTuple):
     """Quantities tied together by ``fixes`` equations.
 
-    ``solve(values, unknown)`` gives the unknown ones; ``residual`` is zero when it holds. ``extra`` marks a consequence of the others, which
-    only shortens the search.
+    ``solve(values, unknown)`` gives the unknown ones; ``residual`` is zero when it holds. ``extra`` marks a
+    consequence of the others, which only shortens the search.
     """
 
     variables: tuple[str, ...]
@@ -58,7 +59,9 @@ class Step(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Order of solution: steps before the guess, the guessed quantity, steps that follow from it, the relation that decides it."""
+    """Order of solution: steps before the guess, the guessed quantity, steps that follow from it, the
+    relation that decides it.
+    """
 
     before: tuple[Step, ...]
     guess: str | None = None
@@ -75,8 +78,12 @@ def _only_root(mismatch: Callable[[Any], Any], low: Any, high: Any) -> Any:
 
 
 def _first_root(mismatch: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """The first root between the ends, where the mismatch may have poles or gaps: looked for piece by piece."""
-    shape = jax.eval_shape(mismatch, jnp.asarray(low, dtype=float) + 0.0 * jnp.asarray(high, dtype=float)).shape
+    """The first root between the ends, where the mismatch may have poles or gaps: looked for piece by
+    piece.
+    """
+    shape = jax.eval_shape(
+        mismatch, jnp.asarray(low, dtype=float) + 0.0 * jnp.asarray(high, dtype=float)
+    ).shape
     share = jnp.linspace(0.0, 1.0, PIECES + 1).reshape((-1,) + (1,) * len(shape))
     grid = low + (high - low) * share + jnp.zeros(shape)
     signs = jnp.sign(mismatch(grid))
@@ -90,9 +97,11 @@ def _first_root(mismatch: Callable[[Any], Any], low: Any, high: Any) -> Any:
 
 
 class System:
-    """Relations between named quantities, and how to search each of them: ``pole`` names one that grows without limit, and what vanishes there.
+    """Relations between named quantities, and how to search each of them: ``pole`` names one that grows
+    without limit, and what vanishes there.
 
-    ``bracket`` gives the ends between which a quantity is guessed, and whether the mismatch changes its sign only once in between.
+    ``bracket`` gives the ends between which a quantity is guessed, and whether the mismatch changes its sign
+    only once in between.
     """
 
     def __init__(
@@ -103,7 +112,13 @@ class System:
         pole: tuple[str, Callable[[Values], Any]],
         free: tuple[str, ...] = (),
     ):
-        self.relations, self.guesses, self.bracket, self.pole, self.free = relations, guesses, bracket, pole, free
+        self.relations, self.guesses, self.bracket, self.pole, self.free = (
+            relations,
+            guesses,
+            bracket,
+            pole,
+            free,
+        )
         self.variables = tuple(dict.fromkeys(name for r in relations for name in r.variables))
         self.plan = lru_cache(maxsize=256)(self._plan)
 
@@ -117,7 +132,9 @@ class System:
         return given.union(name for name in self.free if name != sought)
 
     def solve(self, given: Mapping[str, Any], constants: Mapping[str, Any]) -> Values:
-        """Every quantity from the given ones (those of ``completed``); constants are what no relation is solved for."""
+        """Every quantity from the given ones (those of ``completed``); constants are what no relation is
+        solved for.
+        """
         plan = self.plan(frozenset(given))
         values = self._run(plan.before, {**given, **constants})
         if plan.guess is None:
@@ -139,8 +156,12 @@ class System:
             values |= self.relations[step.relation].solve(values, step.unknown)
         return values
 
-    def _propagate(self, known: frozenset[str], used: frozenset[int] = frozenset()) -> tuple[tuple[Step, ...], frozenset[str], list[int]]:
-        """Steps that follow from the knowns, what is known then, and the relations left with nothing to find."""
+    def _propagate(
+        self, known: frozenset[str], used: frozenset[int] = frozenset()
+    ) -> tuple[tuple[Step, ...], frozenset[str], list[int]]:
+        """Steps that follow from the knowns, what is known then, and the relations left with nothing to
+        find.
+        """
         steps: list[Step] = []
         spare: list[int] = []
         left = [i for i in range(len(self.relations)) if i not in used]
@@ -176,23 +197,35 @@ class System:
             if name in known:
                 continue
             after, found, spare = self._propagate(known | {name}, used)
-            if found.issuperset(self.variables) and len(spare) == 1 and self.relations[spare[0]].residual is not None:
+            if (
+                found.issuperset(self.variables)
+                and len(spare) == 1
+                and self.relations[spare[0]].residual is not None
+            ):
                 return Plan(before, name, after, spare[0])
         raise InputError(
             _(
-                "These values do not fix the dryer: some of them say the same thing. Given: {names}. Replace one by another of: {others}."
-            ).format(names=", ".join(sorted(given - set(self.free))), others=", ".join(n for n in self.variables if n not in known))
+                "These values do not fix the dryer: some of them say the same thing. Given: {names}. "
+                "Replace one by another of: {others}."
+            ).format(
+                names=", ".join(sorted(given - set(self.free))),
+                others=", ".join(n for n in self.variables if n not in known),
+            )
         )
 
     def _structure(self, given: frozenset[str]) -> tuple[list[str], list[str]]:
-        """Knowns of which one is too many, and quantities of which one more must be given (Dulmage and Mendelsohn's decomposition)."""
+        """Knowns of which one is too many, and quantities of which one more must be given (Dulmage and
+        Mendelsohn's decomposition).
+        """
         import networkx as nx
 
         equations = [(i, k) for i, r in enumerate(self.relations) if not r.extra for k in range(r.fixes)]
         unknown = [name for name in self.variables if name not in given]
         graph = nx.Graph()
         graph.add_nodes_from([*equations, *unknown])
-        graph.add_edges_from((e, name) for e in equations for name in self.relations[e[0]].variables if name not in given)
+        graph.add_edges_from(
+            (e, name) for e in equations for name in self.relations[e[0]].variables if name not in given
+        )
         match = nx.bipartite.maximum_matching(graph, top_nodes=equations)
         # from an equation to what it holds, and from a quantity to the equation that gives it
         order = nx.DiGraph()
@@ -201,19 +234,23 @@ class System:
         order.add_edges_from((name, match[name]) for name in unknown if name in match)
         over = {e for e in equations if e not in match}
         tied = over.union(*(nx.descendants(order, e) for e in over))
-        redundant = {name for e in equations if e in tied for name in self.relations[e[0]].variables if name in given}
+        redundant = {
+            name for e in equations if e in tied for name in self.relations[e[0]].variables if name in given
+        }
         loose = {name for name in unknown if name not in match}
         open_ = loose.union(*(nx.ancestors(order, name) for name in loose))
         return sorted(redundant), [name for name in unknown if name in open_]
 
     def _complaint(self, given: frozenset[str], redundant: list[str], missing: list[str]) -> InputError:
         own, zero = sorted(given - set(self.free)), set(self.free) & given
-        text = _("{count} values fix this balance (its degrees of freedom); {given} of them are given or zero by default.").format(
-            count=self.freedom, given=len(given)
-        )
+        text = _(
+            "{count} values fix this balance (its degrees of freedom); {given} of them are given or "
+            "zero by default."
+        ).format(count=self.freedom, given=len(given))
         if redundant:
             text += " " + _(
-                "Too many: one of {names} follows from the others; leave one out, or name what is to be found instead in 'quantity_sought'."
+                "Too many: one of {names} follows from the others; leave one out, or name what is to be "
+                "found instead in 'quantity_sought'."
             ).format(names=", ".join(n for n in redundant if n not in zero))
         if missing:
             text += " " + _("Not fixed: give one more of {names}.").format(names=", ".join(missing))

@@ -1,7 +1,9 @@
-"""The core: classes of moist solid and moist gas through a row of cells, steady and in time, water and energy conserved.
+"""The core: classes of moist solid and moist gas through a row of cells, steady and in time, water and energy
+conserved.
 
-Solid flows from the first cell to the last (or stands still); gas flows along a network between neighboring cells. Everything is counted
-per dry mass, with the enthalpies of the streams, so that what closes here closes in the flowsheet.
+Solid flows from the first cell to the last (or stands still); gas flows along a network between neighboring
+cells. Everything is counted per dry mass, with the enthalpies of the streams, so that what closes here closes
+in the flowsheet.
 """
 
 from __future__ import annotations
@@ -24,7 +26,8 @@ MIXED = 1e6  # flow between neighbors, over the flow through, that counts as wel
 
 
 class Network(eqx.Module):
-    """Flows of dry gas relative to the whole: into each cell from the cell before, from the cell after and from outside, and to the outside.
+    """Flows of dry gas relative to the whole: into each cell from the cell before, from the cell after and
+    from outside, and to the outside.
 
     ``one_way``: nothing comes back from the cell after, so that a steady state is found cell by cell.
     """
@@ -56,7 +59,12 @@ class Network(eqx.Module):
         """The same with an exchange flow between all neighbors: axial dispersion."""
         n = len(self.inlet)
         inner = jnp.arange(n)
-        return Network(self.from_before + flow * (inner > 0), self.from_after + flow * (inner < n - 1), self.inlet, self.outlet)
+        return Network(
+            self.from_before + flow * (inner > 0),
+            self.from_after + flow * (inner < n - 1),
+            self.inlet,
+            self.outlet,
+        )
 
     @classmethod
     def mixed(cls, n: int) -> Network:
@@ -65,7 +73,9 @@ class Network(eqx.Module):
 
 
 class Inlet(NamedTuple):
-    """What enters: moisture and temperature of each class of solid, humidity and temperature of the gas (one, or one for each cell)."""
+    """What enters: moisture and temperature of each class of solid, humidity and temperature of the gas (one,
+    or one for each cell).
+    """
 
     moisture: Any
     temperature: Any
@@ -83,7 +93,9 @@ class Entering(NamedTuple):
 
 
 class Profile(NamedTuple):
-    """State of every place (places × classes or layers for the solid; gas as it leaves the place) and the flows out, W and kg/s."""
+    """State of every place (places × classes or layers for the solid; gas as it leaves the place) and the
+    flows out, W and kg/s.
+    """
 
     shares: Any  # of the classes in the product
     place: Any  # 0 … 1 along the path of the solid
@@ -119,16 +131,22 @@ def largest_change(moisture: Any, *more: Any) -> Cells:
     return Cells(jnp.stack([0.2 * jnp.max(moisture) + 0.01, jnp.asarray(WARMEST_STEP), *more]), jnp.inf)
 
 
-def march(rates: Callable[[Cells, Cells, Any], Rates], first: Cells, rows: Any, steps: Any, limit: Cells) -> tuple[Cells, Any]:
-    """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)`` vanishes, u having one cell.
+def march(
+    rates: Callable[[Cells, Cells, Any], Rates], first: Cells, rows: Any, steps: Any, limit: Cells
+) -> tuple[Cells, Any]:
+    """Steady states of cells of which each depends on the one before alone: ``rates(u, before, row)``
+    vanishes, u having one cell.
 
-    On its way there the gas, too, has something to hold, for ``steps`` of time: bare, it would run ahead of grains so fine that they follow it.
+    On its way there the gas, too, has something to hold, for ``steps`` of time: bare, it would run ahead of
+    grains so fine that they follow it.
     """
 
     def cell(carry: tuple[Any, Any], given: tuple[Any, Any]) -> tuple[tuple[Any, Any], Any]:
         (before, well), (row, step) = carry, given
         start = jax.tree.map(lambda leaf: leaf[None], before)
-        found = solve_chain(lambda u: rates(u, before, row), start, Cells(1.0, step), first_step=step, largest_change=limit)
+        found = solve_chain(
+            lambda u: rates(u, before, row), start, Cells(1.0, step), first_step=step, largest_change=limit
+        )
         state = jax.tree.map(lambda leaf: leaf[0], found.state)
         return (state, well & found.converged), state
 
@@ -144,7 +162,8 @@ class Contact(eqx.Module):
     matter, kinetics: what meets, and how fast it dries.
     solid: dry solid in each cell, kg (cells × classes).
     renewal: share of that which flows on per second (cells × classes); zero for solid that stands.
-    gas_flow: dry gas, kg/s. network: how it flows. gas_time: residence time of the gas in the whole, s; at zero it holds nothing.
+    gas_flow: dry gas, kg/s. network: how it flows. gas_time: residence time of the gas in the whole, s; at
+        zero it holds nothing.
     exchange: function of (X, T_s, T_g, Y) → W/(K kg of dry solid); arrays of cells × classes.
     wall_exchange, wall_temperature: conduction from a hot wall to the solid, W/(K kg), K.
     heat_loss: W lost by the gas in each cell.
@@ -186,14 +205,18 @@ class Contact(eqx.Module):
         return Meeting(X, Ts, Tg, Y, exchange, self.matter)
 
     def _transfer(self, u: Cells) -> tuple[Any, Any, Any, Any]:
-        """Per kg of dry solid: water evaporated, enthalpy it carries at the surface, heat from the gas, heat from walls."""
+        """Per kg of dry solid: water evaporated, enthalpy it carries at the surface, heat from the gas, heat
+        from walls.
+        """
         at = self.meeting(u)
         rate = self.kinetics.rate(at)
         carried, heat_capacity = slope(self.matter.vapor_enthalpy, at.temperature)
         blow = rate * heat_capacity / at.exchange
         small = abs(blow) < 1e-6
         safe = jnp.where(small, 1.0, blow)
-        slowed = jnp.where(small, 1.0 - 0.5 * blow, safe / jnp.expm1(safe))  # Ackermann: vapor leaving the surface hinders the heat
+        slowed = jnp.where(
+            small, 1.0 - 0.5 * blow, safe / jnp.expm1(safe)
+        )  # Ackermann: vapor leaving the surface hinders the heat
         heat = at.exchange * slowed * (at.gas_temperature - at.temperature)
         return rate, rate * carried, heat, self.wall_exchange * (self.wall_temperature - at.temperature)
 
@@ -202,16 +225,23 @@ class Contact(eqx.Module):
         n, m = self.solid.shape
         X, T = jnp.broadcast_to(inlet.moisture, (m,)), jnp.broadcast_to(inlet.temperature, (m,))
         Y, Tg = jnp.broadcast_to(inlet.humidity, (n,)), jnp.broadcast_to(inlet.gas_temperature, (n,))
-        return Entering(X, self.matter.moist_solid(T, X) / ENTHALPY, Y, self.matter.moist_gas(Tg, Y) / ENTHALPY)
+        return Entering(
+            X, self.matter.moist_solid(T, X) / ENTHALPY, Y, self.matter.moist_gas(Tg, Y) / ENTHALPY
+        )
 
     def rates(self, u: Cells, fresh: Entering) -> Rates:
-        """Rates of change: per kg of dry solid for solid, per kg/s of dry gas flow times ``gas_time``/n for gas."""
+        """Rates of change: per kg of dry solid for solid, per kg/s of dry gas flow times ``gas_time``/n for
+        gas.
+        """
         X, H, Y, Hg = unpacked(u)
         rate, carried, heat, wall = self._transfer(u)
         dX = self._moved(X, fresh.moisture) - rate
         dH = self._moved(H, fresh.enthalpy) + (heat + wall - carried) / ENTHALPY
         given = self.solid * jnp.stack([rate, (carried - heat) / ENTHALPY]) / self.gas_flow
-        dY, dHg = self._blown(Y, fresh.humidity), self._blown(Hg, fresh.gas_enthalpy) - self.heat_loss / (self.gas_flow * ENTHALPY)
+        dY, dHg = (
+            self._blown(Y, fresh.humidity),
+            self._blown(Hg, fresh.gas_enthalpy) - self.heat_loss / (self.gas_flow * ENTHALPY),
+        )
         return Rates(jnp.stack([dX, dH], axis=-1), jnp.moveaxis(given, 0, -1), jnp.stack([dY, dHg], axis=-1))
 
     def _moved(self, q: Any, q_in: Any) -> Any:
@@ -225,10 +255,19 @@ class Contact(eqx.Module):
         return w.from_before * (before - q) + w.from_after * (after - q) + w.inlet * (q_in - q)
 
     def outflow(self, u: Cells) -> Any:
-        """Water and enthalpy (10⁵ W) that leave with each class of solid, then with the gas: linear in the unknowns."""
+        """Water and enthalpy (10⁵ W) that leave with each class of solid, then with the gas: linear in the
+        unknowns.
+        """
         X, H, Y, Hg = unpacked(u)
         out = self.gas_flow * self.network.outlet
-        return jnp.concatenate([self.solid_flow * X[-1], self.solid_flow * H[-1], jnp.sum(out * Y)[None], jnp.sum(out * Hg)[None]])
+        return jnp.concatenate(
+            [
+                self.solid_flow * X[-1],
+                self.solid_flow * H[-1],
+                jnp.sum(out * Y)[None],
+                jnp.sum(out * Hg)[None],
+            ]
+        )
 
     def capacity(self) -> Cells:
         """What the cells hold: solid by itself, gas by its time."""
@@ -237,16 +276,27 @@ class Contact(eqx.Module):
     def start(self, inlet: Inlet) -> Cells:
         """A first guess: solid and gas as they enter."""
         n, m = self.solid.shape
-        Y, Tg = (jnp.sum(jnp.broadcast_to(v, (n,)) * self.network.inlet) for v in (inlet.humidity, inlet.gas_temperature))
+        Y, Tg = (
+            jnp.sum(jnp.broadcast_to(v, (n,)) * self.network.inlet)
+            for v in (inlet.humidity, inlet.gas_temperature)
+        )
         X, T = (jnp.broadcast_to(v, (n, m)) for v in (inlet.moisture, inlet.temperature))
         return self.state(X, T, jnp.full(n, Y), jnp.full(n, Tg))
 
     def cell(self, row: CellRow) -> Contact:
         """One cell on its own, in a row through which solid and gas flow together."""
         return Contact(
-            self.matter, self.kinetics, row.solid[None], row.renewal[None], self.gas_flow, Network.co_current(1), self.exchange,
-            self.wall_exchange, self.wall_temperature, row.heat_loss[None],
-        )  # fmt: skip
+            self.matter,
+            self.kinetics,
+            row.solid[None],
+            row.renewal[None],
+            self.gas_flow,
+            Network.co_current(1),
+            self.exchange,
+            self.wall_exchange,
+            self.wall_temperature,
+            row.heat_loss[None],
+        )
 
     def steady(self, inlet: Inlet) -> Profile:
         """The steady state."""
@@ -254,14 +304,22 @@ class Contact(eqx.Module):
         limit = largest_change(inlet.moisture)
         fresh = self.entering(inlet)
         if self.network.one_way:
-            rows = CellRow(self.solid, jnp.broadcast_to(self.renewal, (n, m)), jnp.broadcast_to(self.heat_loss, (n,)))
+            rows = CellRow(
+                self.solid, jnp.broadcast_to(self.renewal, (n, m)), jnp.broadcast_to(self.heat_loss, (n,))
+            )
             first = jax.tree.map(lambda leaf: leaf[0], self.start(inlet))
             steps = 0.1 / jnp.max(rows.renewal, axis=1)
-            states, converged = march(lambda u, before, row: self.cell(row).rates(u, left(before)), first, rows, steps, limit)
+            states, converged = march(
+                lambda u, before, row: self.cell(row).rates(u, left(before)), first, rows, steps, limit
+            )
             return self.profile(states, converged)
         step = 0.1 / jnp.max(self.renewal)
-        held = Cells(1.0, jnp.maximum(self.gas_time / n, step))  # on its way there the gas, too, has something to hold
-        found = solve_chain(lambda u: self.rates(u, fresh), self.start(inlet), held, first_step=step, largest_change=limit)
+        held = Cells(
+            1.0, jnp.maximum(self.gas_time / n, step)
+        )  # on its way there the gas, too, has something to hold
+        found = solve_chain(
+            lambda u: self.rates(u, fresh), self.start(inlet), held, first_step=step, largest_change=limit
+        )
         return self.profile(found.state, found.converged)
 
     def profile(self, u: Cells, converged: Any = True) -> Profile:
@@ -276,23 +334,53 @@ class Contact(eqx.Module):
         wall = self.wall_exchange * (self.wall_temperature - Ts)
         duty = jnp.sum(self.solid * wall) - jnp.sum(self.heat_loss * jnp.ones(n))
         water, heat = out[:m], ENTHALPY * out[m : 2 * m]
-        return Profile(shares, place, X, Ts, Y, Tg, water, heat, out[-2], ENTHALPY * out[-1], duty, converged, jnp.arange(n) == n - 1)
+        return Profile(
+            shares,
+            place,
+            X,
+            Ts,
+            Y,
+            Tg,
+            water,
+            heat,
+            out[-2],
+            ENTHALPY * out[-1],
+            duty,
+            converged,
+            jnp.arange(n) == n - 1,
+        )
 
     def dynamic(self, start: Cells, inlets: Inlet, step: Any) -> tuple[Profile, Any]:
-        """States over time from a state, inlets having a leading axis of steps; and the water and heat (10⁵ J) that left up to each."""
+        """States over time from a state, inlets having a leading axis of steps; and the water and heat (10⁵
+        J) that left up to each.
+        """
         wettest = jnp.maximum(jnp.max(start.lanes[..., 0]), jnp.max(inlets.moisture))
 
         def reach(u: Cells, change: Cells) -> Any:
             """No water that is not there."""
             X, falling = u.lanes[..., 0], change.lanes[..., 0] < 0
-            return jnp.min(jnp.where(falling, (X + NO_WATER * wettest) / jnp.where(falling, -change.lanes[..., 0], 1.0), jnp.inf))
+            return jnp.min(
+                jnp.where(
+                    falling,
+                    (X + NO_WATER * wettest) / jnp.where(falling, -change.lanes[..., 0], 1.0),
+                    jnp.inf,
+                )
+            )
 
         found = advance_chain(
-            lambda u, given: self.rates(u, self.entering(given)), start, self.capacity(), step, inlets, lambda u, _given: self.outflow(u),
-            reach, largest_change(wettest),
-        )  # fmt: skip
+            lambda u, given: self.rates(u, self.entering(given)),
+            start,
+            self.capacity(),
+            step,
+            inlets,
+            lambda u, _given: self.outflow(u),
+            reach,
+            largest_change(wettest),
+        )
         profiles = jax.vmap(self.profile)(found.states)
-        return profiles._replace(converged=jnp.broadcast_to(found.converged, profiles.place.shape[:1])), found.outflow
+        return profiles._replace(
+            converged=jnp.broadcast_to(found.converged, profiles.place.shape[:1])
+        ), found.outflow
 
 
 def unpacked(u: Cells) -> tuple[Any, Any, Any, Any]:

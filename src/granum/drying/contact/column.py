@@ -1,6 +1,8 @@
-"""Gas blown through a layer that is carried along or lies still: layers of standing solid in time, the core without flow of solid.
+"""Gas blown through a layer that is carried along or lies still: layers of standing solid in time, the core
+without flow of solid.
 
-A column that travels through a dryer sees in time what the dryer shows along its length, so one sweep in time gives the steady dryer.
+A column that travels through a dryer sees in time what the dryer shows along its length, so one sweep in time
+gives the steady dryer.
 """
 
 from __future__ import annotations
@@ -15,7 +17,9 @@ from granum.drying.contact.cells import ENTHALPY, Contact, Inlet, Network, Profi
 
 
 class Zone(NamedTuple):
-    """A stretch of the dryer: time in it, dry gas per dry solid and second, whether the gas enters at the last layer, and its state."""
+    """A stretch of the dryer: time in it, dry gas per dry solid and second, whether the gas enters at the
+    last layer, and its state.
+    """
 
     duration: Any
     gas_per_solid: Any
@@ -35,7 +39,8 @@ class Passage(NamedTuple):
 
 
 def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int) -> list[Passage]:
-    """Take a column of one kilogram of dry solid, of moisture X and temperature T at first, through zones one after the other.
+    """Take a column of one kilogram of dry solid, of moisture X and temperature T at first, through zones one
+    after the other.
 
     ``like`` gives matter, kinetics, exchange and the shares of solid in its layers (layers × 1).
     """
@@ -52,21 +57,48 @@ def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int)
             jnp.where(zone.backwards, up.outlet, down.outlet),
         )
         column = Contact(
-            like.matter, like.kinetics, like.solid, jnp.zeros((n, 1)), zone.gas_per_solid, network, like.exchange,
-            like.wall_exchange, like.wall_temperature, like.heat_loss,
-        )  # fmt: skip
-        start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0])  # gas at rest with the solid, so that the first step is mild
-        inlets = Inlet(*(jnp.broadcast_to(v, (steps, *jnp.shape(v))) for v in (X[0], T[0], zone.humidity, zone.temperature)))
+            like.matter,
+            like.kinetics,
+            like.solid,
+            jnp.zeros((n, 1)),
+            zone.gas_per_solid,
+            network,
+            like.exchange,
+            like.wall_exchange,
+            like.wall_temperature,
+            like.heat_loss,
+        )
+        start = column.state(
+            X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0]
+        )  # gas at rest with the solid, so that the first step is mild
+        inlets = Inlet(
+            *(
+                jnp.broadcast_to(v, (steps, *jnp.shape(v)))
+                for v in (X[0], T[0], zone.humidity, zone.temperature)
+            )
+        )
         layers, totals = column.dynamic(start, inlets, zone.duration * jnp.diff(edges))
         return (layers.moisture[-1], layers.temperature[-1]), (layers, totals[-1])
 
-    stacked = Zone(*(jnp.stack([jnp.asarray(v, dtype=float) for v in values]) for values in zip(*zones, strict=True)))
+    stacked = Zone(
+        *(jnp.stack([jnp.asarray(v, dtype=float) for v in values]) for values in zip(*zones, strict=True))
+    )
     stacked = stacked._replace(backwards=stacked.backwards > 0.5)
-    _end, (layers, totals) = jax.lax.scan(through, (jnp.broadcast_to(X, (n, 1)) + 0.0, jnp.broadcast_to(T, (n, 1)) + 0.0), stacked)
+    _end, (layers, totals) = jax.lax.scan(
+        through, (jnp.broadcast_to(X, (n, 1)) + 0.0, jnp.broadcast_to(T, (n, 1)) + 0.0), stacked
+    )
     found, clock = [], 0.0
     for i, zone in enumerate(zones):
         here = jax.tree.map(lambda leaf, i=i: leaf[i], layers)
-        found.append(Passage(here, clock + zone.duration * edges[1:], zone.gas_per_solid, totals[i, -2], ENTHALPY * totals[i, -1]))
+        found.append(
+            Passage(
+                here,
+                clock + zone.duration * edges[1:],
+                zone.gas_per_solid,
+                totals[i, -2],
+                ENTHALPY * totals[i, -1],
+            )
+        )
         clock = clock + zone.duration
     return found
 

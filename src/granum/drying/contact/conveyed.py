@@ -1,4 +1,6 @@
-"""Particles or drops carried by gas through a duct or chamber: their speed, time and heat transfer, cell by cell."""
+"""Particles or drops carried by gas through a duct or chamber: their speed, time and heat transfer, cell by
+cell.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,17 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import ENTHALPY, Contact, Entering, Inlet, Network, Profile, largest_change, left, march
+from granum.drying.contact.cells import (
+    ENTHALPY,
+    Contact,
+    Entering,
+    Inlet,
+    Network,
+    Profile,
+    largest_change,
+    left,
+    march,
+)
 from granum.drying.contact.kinetics import AbstractKinetics
 from granum.drying.contact.matter import Matter
 from granum.numerics import Cells, Rates, solve_chain
@@ -18,9 +30,11 @@ SLOWEST = 1e-3  # m/s, of a particle against its duct: below it would fall out, 
 
 
 class Path(NamedTuple):
-    """Where the particles are carried: lengths of the cells, section, how gravity acts along the way, speed at the start, sizes.
+    """Where the particles are carried: lengths of the cells, section, how gravity acts along the way, speed
+    at the start, sizes.
 
-    ``dry_size`` and ``dry_density`` are of the dry particle; a wet one is a ball of its solid and liquid, never smaller than the dry one.
+    ``dry_size`` and ``dry_density`` are of the dry particle; a wet one is a ball of its solid and liquid,
+    never smaller than the dry one.
     """
 
     steps: Any
@@ -38,7 +52,9 @@ def wet_size(path: Path, X: Any) -> Any:
     """Diameter at a moisture."""
     if not path.shrinks:
         return path.dry_size + 0.0 * X
-    return path.dry_size * jnp.maximum(1.0, drop_ratio(path.dry_density, path.solid_density, path.liquid_density, X))
+    return path.dry_size * jnp.maximum(
+        1.0, drop_ratio(path.dry_density, path.solid_density, path.liquid_density, X)
+    )
 
 
 def liquid_density(feed: Stream) -> Any:
@@ -52,8 +68,9 @@ def drop_ratio(dry_density: Any, solid_density: Any, liquid_density: Any, X: Any
 
 
 def relaxed(path: Path, gas: Flight, before: Any, own: Any, X: Any) -> tuple[Any, Any]:
-    """Speed of each class at the end of a cell entered at a speed, and the time in it: drag of Schiller and Naumann at the mean speed, and
-    gravity. ``own`` is the speed at the end as far as it is known; at the solution both agree.
+    """Speed of each class at the end of a cell entered at a speed, and the time in it: drag of Schiller and
+    Naumann at the mean speed, and gravity. ``own`` is the speed at the end as far as it is known; at the
+    solution both agree.
     """
     d = wet_size(path, X)
     density = path.dry_density * (path.dry_size / d) ** 3 * (1.0 + X)  # mass per volume of the wet particle
@@ -75,12 +92,20 @@ class Flight(NamedTuple):
 
 
 def convey(
-    path: Path, matter: Matter, kinetics: AbstractKinetics, gas: Stream, inlet: Inlet, solid_flow: Any, network: Network,
+    path: Path,
+    matter: Matter,
+    kinetics: AbstractKinetics,
+    gas: Stream,
+    inlet: Inlet,
+    solid_flow: Any,
+    network: Network,
     heat_loss: Any,
-) -> tuple[Profile, Any]:  # fmt: skip
-    """Steady state of particles carried by gas; their speeds are unknowns beside moisture and temperature. Also the dry solid under way, kg.
+) -> tuple[Profile, Any]:
+    """Steady state of particles carried by gas; their speeds are unknowns beside moisture and temperature.
+    Also the dry solid under way, kg.
 
-    Without dispersion of the gas every cell depends on the one before alone, and they are solved one after the other.
+    Without dispersion of the gas every cell depends on the one before alone, and they are solved one after
+    the other.
     """
     n, m = path.steps.shape[0], path.dry_size.shape[0]
     dry = matter.humid.dry_flow(gas)
@@ -100,7 +125,9 @@ def convey(
             return nusselt * conductivity / size * 6.0 * size**2 / (path.dry_density * path.dry_size**3)
 
         lost = heat_loss * lengths[:, 0] / jnp.sum(path.steps)
-        return Contact(matter, kinetics, solid_flow * times, 1.0 / times, dry, network, exchange, heat_loss=lost)
+        return Contact(
+            matter, kinetics, solid_flow * times, 1.0 / times, dry, network, exchange, heat_loss=lost
+        )
 
     def split(v: Cells, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any]:
         """The core for speeds at the ends of the cells, and what these lack."""
@@ -109,8 +136,12 @@ def convey(
         density = matter.gas_density(Tg, Y)
         gas_speed = dry / (density * path.section)
         before = jnp.concatenate([jnp.broadcast_to(first, (1, m)), own[:-1]])
-        ends, times = relaxed(path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X)
-        return contact(times, jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST), network, lengths), (ends - own) / times
+        ends, times = relaxed(
+            path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X
+        )
+        return contact(times, jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST), network, lengths), (
+            ends - own
+        ) / times
 
     def rates(v: Cells, fresh: Entering, first: Any, network: Network, lengths: Any) -> Rates:
         core, lack = split(v, first, network, lengths)
@@ -123,20 +154,27 @@ def convey(
     begin = still.start(inlet)
     first = Cells(jnp.concatenate([begin.lanes[0], start[:, None]], axis=-1), begin.shared[0])
     moving = largest_change(inlet.moisture, jnp.asarray(jnp.inf))
-    fastest = jnp.maximum(jnp.max(start), dry / (matter.gas_density(inlet.gas_temperature, inlet.humidity) * path.section))
+    fastest = jnp.maximum(
+        jnp.max(start), dry / (matter.gas_density(inlet.gas_temperature, inlet.humidity) * path.section)
+    )
     alone = Network.co_current(1)
 
     def cell(v: Cells, before: Cells, length: Any) -> Rates:
         return rates(v, left(before), before.lanes[:, 2], alone, length[None])
 
     states, converged = march(cell, first, lengths, 0.1 * path.steps / fastest, moving)
-    if not network.one_way:  # from the dryer without dispersion, its gas mixed with that at the end in proportion
+    if (
+        not network.one_way
+    ):  # from the dryer without dispersion, its gas mixed with that at the end in proportion
         share = 1.0 / (1.0 + network.from_after[0])
         guess = states._replace(shared=share * states.shared + (1.0 - share) * states.shared[-1])
         found = solve_chain(
-            lambda v: rates(v, fresh, start, network, lengths), guess, Cells(1.0, lengths / fastest), first_step=0.1 * jnp.min(path.steps) / fastest,
+            lambda v: rates(v, fresh, start, network, lengths),
+            guess,
+            Cells(1.0, lengths / fastest),
+            first_step=0.1 * jnp.min(path.steps) / fastest,
             largest_change=moving,
-        )  # fmt: skip
+        )
         states, converged = found.state, found.converged
     core, _lack = split(states, start, network, lengths)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)

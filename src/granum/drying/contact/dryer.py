@@ -18,7 +18,16 @@ from scipy.optimize import root_scalar
 from granum.core.errors import ApplicabilityError
 from granum.core.flags import unsolved
 from granum.core.i18n import _
-from granum.core.kinds import HumidityRatio, Mass, MoistureDryBasis, Power, Ratio, SignedMassFlow, Temperature, Time
+from granum.core.kinds import (
+    HumidityRatio,
+    Mass,
+    MoistureDryBasis,
+    Power,
+    Ratio,
+    SignedMassFlow,
+    Temperature,
+    Time,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Inlet, Profile
 from granum.drying.contact.kinetics import AbstractKinetics, Meeting
@@ -32,12 +41,20 @@ from granum.streams.units import Limits, Operated, Unit
 
 WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
-UNSOLVED = "The steady state of the dryer was not found: its figures are no result. Take less solid in it, or more gas."
-PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}  # ready four times as soon; small arrays run as fast
+UNSOLVED = (
+    "The steady state of the dryer was not found: its figures are no result. Take less solid in it, or "
+    "more gas."
+)
+PLAIN = {
+    "xla_cpu_use_fusion_emitters": False,
+    "xla_backend_optimization_level": 0,
+}  # ready four times as soon; small arrays run as fast
 
 
 def ready(solve: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiled when called from outside of compiled code, quickly rather than for speed: a dryer's arrays are small."""
+    """Compiled when called from outside of compiled code, quickly rather than for speed: a dryer's arrays are
+    small.
+    """
     built: list[Callable[..., Any]] = []
 
     def call(*given: Any) -> Any:
@@ -62,7 +79,9 @@ class Dried(NamedTuple):
 class DryerFigures(NamedTuple):
     """Figures that every continuous dryer has."""
 
-    evaporation_rate: SignedMassFlow  # negative where the solid came in drier than it is in equilibrium with the gas
+    evaporation_rate: (
+        SignedMassFlow  # negative where the solid came in drier than it is in equilibrium with the gas
+    )
     moisture_dry_basis: MoistureDryBasis
     moisture_dry_basis_highest: MoistureDryBasis
     temperature_product: Temperature
@@ -76,8 +95,10 @@ class DryerFigures(NamedTuple):
 
 
 class Through(NamedTuple):
-    """What happens in a dryer in steady state: moisture and temperature through it and what leaves it, the dry solid in it (kg), and, of a grain
-    column with a cooling zone, vapor and enthalpy of the air that cooled."""
+    """What happens in a dryer in steady state: moisture and temperature through it and what leaves it, the
+    dry solid in it (kg), and, of a grain column with a cooling zone, vapor and enthalpy of the air that
+    cooled.
+    """
 
     profile: Profile
     holdup: Any
@@ -85,9 +106,13 @@ class Through(NamedTuple):
 
 
 class Dryer(Unit):
-    """A dryer fed with wet solid and gas. A subclass says what happens in it (``through``); streams, figures and limits are here."""
+    """A dryer fed with wet solid and gas. A subclass says what happens in it (``through``); streams, figures
+    and limits are here.
+    """
 
-    if TYPE_CHECKING:  # fields of every subclass, which are not declared here because a dataclass would put them first
+    if (
+        TYPE_CHECKING
+    ):  # fields of every subclass, which are not declared here because a dataclass would put them first
 
         @property
         def kinetics(self) -> AbstractKinetics: ...
@@ -97,7 +122,13 @@ class Dryer(Unit):
 
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
-        "over": Limit("moisture of the product above equilibrium with the inlet gas", -1e-9, math.inf, "kg/kg", "keey1978"),
+        "over": Limit(
+            "moisture of the product above equilibrium with the inlet gas",
+            -1e-9,
+            math.inf,
+            "kg/kg",
+            "keey1978",
+        ),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
     } | FLAMMABLE
 
@@ -121,7 +152,9 @@ class Dryer(Unit):
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
         return dried(feed, gas, inside.profile)
 
-    def figures(self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any) -> DryerFigures:
+    def figures(
+        self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any
+    ) -> DryerFigures:
         feed, exhaust = counted(feed), outlets.exhaust
         found, humid = inside.profile, HumidMixture(feed.mixture)
         some = found.shares > 1e-9
@@ -140,7 +173,9 @@ class Dryer(Unit):
             heat_duty=outlets.heat_duty,
         )
 
-    def measured(self, inside: Through, outlets: Any, figures: DryerFigures, feed: Stream, gas: Stream, **_others: Any) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Any, figures: DryerFigures, feed: Stream, gas: Stream, **_others: Any
+    ) -> dict[str, Any]:
         found = {
             "humid": figures.relative_humidity,
             "over": outlets.product.moisture_dry_basis - equilibrium(self.kinetics, feed, gas),
@@ -160,7 +195,9 @@ class Dryer(Unit):
 
 
 class ContactDryer(Dryer):
-    """A dryer whose solid flows through cells: a subclass says how solid and gas flow and meet (``contact``)."""
+    """A dryer whose solid flows through cells: a subclass says how solid and gas flow and meet
+    (``contact``).
+    """
 
     @abstractmethod
     def contact(self, feed: Stream, gas: Stream) -> Contact:
@@ -173,13 +210,22 @@ class ContactDryer(Dryer):
     def inlet(self, feed: Stream, gas: Stream) -> Inlet:
         """What enters the core: every class of the solid brings the same moisture."""
         X = jnp.full(len(feed.mixture.sizes), 1.0) * feed.moisture_dry_basis
-        return Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
+        return Inlet(
+            X,
+            jnp.full_like(X, 1.0) * feed.temperature,
+            HumidMixture(gas.mixture).humidity_ratio(gas),
+            gas.temperature,
+        )
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _steady(self, feed, gas)
 
-    def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
-        """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets that change from step to step."""
+    def dynamic(
+        self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None
+    ) -> tuple[Profile, Any]:
+        """Profiles over time from a start (by default the steady state for ``feed`` and ``gas``), with inlets
+        that change from step to step.
+        """
         core = self.core(feed, gas)
         if start is None:
             found = self.profile(feed, gas)
@@ -201,7 +247,9 @@ def solved(core: Contact, feed: Stream) -> Contact:
 
 
 def dried(feed: Stream, gas: Stream, found: Profile) -> Dried:
-    """Streams from what leaves the core. Gas that came with the feed, and dust with the gas, pass to the exhaust."""
+    """Streams from what leaves the core. Gas that came with the feed, and dust with the gas, pass to the
+    exhaust.
+    """
     return parted(counted(feed), composition(feed), gas, found)
 
 
@@ -210,21 +258,29 @@ def parted(feed: Stream, dissolved: Any, gas: Stream, found: Profile) -> Dried:
     vapor = HumidMixture(feed.mixture).vapor
     dry = gas.gas.at[vapor].set(0.0)
     stray_feed, stray_gas = feed.part(gas=1.0), gas.part(solid=1.0, liquid=1.0)
-    product = moistened(feed, jnp.sum(found.water), dissolved).replace(gas=0.0 * feed.gas, pressure=gas.pressure)
+    product = moistened(feed, jnp.sum(found.water), dissolved).replace(
+        gas=0.0 * feed.gas, pressure=gas.pressure
+    )
     exhaust = gas.replace(
         gas=dry.at[vapor].set(found.vapor) + stray_feed.gas,
         solid=stray_gas.solid,
         liquid=stray_gas.liquid,
     )
     gas_enthalpy = found.gas_enthalpy + stray_feed.enthalpy_flow + stray_gas.enthalpy_flow
-    return Dried(warmed(product, jnp.sum(found.solid_enthalpy)), warmed(exhaust, gas_enthalpy), found.heat_duty)
+    return Dried(
+        warmed(product, jnp.sum(found.solid_enthalpy)), warmed(exhaust, gas_enthalpy), found.heat_duty
+    )
 
 
 def warmed(stream: Stream, enthalpy: Any) -> Stream:
-    """The stream at the temperature of its enthalpy; the polynomials of its species are trusted near their own range only."""
+    """The stream at the temperature of its enthalpy; the polynomials of its species are trusted near their
+    own range only.
+    """
     some = stream.mass_flow > 0
     flow = jnp.where(some, stream.mass_flow, 1.0)
-    T = temperature_at(lambda T: stream.enthalpy_at(T) / flow, enthalpy / flow, jnp.asarray(stream.temperature, dtype=float))
+    T = temperature_at(
+        lambda T: stream.enthalpy_at(T) / flow, enthalpy / flow, jnp.asarray(stream.temperature, dtype=float)
+    )
     return stream.replace(temperature=jnp.where(some, T, stream.temperature))
 
 
@@ -238,26 +294,44 @@ def equilibrium(kinetics: AbstractKinetics, feed: Stream, gas: Stream) -> Any:
     return kinetics.equilibrium(at)[0]
 
 
-def sized(dryer: Any, name: str, target: Any, low: float, high: float, feed: Stream, gas: Stream, gas_velocity: Any = None) -> Any:
-    """The dryer with one parameter such that the product has a moisture; an error that says why where there is none.
+def sized(
+    dryer: Any,
+    name: str,
+    target: Any,
+    low: float,
+    high: float,
+    feed: Stream,
+    gas: Stream,
+    gas_velocity: Any = None,
+) -> Any:
+    """The dryer with one parameter such that the product has a moisture; an error that says why where there
+    is none.
 
-    With ``gas_velocity`` the gas flow follows the size of the trial dryer: it crosses its extent at this speed.
+    With ``gas_velocity`` the gas flow follows the size of the trial dryer: it crosses its extent at this
+    speed.
     """
     least = float(equilibrium(dryer.kinetics, feed, gas))
     shown = f"{float(target):.4g}"
     if float(target) <= least:
         raise ApplicabilityError(
             _(
-                "A moisture of {value} kg/kg cannot be reached: equilibrium with the inlet gas is {limit} kg/kg; take drier or hotter gas."
+                "A moisture of {value} kg/kg cannot be reached: equilibrium with the inlet gas is "
+                "{limit} kg/kg; take drier or hotter gas."
             ).format(value=shown, limit=f"{least:.4g}")
         )
     if float(target) >= float(counted(feed).moisture_dry_basis):
         raise ApplicabilityError(_("The feed is already as dry as {value} kg/kg.").format(value=shown))
-    # numbers as arrays, so that dryers of one shape share compiled code; a zero may switch a part off and stays
-    given = jax.tree.map(lambda x: np.asarray(x, dtype=float) if isinstance(x, float) and x else x, (dryer, feed, gas, gas_velocity))
+    # numbers as arrays, so that dryers of one shape share compiled code; a zero may switch a part off and
+    # stays
+    given = jax.tree.map(
+        lambda x: np.asarray(x, dtype=float) if isinstance(x, float) and x else x,
+        (dryer, feed, gas, gas_velocity),
+    )
 
     def over(x: float) -> float:
-        return float(np.log(max(float(_moisture(name, jnp.asarray(x, dtype=float), *given)), 1e-12) / float(target)))
+        return float(
+            np.log(max(float(_moisture(name, jnp.asarray(x, dtype=float), *given)), 1e-12) / float(target))
+        )
 
     size = float(np.log(getattr(dryer, name)))
     first = last = over(size)
@@ -269,13 +343,25 @@ def sized(dryer: Any, name: str, target: Any, low: float, high: float, feed: Str
     if last * first > 0 or not np.isfinite(last):
         raise ApplicabilityError(
             _(
-                "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {high} leaves {best} kg/kg, because the exhaust "
+                "The gas cannot dry the product to {value} kg/kg: even a dryer of {name} = {high} "
+                "leaves {best} kg/kg, because the exhaust "
                 "saturates or the gas cools to the solid; take more or hotter gas."
-            ).format(value=shown, name=name, high=f"{np.exp(max(size, other)):.3g}", best=f"{float(target) * np.exp(min(first, last)):.4g}")
+            ).format(
+                value=shown,
+                name=name,
+                high=f"{np.exp(max(size, other)):.3g}",
+                best=f"{float(target) * np.exp(min(first, last)):.4g}",
+            )
         )
     ends = sorted([(size, first), (other, last)])
     known = dict(ends)
-    found = root_scalar(lambda x: known.get(x) or over(x), bracket=[x for x, _y in ends], method="toms748", xtol=1e-12, rtol=1e-12).root
+    found = root_scalar(
+        lambda x: known.get(x) or over(x),
+        bracket=[x for x, _y in ends],
+        method="toms748",
+        xtol=1e-12,
+        rtol=1e-12,
+    ).root
     return eqx.tree_at(lambda d: getattr(d, name), dryer, float(np.exp(found)))
 
 

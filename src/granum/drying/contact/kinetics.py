@@ -1,4 +1,6 @@
-"""Drying kinetics as the contact core asks for them: water lost per second and kilogram of dry solid, where solid meets gas."""
+"""Drying kinetics as the contact core asks for them: water lost per second and kilogram of dry solid, where
+solid meets gas.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,16 @@ import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT
-from granum.core.kinds import Diffusivity, Law, Length, MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Temperature
+from granum.core.kinds import (
+    Diffusivity,
+    Law,
+    Length,
+    MoistureDryBasis,
+    MolarEnergy,
+    Number,
+    PositiveNumber,
+    Temperature,
+)
 from granum.drying.contact.matter import NEAR_BOILING, Matter
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
 from granum.drying.isotherms.base import AbstractIsotherm
@@ -22,11 +33,15 @@ Isotherm = Annotated[Any, Law("isotherm")]
 Curve = Annotated[Any, Law("characteristic_rate")]
 COLDEST = 200.0  # K, of a wet bulb
 LEAST = 1e-9
-EXACT = 1e-13  # of roots within a law: the core solves to 1e-12 and would never settle on rates known less well
-REA_FOOT = 1e-3  # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
+EXACT = (
+    1e-13  # of roots within a law: the core solves to 1e-12 and would never settle on rates known less well
+)
+# kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
+REA_FOOT = 1e-3
 DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
 FOOT = 1e-4  # characteristic moisture below which every curve is a straight line to equilibrium
-NARROWEST = 0.01  # of the critical moisture, over which the rate falls where equilibrium comes near to it or lies above
+# of the critical moisture, over which the rate falls where equilibrium comes near to it or lies above
+NARROWEST = 0.01
 
 
 class Meeting(NamedTuple):
@@ -42,8 +57,13 @@ class Meeting(NamedTuple):
 
     @property
     def conductance(self) -> Any:
-        """Mass transfer on the logarithmic driving force, kg/(s kg), by the Lewis factor of the pair: one for air and water."""
-        return self.exchange / (self.matter.humid.lewis_factor * self.matter.gas_heat_capacity(self.gas_temperature, self.humidity))
+        """Mass transfer on the logarithmic driving force, kg/(s kg), by the Lewis factor of the pair: one for
+        air and water.
+        """
+        return self.exchange / (
+            self.matter.humid.lewis_factor
+            * self.matter.gas_heat_capacity(self.gas_temperature, self.humidity)
+        )
 
     def film_rate(self, activity: Any = 1.0) -> Any:
         """Rate of a surface of given water activity at the temperature of the solid."""
@@ -68,7 +88,9 @@ class Meeting(NamedTuple):
             return self.known_wet_bulb
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
-        q = jnp.minimum(m.saturation_pressure(T) / m.pressure, NEAR_BOILING)  # gas beyond saturation is its own wet bulb
+        q = jnp.minimum(
+            m.saturation_pressure(T) / m.pressure, NEAR_BOILING
+        )  # gas beyond saturation is its own wet bulb
         Y = jnp.where(q < NEAR_BOILING, jnp.minimum(Y, m.molar_mass_ratio * q / (1.0 - q) * (1.0 - LEAST)), Y)
 
         def balance(Ts: Any, T: Any, Y: Any) -> Any:
@@ -76,11 +98,15 @@ class Meeting(NamedTuple):
             heat = _stefan(m.vapor_heat_capacity(Ts), m.heat_of_vaporization(Ts), T - Ts)
             return heat - m.driving_force(pressure, Y) / (m.humid.lewis_factor * m.gas_heat_capacity(T, Y))
 
-        return find_root(balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0, tolerance=EXACT).value
+        return find_root(
+            balance, COLDEST, jnp.maximum(T, COLDEST + 1.0), T, Y, start=310.0, tolerance=EXACT
+        ).value
 
 
 class AbstractKinetics(eqx.Module):
-    """A rate of drying. Negative where the gas wets the solid. ``asks_wet_bulb``: whether it needs that of the gas."""
+    """A rate of drying. Negative where the gas wets the solid. ``asks_wet_bulb``: whether it needs that of
+    the gas.
+    """
 
     asks_wet_bulb: ClassVar[bool] = False
 
@@ -94,13 +120,17 @@ class AbstractKinetics(eqx.Module):
 
 
 def _stefan(heat_capacity: Any, latent: Any, difference: Any) -> Any:
-    """Evaporation per heat transfer coefficient from a temperature difference: Spalding's logarithm of the heat that the vapor takes along."""
+    """Evaporation per heat transfer coefficient from a temperature difference: Spalding's logarithm of the
+    heat that the vapor takes along.
+    """
     return jnp.log1p(jnp.maximum(heat_capacity * difference / latent, -0.9)) / heat_capacity
 
 
 def _hindered(rate: Any, phi: Any, curve: Any, conductance: Any) -> Any:
-    """Evaporation slowed by the characteristic curve; condensation meets no such resistance. Solid below equilibrium drinks, whatever the
-    film would do: that ends every search for a steady state on the right side."""
+    """Evaporation slowed by the characteristic curve; condensation meets no such resistance. Solid below
+    equilibrium drinks, whatever the film would do: that ends every search for a steady state on the right
+    side.
+    """
     slowed = curve.rate(jnp.clip(phi, FOOT, 1.0)) * jnp.clip(phi / FOOT, 0.0, 1.0)
     return jnp.where(rate > 0, slowed, 1.0) * rate + DRINKING * conductance * jnp.minimum(phi, 0.0)
 
@@ -124,10 +154,16 @@ class _Curved(AbstractKinetics):
         return (at.moisture - low) / jnp.maximum(self.critical_moisture - low, narrowest)
 
 
-@law("drying_kinetics", name="kinetics_surface", source="keey1978; langrish2009", title="Kinetics, surface with a characteristic curve",
-     equation=r"-\frac{dX}{dt} = f(\Phi)\,k\ln\frac{1+Y_s(T_s)}{1+Y},\quad \Phi = \frac{X-X_e}{X_c-X_e}")  # fmt: skip
+@law(
+    "drying_kinetics",
+    name="kinetics_surface",
+    source="keey1978; langrish2009",
+    title="Kinetics, surface with a characteristic curve",
+    equation=r"-\frac{dX}{dt} = f(\Phi)\,k\ln\frac{1+Y_s(T_s)}{1+Y},\quad \Phi = \frac{X-X_e}{X_c-X_e}",
+)
 class SurfaceKinetics(_Curved):
-    """Film at the solid's own temperature, slowed by the characteristic curve below the critical moisture, with Stefan flow.
+    """Film at the solid's own temperature, slowed by the characteristic curve below the critical moisture,
+    with Stefan flow.
 
     >>> float(SurfaceKinetics(critical_moisture=0.2)())
     0.2
@@ -137,10 +173,16 @@ class SurfaceKinetics(_Curved):
         return _hindered(at.film_rate(), self._phi(at), self.characteristic_rate, at.conductance)
 
 
-@law("drying_kinetics", name="kinetics_van_meel", source="vanmeel1958; keey1978", title="Kinetics of van Meel, rate of the wet bulb",
-     equation=r"-\frac{dX}{dt} = f(\Phi)\,\frac{h a}{c_v}\ln\left[1+\frac{c_v (T_g-T_w)}{L_v}\right]")  # fmt: skip
+@law(
+    "drying_kinetics",
+    name="kinetics_van_meel",
+    source="vanmeel1958; keey1978",
+    title="Kinetics of van Meel, rate of the wet bulb",
+    equation=r"-\frac{dX}{dt} = f(\Phi)\,\frac{h a}{c_v}\ln\left[1+\frac{c_v (T_g-T_w)}{L_v}\right]",
+)
 class VanMeelKinetics(_Curved):
-    """Rate of a wet surface at the wet bulb of the local gas times the characteristic curve: van Meel's own statement.
+    """Rate of a wet surface at the wet bulb of the local gas times the characteristic curve: van Meel's own
+    statement.
 
     >>> float(VanMeelKinetics(critical_moisture=0.2)())
     0.2
@@ -150,14 +192,25 @@ class VanMeelKinetics(_Curved):
 
     def rate(self, at: Meeting) -> Any:
         m, Tw = at.matter, at.wet_bulb
-        wet = at.exchange * _stefan(m.vapor_heat_capacity(Tw), m.heat_of_vaporization(Tw), at.gas_temperature - Tw)
+        wet = at.exchange * _stefan(
+            m.vapor_heat_capacity(Tw), m.heat_of_vaporization(Tw), at.gas_temperature - Tw
+        )
         return _hindered(wet, self._phi(at), self.characteristic_rate, at.conductance)
 
 
-@law("drying_kinetics", name="kinetics_rea", source="chen2008rea; lin2006", title="Kinetics, reaction engineering approach",
-     equation=r"p_s = e^{-\Delta E_v/RT_s}\,p_{sat}(T_s),\quad \Delta E_v = -R T_g\ln\varphi\; a\,e^{-b (X-X_b)^c}")  # fmt: skip
+@law(
+    "drying_kinetics",
+    name="kinetics_rea",
+    source="chen2008rea; lin2006",
+    title="Kinetics, reaction engineering approach",
+    equation=(
+        r"p_s = e^{-\Delta E_v/RT_s}\,p_{sat}(T_s),\quad \Delta E_v = -R T_g\ln\varphi\; a\,e^{-b "
+        r"(X-X_b)^c}"
+    ),
+)
 class ReactionKinetics(AbstractKinetics):
-    """Chen's approach: vapor pressure at the surface falls by an activation energy along the product's master curve; defaults of skim milk.
+    """Chen's approach: vapor pressure at the surface falls by an activation energy along the product's master
+    curve; defaults of skim milk.
 
     >>> float(ReactionKinetics()())
     0.998
@@ -176,19 +229,32 @@ class ReactionKinetics(AbstractKinetics):
 
     def rate(self, at: Meeting) -> Any:
         over = at.moisture - self.equilibrium(at)
-        relative = self.rea_factor * jnp.exp(-self.rea_coefficient * jnp.maximum(over, 1e-6) ** self.rea_exponent)
+        relative = self.rea_factor * jnp.exp(
+            -self.rea_coefficient * jnp.maximum(over, 1e-6) ** self.rea_exponent
+        )
         activity = jnp.exp(relative * at.gas_temperature / at.temperature * jnp.log(at.relative_humidity))
-        # a factor below one leaves a rest of vapor pressure at equilibrium: it is taken away over the last stretch of moisture
+        # a factor below one leaves a rest of vapor pressure at equilibrium: it is taken away over the last
+        # stretch of moisture
         rate = at.film_rate(activity) * jnp.clip(over / REA_FOOT, 0.0, 1.0)
         return rate + DRINKING * at.conductance * jnp.minimum(over / REA_FOOT, 0.0)
 
 
-@law("drying_kinetics", name="kinetics_thin_layer", source="brooker1992", title="Kinetics, thin layer",
-     equation=r"-\frac{dX}{dt} = (X_0-X_e)\left|\frac{dMR}{dt}\right|_{MR(X)}\exp\left[\frac{E}{R}\left(\frac{1}{T_0}-\frac{1}{T_g}\right)\right]")  # fmt: skip
+@law(
+    "drying_kinetics",
+    name="kinetics_thin_layer",
+    source="brooker1992",
+    title="Kinetics, thin layer",
+    equation=(
+        r"-\frac{dX}{dt} = "
+        r"(X_0-X_e)\left|\frac{dMR}{dt}\right|_{MR(X)}\exp\left[\frac{E}{R}\left(\frac{1}{T_0}-\frac{1}{T_g}\right)\right]"
+    ),
+)
 class ThinLayerKinetics(AbstractKinetics):
-    """Slope of a thin-layer curve at the moisture ratio reached, towards the equilibrium of the local gas; Arrhenius factor on gas temperature.
+    """Slope of a thin-layer curve at the moisture ratio reached, towards the equilibrium of the local gas;
+    Arrhenius factor on gas temperature.
 
-    It never exceeds the film's evaporation from a wet surface, which turns to condensation where the gas is beyond saturation for the solid.
+    It never exceeds the film's evaporation from a wet surface, which turns to condensation where the gas is
+    beyond saturation for the solid.
 
     >>> from granum.drying.thin_layers.exponential import Page
     >>> float(ThinLayerKinetics(Page(1e-4, 1.0), 0.3)())
@@ -210,23 +276,40 @@ class ThinLayerKinetics(AbstractKinetics):
     def rate(self, at: Meeting) -> Any:
         layer: AbstractThinLayer = self.thin_layer
         low = self.equilibrium(at)
-        ratio = jnp.clip((at.moisture - low) / jnp.maximum(self.initial_moisture - low, 1e-6), 1e-5, 1.0 - 1e-5)
+        ratio = jnp.clip(
+            (at.moisture - low) / jnp.maximum(self.initial_moisture - low, 1e-6), 1e-5, 1.0 - 1e-5
+        )
         # logarithm of time, because curves of Page's kind start with a slope of zero or infinity
         s = find_root(
-            lambda s, r: jnp.log(jnp.maximum(layer.ratio(jnp.exp(s)), 1e-30)) - jnp.log(r), -15.0, 25.0, ratio, start=8.0, tolerance=EXACT
+            lambda s, r: jnp.log(jnp.maximum(layer.ratio(jnp.exp(s)), 1e-30)) - jnp.log(r),
+            -15.0,
+            25.0,
+            ratio,
+            start=8.0,
+            tolerance=EXACT,
         ).value
         t = jnp.exp(jnp.where(jnp.isfinite(s), s, 0.0))
         fall = jax.jvp(layer.ratio, (t,), (jnp.ones_like(t),))[1]
-        faster = jnp.exp(self.diffusion_activation_energy / GAS_CONSTANT * (1.0 / self.reference_temperature - 1.0 / at.gas_temperature))
+        faster = jnp.exp(
+            self.diffusion_activation_energy
+            / GAS_CONSTANT
+            * (1.0 / self.reference_temperature - 1.0 / at.gas_temperature)
+        )
         thin = (at.moisture - low) * jnp.where(jnp.isfinite(s), -fall / ratio, 0.0) * faster
         # no more than a wet surface gives: cold grain in moist air does not dry on, it is wetted
         return jnp.minimum(thin, at.film_rate())
 
 
-@law("drying_kinetics", name="kinetics_diffusion", source="crank1975; keey1978", title="Kinetics, diffusion in a sphere and film in series",
-     equation=r"\frac{1}{r} = \frac{1}{\pi^2 D/R^2\,(X-X_e)} + \frac{1}{r_{film}},\quad D = D_0 e^{-E/RT_s}")  # fmt: skip
+@law(
+    "drying_kinetics",
+    name="kinetics_diffusion",
+    source="crank1975; keey1978",
+    title="Kinetics, diffusion in a sphere and film in series",
+    equation=r"\frac{1}{r} = \frac{1}{\pi^2 D/R^2\,(X-X_e)} + \frac{1}{r_{film}},\quad D = D_0 e^{-E/RT_s}",
+)
 class DiffusionKinetics(AbstractKinetics):
-    """First term of Crank's series for a sphere as a driving force, in series with the film; a plate of half thickness L has R = 2 L.
+    """First term of Crank's series for a sphere as a driving force, in series with the film; a plate of half
+    thickness L has R = 2 L.
 
     Without an activation energy the pre-exponential factor is the diffusivity itself.
 
@@ -246,8 +329,12 @@ class DiffusionKinetics(AbstractKinetics):
         return at.equilibrium(self.isotherm)
 
     def rate(self, at: Meeting) -> Any:
-        D = self.diffusivity_preexponential * jnp.exp(-self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature))
+        D = self.diffusivity_preexponential * jnp.exp(
+            -self.diffusion_activation_energy / (GAS_CONSTANT * at.temperature)
+        )
         inner = jnp.pi**2 * D / self.radius**2 * (at.moisture - self.equilibrium(at))
         film = at.film_rate()
         share = jnp.maximum(inner, 0.0) / jnp.maximum(jnp.maximum(inner, 0.0) + jnp.abs(film), 1e-30)
-        return jnp.where(inner > 0, share * film, inner)  # what diffuses bounds condensation too, which keeps the law smooth
+        return jnp.where(
+            inner > 0, share * film, inner
+        )  # what diffuses bounds condensation too, which keeps the law smooth

@@ -53,7 +53,9 @@ class LayerDryer(Dryer):
         """The column and its way through the zones."""
         dry = counted(feed)
         like = solved(self.column(dry, gases[0]), feed)
-        return like, pass_zones(like, dry.moisture_dry_basis, feed.temperature, self.zones(dry, *gases), self.resolution()[1])
+        return like, pass_zones(
+            like, dry.moisture_dry_basis, feed.temperature, self.zones(dry, *gases), self.resolution()[1]
+        )
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _passed(self, feed, gas)
@@ -62,7 +64,9 @@ class LayerDryer(Dryer):
 @ready
 def _passed(dryer: LayerDryer, feed: Stream, *gases: Stream) -> Through:
     like, found = dryer.passages(feed, *gases)
-    profile = joined(like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found))
+    profile = joined(
+        like, found, counted(feed).solid_flow, sum(p.vapor for p in found), sum(p.gas_enthalpy for p in found)
+    )
     return Through(profile, dryer.holdup())
 
 
@@ -74,10 +78,23 @@ def joined(like: Contact, found: list[Passage], flow: Any, vapor: Any, gas_entha
     T = jnp.concatenate([p.layers.temperature[..., 0] for p in found])
     time = jnp.concatenate([p.time for p in found])
     Y = jnp.concatenate([p.layers.vapor / p.gas_per_solid for p in found])
-    Tg = like.matter.gas_temperature(jnp.concatenate([p.layers.gas_enthalpy / p.gas_per_solid for p in found]), Y)
+    Tg = like.matter.gas_temperature(
+        jnp.concatenate([p.layers.gas_enthalpy / p.gas_per_solid for p in found]), Y
+    )
     water = jnp.array([flow * mean_moisture(like, last)[-1]])
     heat = jnp.array([flow * product_enthalpy(like, last)])
     return Profile(
-        jnp.full(n, 1.0 / n), time / time[-1], X, T, Y, Tg, water, heat, flow * vapor, flow * gas_enthalpy, jnp.zeros(()),
-        jnp.all(jnp.stack([jnp.all(p.layers.converged) for p in found])), jnp.arange(len(time)) == len(time) - 1,
-    )  # fmt: skip
+        jnp.full(n, 1.0 / n),
+        time / time[-1],
+        X,
+        T,
+        Y,
+        Tg,
+        water,
+        heat,
+        flow * vapor,
+        flow * gas_enthalpy,
+        jnp.zeros(()),
+        jnp.all(jnp.stack([jnp.all(p.layers.converged) for p in found])),
+        jnp.arange(len(time)) == len(time) - 1,
+    )

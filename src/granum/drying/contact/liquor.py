@@ -1,7 +1,8 @@
-"""Moisture that is a solution: what is dissolved in it counts as dry matter from the start, and stays on the solid as the water leaves.
+"""Moisture that is a solution: what is dissolved in it counts as dry matter from the start, and stays on the
+solid as the water leaves.
 
-The liquor keeps its composition, that of a saturated one, so that crystal is left in proportion to the water evaporated. Enthalpies are
-those of the streams: the heat of crystallization goes with the water.
+The liquor keeps its composition, that of a saturated one, so that crystal is left in proportion to the water
+evaporated. Enthalpies are those of the streams: the heat of crystallization goes with the water.
 """
 
 from __future__ import annotations
@@ -26,14 +27,20 @@ def composition(feed: Stream) -> Any:
 
 
 def counted(feed: Stream) -> Stream:
-    """The feed as the core counts it: water on dry matter, with everything dissolved already among the solids."""
+    """The feed as the core counts it: water on dry matter, with everything dissolved already among the
+    solids.
+    """
     if len(feed.mixture.liquids) < 2:
         return feed
     sizes = safe_divide(jnp.sum(feed.solid, axis=0), feed.solid_flow, 1.0 / feed.solid[0].size)
     solid = feed.solid
-    for row, flow in zip(crystals(feed.mixture), feed.liquid[1:], strict=True):  # on crystals of its kind, else on whatever solid there is
+    for row, flow in zip(
+        crystals(feed.mixture), feed.liquid[1:], strict=True
+    ):  # on crystals of its kind, else on whatever solid there is
         there = jnp.sum(solid[row])
-        solid = solid.at[row].add(flow * jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), sizes))
+        solid = solid.at[row].add(
+            flow * jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), sizes)
+        )
     return feed.replace(solid=solid, liquid=jnp.zeros_like(feed.liquid).at[0].set(feed.liquid[0]))
 
 

@@ -1,4 +1,6 @@
-"""What is in contact: enthalpies of moist solid and moist gas as the streams count them, and the way back to temperature."""
+"""What is in contact: enthalpies of moist solid and moist gas as the streams count them, and the way back to
+temperature.
+"""
 
 from __future__ import annotations
 
@@ -18,19 +20,26 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
-NEWTON_STEPS = 4  # enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
+NEWTON_STEPS = (
+    4  # enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
+)
 LIQUID = (200.0, 640.0)  # K
-NEAR_BOILING = 0.98  # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
+NEAR_BOILING = (
+    0.98  # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
+)
 
 
 class Matter(eqx.Module):
-    """Dry solid by class, its liquid, dry gas and vapor. Moisture X and humidity Y are per dry mass; enthalpies too, J/kg."""
+    """Dry solid by class, its liquid, dry gas and vapor. Moisture X and humidity Y are per dry mass;
+    enthalpies too, J/kg.
+    """
 
     mixture: Mixture = eqx.field(static=True)
     solid_shares: Any  # species × classes, each class adding up to 1
     gas_shares: Any  # of the dry gas; the vapor's share is zero
     pressure: Any
-    dissolved: Any = ()  # per kg of the liquid, one for each further liquid: what leaves it as crystal when that evaporates
+    # per kg of the liquid, one for each further liquid: what leaves it as crystal when that evaporates
+    dissolved: Any = ()
 
     @classmethod
     def of(cls, feed: Stream, gas: Stream) -> Matter:
@@ -70,7 +79,9 @@ class Matter(eqx.Module):
         """The liquid, with what it costs to keep in solution what is dissolved in it."""
         found = self.mixture.liquids[0].enthalpy(T)
         for i, row in enumerate(crystals(self.mixture) if len(self.dissolved) else ()):
-            found += self.dissolved[i] * (self.mixture.liquids[i + 1].enthalpy(T) - self.mixture.solids[row].enthalpy(T))
+            found += self.dissolved[i] * (
+                self.mixture.liquids[i + 1].enthalpy(T) - self.mixture.solids[row].enthalpy(T)
+            )
         return found
 
     def vapor_enthalpy(self, T: Any) -> Any:
@@ -120,7 +131,9 @@ class Matter(eqx.Module):
         return Y / (self.molar_mass_ratio + Y) * self.pressure / self.saturation_pressure(T)
 
     def saturation_pressure(self, T: Any) -> Any:
-        """Of the liquid; held at the ends of a range which only a search on its way to the solution leaves."""
+        """Of the liquid; held at the ends of a range which only a search on its way to the solution
+        leaves.
+        """
         return self.humid.saturation_pressure(jnp.clip(T, *LIQUID))
 
     def driving_force(self, partial_pressure: Any, Y: Any) -> Any:
@@ -153,11 +166,15 @@ def _inverse(function: Callable[[Any], Any], H: Any) -> Any:
 
 
 def temperature_at(function: Callable[[Any], Any], H: Any, T: Any) -> Any:
-    """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess. Derivatives come from the last step alone."""
+    """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess. Derivatives come from
+    the last step alone.
+    """
 
     def step(_number: Any, T: Any) -> Any:
         value, rise = slope(function, T)
         return T - (value - H) / rise
 
-    close = jax.lax.fori_loop(0, NEWTON_STEPS - 1, lambda i, T: jax.lax.stop_gradient(step(i, T)), jax.lax.stop_gradient(T))
+    close = jax.lax.fori_loop(
+        0, NEWTON_STEPS - 1, lambda i, T: jax.lax.stop_gradient(step(i, T)), jax.lax.stop_gradient(T)
+    )
     return step(0, close)

@@ -1,14 +1,18 @@
-"""Solid of many classes in a gas that is mixed with it: a well-mixed bed with all its ages, or tanks in series, each with fresh gas.
+"""Solid of many classes in a gas that is mixed with it: a well-mixed bed with all its ages, or tanks in
+series, each with fresh gas.
 
-Whatever the gas in a bed is like, the moisture and temperature of each class follow from it one by one; and the gas has but two unknowns,
-humidity and temperature, between bounds that no dryer can leave. Each search here is for the one root of something that rises or falls:
+Whatever the gas in a bed is like, the moisture and temperature of each class follow from it one by one; and
+the gas has but two unknowns, humidity and temperature, between bounds that no dryer can leave. Each search
+here is for the one root of something that rises or falls:
 
 * of a class in a stretch of its life: the more it dries, the drier and colder it is, the slower it dries;
-* of the gas: the more humid it is, the less goes into it; the hotter, the more water and the less heat is left over for it.
+* of the gas: the more humid it is, the less goes into it; the hotter, the more water and the less heat is
+    left over for it.
 
-Ages: of the solid in a well-mixed bed the share e^(−y) is older than y mean residence times. On each stretch of ages moisture falls in a straight line
-down to equilibrium and temperature is one. The balance over the stretch is exact for that line, so that kinetics of first order give
-1/(1 + kτ) and a constant rate its closed form on any grid.
+Ages: of the solid in a well-mixed bed the share e^(−y) is older than y mean residence times. On each stretch
+of ages moisture falls in a straight line down to equilibrium and temperature is one. The balance over the
+stretch is exact for that line, so that kinetics of first order give 1/(1 + kτ) and a constant rate its closed
+form on any grid.
 """
 
 from __future__ import annotations
@@ -27,7 +31,11 @@ from granum.drying.contact.matter import Matter, slope, temperature_at
 from granum.numerics import crossing_pair
 from granum.numerics.quick_roots import falling_root
 
-FIRST, LAST, STRETCHES = 0.002, 10.0, 20  # ages in residence times: the first stretch, the oldest particle, how many stretches
+FIRST, LAST, STRETCHES = (
+    0.002,
+    10.0,
+    20,
+)  # ages in residence times: the first stretch, the oldest particle, how many stretches
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
 COOLER, WARMER = 100.0, 5.0  # K that the gas may be below the coldest and above the hottest inlet
@@ -35,7 +43,10 @@ CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its v
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
 NEARLY, GUESSES = 0.9, 8  # relative humidity of the guess; its halvings
-_NODES, _WEIGHTS = (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)), (0.5, 0.5)  # of Gauss and Legendre between 0 and 1
+_NODES, _WEIGHTS = (
+    (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)),
+    (0.5, 0.5),
+)  # of Gauss and Legendre between 0 and 1
 
 
 class Gas(NamedTuple):
@@ -53,7 +64,9 @@ class Solid(NamedTuple):
 
 
 class Life(NamedTuple):
-    """Stretches of age: length in residence times, share of all solid that is older at the end than at the beginning."""
+    """Stretches of age: length in residence times, share of all solid that is older at the end than at the
+    beginning.
+    """
 
     length: Any
     older: Any  # at the beginning
@@ -75,7 +88,9 @@ class Spread(NamedTuple):
 
 
 class Lived(NamedTuple):
-    """What became of a class on a stretch: moisture and enthalpy of those who leave it there, per kg of all; means; loss per residence time."""
+    """What became of a class on a stretch: moisture and enthalpy of those who leave it there, per kg of all;
+    means; loss per residence time.
+    """
 
     water: Any
     enthalpy: Any
@@ -85,7 +100,9 @@ class Lived(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Of a bed or tank: gas, mean moisture and enthalpy that leave, the solid on its way, whether it was solved."""
+    """Of a bed or tank: gas, mean moisture and enthalpy that leave, the solid on its way, whether it was
+    solved.
+    """
 
     gas: Gas
     moisture: Any
@@ -106,7 +123,8 @@ def life() -> Life:
 class Bed(eqx.Module):
     """Solid that stays for a mean time in a mixed gas.
 
-    flow: dry solid by class, kg/s. time: mean residence time, s. exchange: W/(K kg of dry solid) by class. gas_flow: dry gas, kg/s.
+    flow: dry solid by class, kg/s. time: mean residence time, s. exchange: W/(K kg of dry solid) by class.
+        gas_flow: dry gas, kg/s.
     heat_loss: of the gas, W.
     """
 
@@ -122,9 +140,12 @@ class Bed(eqx.Module):
         """Where this solid meets the gas."""
         return Meeting(X, T, gas.temperature, gas.humidity, self.exchange, self.matter, wet_bulb)
 
-    def lived(self, before: Solid, gas: Gas, known: tuple[Any, Any], spread: Any, most: Any, start: Any) -> tuple[Any, Any, Spread]:  # fmt: skip
-        """Loss per residence time of each class on a stretch, at ``most`` so much, its temperature there and its spread, which ``spread``
-        gives from the loss."""
+    def lived(
+        self, before: Solid, gas: Gas, known: tuple[Any, Any], spread: Any, most: Any, start: Any
+    ) -> tuple[Any, Any, Spread]:
+        """Loss per residence time of each class on a stretch, at ``most`` so much, its temperature there and
+        its spread, which ``spread`` gives from the loss.
+        """
         rest, bulb = known
         X0, T0 = before
         m, warm = self.matter, gas.temperature
@@ -144,7 +165,12 @@ class Bed(eqx.Module):
                 value, rise = slope(surplus, T)
                 return jnp.clip(T - value / rise, COLD, HOT)
 
-            close = lax.fori_loop(0, HEAT_STEPS - 1, lambda _i, T: lax.stop_gradient(step(T)), lax.stop_gradient(T0 + 0.0 * loss))
+            close = lax.fori_loop(
+                0,
+                HEAT_STEPS - 1,
+                lambda _i, T: lax.stop_gradient(step(T)),
+                lax.stop_gradient(T0 + 0.0 * loss),
+            )
             return step(close)
 
         def rates(X: Any, T: Any) -> Any:
@@ -155,11 +181,15 @@ class Bed(eqx.Module):
             return jnp.sum(s.weights * rates(s.points, temperature(loss)), axis=0) - loss
 
         # colder than cold nothing dries; what is drier than its equilibrium does not dry either
-        low, high = lax.stop_gradient(rates(jnp.stack([X0, X0]), jnp.stack([COLD + 0.0 * T0, jnp.maximum(T0, warm)])))
+        low, high = lax.stop_gradient(
+            rates(jnp.stack([X0, X0]), jnp.stack([COLD + 0.0 * T0, jnp.maximum(T0, warm)]))
+        )
         high = jnp.where(rest < X0, jnp.minimum(jnp.maximum(high, 0.0), most), 0.0)
         size = jnp.max(abs(X0)) + jnp.max(abs(rest))
         slack = 1e-9 * size
-        traced, given = jax.closure_convert(balance, X0)  # Python runs the balance once, however deep the searches are nested
+        traced, given = jax.closure_convert(
+            balance, X0
+        )  # Python runs the balance once, however deep the searches are nested
         bounds = jnp.minimum(low, 0.0) - slack, high + slack
         loss = falling_root(lambda x: traced(x, *given), *bounds, start=start, size=1e-2 * size)
         return loss, temperature(loss), spread(loss)
@@ -175,7 +205,9 @@ class Bed(eqx.Module):
         loss, T, s = self.lived(before, gas, known, spread, before.moisture - known[0], start)
         return Lived(s.end, self.matter.moist_solid(T, s.end), s.end, T, loss)
 
-    def stretch(self, before: Solid, gas: Gas, known: tuple[Any, Any], length: Any, older: Any, start: Any) -> tuple[Solid, Lived]:
+    def stretch(
+        self, before: Solid, gas: Gas, known: tuple[Any, Any], length: Any, older: Any, start: Any
+    ) -> tuple[Solid, Lived]:
         """One stretch of ages."""
         X0 = before.moisture
         over = X0 - known[0]
@@ -187,7 +219,13 @@ class Bed(eqx.Module):
             stays = jnp.where(reached, over / jnp.where(reached, loss, 1.0), length)
             shares = weights * jnp.exp(-stays * nodes)
             end = jnp.where(reached, X0 - over, X0 - loss * length)
-            return Spread(X0 - loss * stays * nodes, shares / jnp.sum(shares, axis=0), -jnp.expm1(-stays), -jnp.expm1(-length), end)
+            return Spread(
+                X0 - loss * stays * nodes,
+                shares / jnp.sum(shares, axis=0),
+                -jnp.expm1(-stays),
+                -jnp.expm1(-length),
+                end,
+            )
 
         loss, T, s = self.lived(before, gas, known, spread, jnp.inf, start)
         here = older * s.whole
@@ -201,17 +239,28 @@ class Bed(eqx.Module):
 
         def on(carry: tuple[Solid, Any], row: tuple) -> tuple[tuple[Solid, Any], Lived]:
             (solid, last), (length, older, likely) = carry, row
-            after, lived = self.stretch(solid, gas, known, length, older, jnp.where(jnp.isfinite(likely), likely, last))
+            after, lived = self.stretch(
+                solid, gas, known, length, older, jnp.where(jnp.isfinite(likely), likely, last)
+            )
             return (after, lived.loss), lived
 
         like = jax.tree.map(lambda v: v + 0.0 * (gas.temperature + gas.humidity), before)
-        (oldest, _loss), lived = lax.scan(on, (like, jnp.nan * like.moisture), (*map(jnp.asarray, stretches), start))
+        (oldest, _loss), lived = lax.scan(
+            on, (like, jnp.nan * like.moisture), (*map(jnp.asarray, stretches), start)
+        )
         rest = stretches.older[-1] * np.exp(-stretches.length[-1])
-        water, enthalpy = rest * oldest.moisture, rest * self.matter.moist_solid(oldest.temperature, oldest.moisture)
-        return lived._replace(water=lived.water.at[-1].add(water), enthalpy=lived.enthalpy.at[-1].add(enthalpy))
+        water, enthalpy = (
+            rest * oldest.moisture,
+            rest * self.matter.moist_solid(oldest.temperature, oldest.moisture),
+        )
+        return lived._replace(
+            water=lived.water.at[-1].add(water), enthalpy=lived.enthalpy.at[-1].add(enthalpy)
+        )
 
     def cleared(self, x: Any) -> Any:
-        """Gas so warm that it holds its vapor: no bed leaves it beyond saturation, where its signs would tell nothing."""
+        """Gas so warm that it holds its vapor: no bed leaves it beyond saturation, where its signs would tell
+        nothing.
+        """
         Y, T = x
         for _step in range(DEW_STEPS):
             beyond = jnp.log(jnp.maximum(self.matter.relative_humidity(T, Y), LEAST))
@@ -221,17 +270,25 @@ class Bed(eqx.Module):
 
     def known(self, gas: Gas, before: Solid) -> tuple[Any, Any]:
         """What hangs on the gas alone: equilibrium and wet bulb."""
-        bulb = self.meeting(before.moisture, before.temperature, gas, None).wet_bulb if self.kinetics.asks_wet_bulb else None
+        bulb = (
+            self.meeting(before.moisture, before.temperature, gas, None).wet_bulb
+            if self.kinetics.asks_wet_bulb
+            else None
+        )
         return self.kinetics.equilibrium(self.meeting(before.moisture, before.temperature, gas, bulb)), bulb
 
     def likely(self, before: Solid, fresh: Gas, enthalpy: Any) -> Gas:
-        """Gas and solid of one temperature, most of the water evaporated or the gas nearly saturated; so much enthalpy per kg of dry gas."""
+        """Gas and solid of one temperature, most of the water evaporated or the gas nearly saturated; so much
+        enthalpy per kg of dry gas.
+        """
         m, F = self.matter, self.flow / self.gas_flow
         water = jnp.sum(F * before.moisture)
 
         def met(share: Any) -> Gas:
             def held(T: Any) -> Any:
-                return m.moist_gas(T, Y) + jnp.sum(F * m.moist_solid(T * jnp.ones_like(F), before.moisture * (1.0 - share)))
+                return m.moist_gas(T, Y) + jnp.sum(
+                    F * m.moist_solid(T * jnp.ones_like(F), before.moisture * (1.0 - share))
+                )
 
             Y = fresh.humidity + share * water
             T = temperature_at(held, enthalpy, fresh.temperature)
@@ -250,7 +307,10 @@ class Bed(eqx.Module):
     def solved(self, before: Solid, fresh: Gas, ages: bool, guess: Gas | None = None) -> Found:
         """The gas that leaves what enters it, and the solid in it."""
         m, F = self.matter, self.flow / self.gas_flow
-        H0, Hg0 = m.moist_solid(before.temperature, before.moisture), m.moist_gas(fresh.temperature, fresh.humidity)
+        H0, Hg0 = (
+            m.moist_solid(before.temperature, before.moisture),
+            m.moist_gas(fresh.temperature, fresh.humidity),
+        )
         inlets = jnp.append(before.temperature, fresh.temperature)
         shares = jnp.asarray(life().share)[:, None] if ages else 1.0
         most = fresh.humidity + jnp.sum(F * before.moisture)
@@ -263,16 +323,30 @@ class Bed(eqx.Module):
             lived = self.aged(before, gas, known, start) if ages else self.tank(before, gas, known, start)
             X, H = (jnp.sum(v, axis=0) if ages else v for v in (lived.water, lived.enthalpy))
             water = gas.humidity - fresh.humidity - jnp.sum(F * (before.moisture - X))
-            heat = m.moist_gas(gas.temperature, gas.humidity) - Hg0 - jnp.sum(F * (H0 - H)) + self.heat_loss / self.gas_flow
-            # with the water balance so much of it, evaporation cancels where all solid has one temperature: what is left is smooth
+            heat = (
+                m.moist_gas(gas.temperature, gas.humidity)
+                - Hg0
+                - jnp.sum(F * (H0 - H))
+                + self.heat_loss / self.gas_flow
+            )
+            # with the water balance so much of it, evaporation cancels where all solid has one temperature:
+            # what is left is smooth
             weights = F * shares * (abs(before.moisture - lived.moisture) + LEAST)
             reference = m.liquid_enthalpy(jnp.sum(weights * lived.temperature) / jnp.sum(weights))
-            return jnp.stack([water / (1e-3 + most), (heat - reference * water) / ENTHALPY]), lived.loss, (X, H, lived)
+            return (
+                jnp.stack([water / (1e-3 + most), (heat - reference * water) / ENTHALPY]),
+                lived.loss,
+                (X, H, lived),
+            )
 
         nothing = jnp.full(((STRETCHES,) if ages else ()) + before.moisture.shape, jnp.nan)
-        likely = lax.stop_gradient(self.likely(before, fresh, Hg0 + jnp.sum(F * H0) - self.heat_loss / self.gas_flow))
+        likely = lax.stop_gradient(
+            self.likely(before, fresh, Hg0 + jnp.sum(F * H0) - self.heat_loss / self.gas_flow)
+        )
         if guess is not None:
-            likely = jax.tree.map(lambda known, made: jnp.where(jnp.isfinite(known), known, made), guess, likely)
+            likely = jax.tree.map(
+                lambda known, made: jnp.where(jnp.isfinite(known), known, made), guess, likely
+            )
         start = jnp.stack(likely)
         found = crossing_pair(lacks, low, high, start, nothing, self.cleared)
         moisture, enthalpy, lived = found.made
@@ -280,19 +354,33 @@ class Bed(eqx.Module):
 
 
 def steady_bed(bed: Bed, before: Solid, fresh: Gas) -> Profile:
-    """A well-mixed bed; the places are its ages, the first of them the solid as it enters, which leaves from everywhere."""
+    """A well-mixed bed; the places are its ages, the first of them the solid as it enters, which leaves from
+    everywhere.
+    """
     found = bed.solved(before, fresh, True)
     stretches = life()
     entered = jax.tree.map(
-        lambda first, later: jnp.concatenate([first[None], later]), before, Solid(found.lived.moisture, found.lived.temperature)
+        lambda first, later: jnp.concatenate([first[None], later]),
+        before,
+        Solid(found.lived.moisture, found.lived.temperature),
     )
     older = stretches.older * np.exp(-0.5 * stretches.length)
     like = jnp.ones(STRETCHES + 1)
     return Profile(
-        _shares(bed.flow), jnp.append(0.0, 1.0 - older), entered.moisture, entered.temperature, found.gas.humidity * like, found.gas.temperature * like,
-        bed.flow * found.moisture, bed.flow * found.enthalpy, bed.gas_flow * found.gas.humidity,
-        bed.gas_flow * bed.matter.moist_gas(found.gas.temperature, found.gas.humidity), -bed.heat_loss * jnp.ones(()), found.converged, like > 0,
-    )  # fmt: skip
+        _shares(bed.flow),
+        jnp.append(0.0, 1.0 - older),
+        entered.moisture,
+        entered.temperature,
+        found.gas.humidity * like,
+        found.gas.temperature * like,
+        bed.flow * found.moisture,
+        bed.flow * found.enthalpy,
+        bed.gas_flow * found.gas.humidity,
+        bed.gas_flow * bed.matter.moist_gas(found.gas.temperature, found.gas.humidity),
+        -bed.heat_loss * jnp.ones(()),
+        found.converged,
+        like > 0,
+    )
 
 
 def steady_tanks(tank: Bed, before: Solid, fresh: Gas, number: int) -> Profile:
@@ -306,10 +394,19 @@ def steady_tanks(tank: Bed, before: Solid, fresh: Gas, number: int) -> Profile:
     _last, found = lax.scan(on, (before, Gas(*2 * (jnp.asarray(jnp.nan),))), length=number)
     gas_enthalpy = tank.matter.moist_gas(found.gas.temperature, found.gas.humidity)
     return Profile(
-        _shares(tank.flow), (jnp.arange(number) + 0.5) / number, found.moisture, found.lived.temperature, *found.gas,
-        tank.flow * found.moisture[-1], tank.flow * found.enthalpy[-1], tank.gas_flow * jnp.sum(found.gas.humidity),
-        tank.gas_flow * jnp.sum(gas_enthalpy), -number * tank.heat_loss * jnp.ones(()), jnp.all(found.converged), jnp.arange(number) == number - 1,
-    )  # fmt: skip
+        _shares(tank.flow),
+        (jnp.arange(number) + 0.5) / number,
+        found.moisture,
+        found.lived.temperature,
+        *found.gas,
+        tank.flow * found.moisture[-1],
+        tank.flow * found.enthalpy[-1],
+        tank.gas_flow * jnp.sum(found.gas.humidity),
+        tank.gas_flow * jnp.sum(gas_enthalpy),
+        -number * tank.heat_loss * jnp.ones(()),
+        jnp.all(found.converged),
+        jnp.arange(number) == number - 1,
+    )
 
 
 def _shares(flow: Any) -> Any:

@@ -10,7 +10,11 @@ import jax.numpy as jnp
 
 from granum.core import law
 from granum.core.kinds import Length, MassRatio, PositiveNumber, PressureDifference, RotationSpeed, Speed
-from granum.drying.formulas.atomizers import droplet_diameter_elkotb, droplet_diameter_friedman, droplet_diameter_nukiyama_tanasawa
+from granum.drying.formulas.atomizers import (
+    droplet_diameter_elkotb,
+    droplet_diameter_friedman,
+    droplet_diameter_nukiyama_tanasawa,
+)
 
 NOZZLE_COEFFICIENT = 0.9  # of the speed of the jet
 
@@ -61,7 +65,8 @@ class PressureNozzle(AbstractAtomizer):
 
 @law("atomizer", name="atomizer_wheel", source="friedman1952; masters1991", title="Atomizer wheel")
 class Wheel(AbstractAtomizer):
-    """Vaned wheel, drops after Friedman, Gluckert and Marshall; they fly off sideways and take up the speed of the gas.
+    """Vaned wheel, drops after Friedman, Gluckert and Marshall; they fly off sideways and take up the speed
+    of the gas.
 
     >>> round(float(Wheel("15000 rpm", 0.2, 0.02)()) * 1e6)
     142
@@ -85,7 +90,9 @@ class Wheel(AbstractAtomizer):
         )
 
     def launch(self, feed: Liquor) -> Any:
-        return 0.01 * self.rotation_speed * 0.5 * self.diameter  # what little of the tip speed points along the chamber
+        return (
+            0.01 * self.rotation_speed * 0.5 * self.diameter
+        )  # what little of the tip speed points along the chamber
 
 
 @law(

@@ -7,7 +7,16 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Density, HeatTransferCoefficient, Law, Length, SpecificSurface, Temperature, Within
+from granum.core.kinds import (
+    Area,
+    Density,
+    HeatTransferCoefficient,
+    Law,
+    Length,
+    SpecificSurface,
+    Temperature,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.column import Zone
 from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, Through, sized
@@ -24,10 +33,11 @@ TABLE = NOTES.format(table="IV.10")
 
 @equipment("belt_dryer", source="geankoplis2003, ch. 9; keey1978", title="Belt dryer")
 class BeltDryer(LayerDryer):
-    """Through-circulation: the layer keeps its order, so that its gas side dries first; the gas is shared out evenly over the zones.
+    """Through-circulation: the layer keeps its order, so that its gas side dries first; the gas is shared out
+    evenly over the zones.
 
-    With ``alternating`` the gas enters every second zone from the other side. Without a coefficient that of Geankoplis is used, and
-    without a surface that of spheres of the solid's mean size in the layer.
+    With ``alternating`` the gas enters every second zone from the other side. Without a coefficient that of
+    Geankoplis is used, and without a surface that of spheres of the solid's mean size in the layer.
     """
 
     area: Area
@@ -71,16 +81,32 @@ class BeltDryer(LayerDryer):
         humid = HumidMixture(gas.mixture)
         per_solid = humid.dry_flow(gas) / mass
         time = mass / jnp.maximum(feed.solid_flow, 1e-12) / n
-        return [Zone(time, per_solid, self.alternating and i % 2 == 1, humid.humidity_ratio(gas), gas.temperature) for i in range(n)]
+        return [
+            Zone(time, per_solid, self.alternating and i % 2 == 1, humid.humidity_ratio(gas), gas.temperature)
+            for i in range(n)
+        ]
 
     @classmethod
-    def size(cls, moisture_outlet: Any, feed: Stream, gas_velocity: Any, gas: Stream, layer_depth: Any, bulk_density_dry: Any,
-             kinetics: AbstractKinetics, **more: Any) -> BeltDryer:  # fmt: skip
-        """The belt area that a product moisture needs, with gas (of any flow) taken at a velocity through the empty section."""
+    def size(
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas_velocity: Any,
+        gas: Stream,
+        layer_depth: Any,
+        bulk_density_dry: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
+    ) -> BeltDryer:
+        """The belt area that a product moisture needs, with gas (of any flow) taken at a velocity through the
+        empty section.
+        """
         first = cls(1.0, layer_depth, bulk_density_dry, kinetics, **more)
         return sized(first, "area", moisture_outlet, 1e-3, 1e4, feed, gas, gas_velocity)
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "inlet": gas.temperature,
             "capacity": self.hourly(figures),

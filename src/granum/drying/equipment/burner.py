@@ -41,11 +41,12 @@ class BurnerFigures(NamedTuple):
 
 @equipment("burner", source="keey1978; haynes2014", title="Burner fired into the drying air")
 class Burner(Unit):
-    """Burns a gaseous fuel of the mixture in the air: its flue gas, diluted by the air that is too much, dries directly.
+    """Burns a gaseous fuel of the mixture in the air: its flue gas, diluted by the air that is too much,
+    dries directly.
 
-    Complete combustion; the dry flue gas is counted as air, within 1 % of its enthalpy from four times the air needed. The fuel brings
-    water of its own: about 2.2 kg for a kilogram of methane. ``heat_loss_share`` is of the heating value. Without fuel the gas passes
-    as it is, with a ratio of excess air of zero.
+    Complete combustion; the dry flue gas is counted as air, within 1 % of its enthalpy from four times the
+    air needed. The fuel brings water of its own: about 2.2 kg for a kilogram of methane. ``heat_loss_share``
+    is of the heating value. Without fuel the gas passes as it is, with a ratio of excess air of zero.
     """
 
     heat_loss_share: Fraction = 0.0
@@ -70,7 +71,10 @@ class Burner(Unit):
     @staticmethod
     def _heat(both: Stream) -> Any:
         """Heating value of what burns, W."""
-        return sum((both.gas[i] * burns.lower_heating_value for i, burns in _fuels(both.mixture).items()), jnp.zeros(()))
+        return sum(
+            (both.gas[i] * burns.lower_heating_value for i, burns in _fuels(both.mixture).items()),
+            jnp.zeros(()),
+        )
 
     def figures(self, inside: None, outlets: Fired, gas: Stream, fuel: Stream) -> BurnerFigures:
         fuels = _fuels(gas.mixture)
@@ -84,14 +88,24 @@ class Burner(Unit):
             heat_duty_heater=self._heat(gas.replace(gas=flows)),
         )
 
-    def measured(self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream) -> dict[str, Any]:
-        enough = jnp.where(figures.fuel_flow > 0, figures.excess_air_ratio, MOST)  # without fuel no air is needed
+    def measured(
+        self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream
+    ) -> dict[str, Any]:
+        enough = jnp.where(
+            figures.fuel_flow > 0, figures.excess_air_ratio, MOST
+        )  # without fuel no air is needed
         return {"enough": enough, "hot": figures.temperature}
 
 
 def _fuels(mixture: Mixture) -> dict[int, Combustion]:
     """Places of the fuels among the gases, and how they burn."""
-    found = {i: burns for i, gas in enumerate(mixture.gases) if (burns := mixture.materials.fluid(gas.name).combustion) is not None}
+    found = {
+        i: burns
+        for i, gas in enumerate(mixture.gases)
+        if (burns := mixture.materials.fluid(gas.name).combustion) is not None
+    }
     if not found or not {AIR, "water"} <= {gas.name for gas in mixture.gases}:
-        raise InputError(_("A burner needs a mixture with the gases dry air, water and a fuel, such as methane."))
+        raise InputError(
+            _("A burner needs a mixture with the gases dry air, water and a fuel, such as methane.")
+        )
     return found

@@ -1,4 +1,6 @@
-"""A dryer in a closed circuit, by balance: gas dried on a cold coil, with a heat pump or without, or superheated vapor whose excess may be compressed."""
+"""A dryer in a closed circuit, by balance: gas dried on a cold coil, with a heat pump or without, or
+superheated vapor whose excess may be compressed.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ from granum.core.kinds import (
     SpecificMoistureExtraction,
     Temperature,
     TemperatureDifference,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.drying.balances.savings import vapor_recompression
 from granum.drying.wet_surface import boiled
@@ -38,11 +40,16 @@ from granum.streams.equilibrium import COLDEST, HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-_UNSOLVED = "No temperature of the outlet air was found between coil and hot air at which heat and evaporation agree: take hotter air, a colder coil, a wetter feed or a smaller heat loss."
+_UNSOLVED = (
+    "No temperature of the outlet air was found between coil and hot air at which heat and evaporation "
+    "agree: take hotter air, a colder coil, a wetter feed or a smaller heat loss."
+)
 
 
 class Duty(NamedTuple):
-    """What the circuit has to do: water to remove, streams and heat that the gas must pay for, temperatures."""
+    """What the circuit has to do: water to remove, streams and heat that the gas must pay for,
+    temperatures.
+    """
 
     water: Any
     feed: Stream
@@ -53,14 +60,22 @@ class Duty(NamedTuple):
     fan_power: Any
 
     def parted(self, T: Any, product: Any) -> tuple[Stream, Stream, Any]:
-        """Product, what evaporates (with gas that came in the feed) at the gas temperature T, and the heat the gas gives for both."""
+        """Product, what evaporates (with gas that came in the feed) at the gas temperature T, and the heat
+        the gas gives for both.
+        """
         own = product if self.temperature_product is None else self.temperature_product
         left, vapor = boiled(self.feed, self.moisture, own, T, self.feed.pressure)
-        return left, vapor, left.enthalpy_flow + vapor.enthalpy_flow - self.feed.enthalpy_flow + self.heat_loss
+        return (
+            left,
+            vapor,
+            left.enthalpy_flow + vapor.enthalpy_flow - self.feed.enthalpy_flow + self.heat_loss,
+        )
 
 
 class Circuit(NamedTuple):
-    """What a circuit comes to: streams out, heat bought, power of the compressor, circulating gas (dry air or steam)."""
+    """What a circuit comes to: streams out, heat bought, power of the compressor, circulating gas (dry air or
+    steam).
+    """
 
     product: Stream
     vapor: Stream
@@ -83,7 +98,9 @@ class AbstractCircuit(eqx.Module):
 
 
 class Coiled(NamedTuple):
-    """Gas around a dryer and over a cold coil: its streams, heat taken by the coil and given to heat the gas again, flow of dry gas."""
+    """Gas around a dryer and over a cold coil: its streams, heat taken by the coil and given to heat the gas
+    again, flow of dry gas.
+    """
 
     product: Stream
     stray: Stream
@@ -97,7 +114,9 @@ class Coiled(NamedTuple):
 
 
 class AbstractCoilCircuit(AbstractCircuit):
-    """Gas that leaves the dryer with a relative humidity and sheds its vapor on a cold coil, which part of it passes by."""
+    """Gas that leaves the dryer with a relative humidity and sheds its vapor on a cold coil, which part of it
+    passes by.
+    """
 
     relative_humidity_outlet: eqx.AbstractVar[Any]
     coil_temperature: eqx.AbstractVar[Any]
@@ -123,11 +142,19 @@ class AbstractCoilCircuit(AbstractCircuit):
             return bypass * w2 + (1.0 - bypass) * coil, w2
 
         def surplus(T: Any) -> Any:
-            """Heat of the gas less what vapor, product and losses take, for each kilogram of dry gas and of liquid."""
+            """Heat of the gas less what vapor, product and losses take, for each kilogram of dry gas and of
+            liquid.
+            """
             w1, w2 = humidities(T)
             _product, _vapor, need = duty.parted(T, T)
-            carried = duty.water * m.enthalpies("gases", T)[humid.vapor]  # the vapor is in the gas here, and in ``need`` too
-            return h(duty.temperature_inlet, w1) - h(T, w2) - (w2 - w1) * (need - carried) / jnp.maximum(duty.water, 1e-300)
+            carried = (
+                duty.water * m.enthalpies("gases", T)[humid.vapor]
+            )  # the vapor is in the gas here, and in ``need`` too
+            return (
+                h(duty.temperature_inlet, w1)
+                - h(T, w2)
+                - (w2 - w1) * (need - carried) / jnp.maximum(duty.water, 1e-300)
+            )
 
         top = jnp.minimum(duty.temperature_inlet, humid.boiling_temperature(P) * (1.0 - 1e-9))
         outlet = find_root(surplus, jnp.maximum(self.coil_temperature, COLDEST), top, tolerance=1e-14)
@@ -136,7 +163,9 @@ class AbstractCoilCircuit(AbstractCircuit):
         product, vapor, _need = duty.parted(T2, T2)
         flow = duty.water / (w2 - w1)
         liquid = jnp.zeros_like(duty.feed.liquid).at[0].set(duty.water)
-        condensate = duty.feed.part().replace(liquid=liquid, temperature=jnp.asarray(self.coil_temperature, dtype=float))
+        condensate = duty.feed.part().replace(
+            liquid=liquid, temperature=jnp.asarray(self.coil_temperature, dtype=float)
+        )
         cold = bypass * h(T2, w2) + (1.0 - bypass) * h(self.coil_temperature, coil)
         taken = flow * (h(T2, w2) - cold) - condensate.enthalpy_flow
         given = flow * (h(duty.temperature_inlet, w1) - cold) - duty.fan_power
@@ -144,12 +173,19 @@ class AbstractCoilCircuit(AbstractCircuit):
         return Coiled(product, stray, condensate, taken, given, flow, T2, w2 - coil, outlet.converged)
 
 
-@law("drying_circuit", name="circuit_heat_pump", source="mujumdar2014; keey1978", title="Closed circuit of gas with a heat pump",
-     equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\quad P = \frac{\dot Q_e}{\mathrm{COP} - 1}")  # fmt: skip
+@law(
+    "drying_circuit",
+    name="circuit_heat_pump",
+    source="mujumdar2014; keey1978",
+    title="Closed circuit of gas with a heat pump",
+    equation=r"\mathrm{COP} = \eta_C\frac{T_c}{T_c - T_e},\quad P = \frac{\dot Q_e}{\mathrm{COP} - 1}",
+)
 class HeatPumpCircuit(AbstractCoilCircuit):
-    """Gas leaves the dryer with a relative humidity, sheds its vapor on the evaporator (part of it passes by) and is heated on the condenser.
+    """Gas leaves the dryer with a relative humidity, sheds its vapor on the evaporator (part of it passes by)
+    and is heated on the condenser.
 
-    Evaporation and condensation lie a temperature approach beyond coil and hot gas. Surplus heat of the condenser is rejected: a negative heat duty.
+    Evaporation and condensation lie a temperature approach beyond coil and hot gas. Surplus heat of the
+    condenser is rejected: a negative heat duty.
 
     By hand: evaporation at 280.15 K, condensation at 328.15 K, half of Carnot's 6.836.
 
@@ -165,7 +201,10 @@ class HeatPumpCircuit(AbstractCoilCircuit):
 
     def __call__(self, temperature_inlet: Temperature) -> Number:
         """Coefficient of performance of heating."""
-        hot, cold = temperature_inlet + self.temperature_approach, self.coil_temperature - self.temperature_approach
+        hot, cold = (
+            temperature_inlet + self.temperature_approach,
+            self.coil_temperature - self.temperature_approach,
+        )
         return self.carnot_efficiency * hot / (hot - cold)
 
     def run(self, duty: Duty) -> Circuit:
@@ -173,16 +212,32 @@ class HeatPumpCircuit(AbstractCoilCircuit):
         power = c.taken / (self(duty.temperature_inlet) - 1.0)
         heater = c.given - c.taken - power
         margins = (("coil", c.margin),)
-        return Circuit(c.product, c.stray, c.condensate, heater, power, c.dry_gas, c.temperature_outlet, margins, c.converged)
+        return Circuit(
+            c.product,
+            c.stray,
+            c.condensate,
+            heater,
+            power,
+            c.dry_gas,
+            c.temperature_outlet,
+            margins,
+            c.converged,
+        )
 
 
-@law("drying_circuit", name="circuit_condenser", source="mujumdar2014; keey1978", title="Closed circuit of gas with a condenser",
-     equation=r"\dot Q_e = \dot m_g\,(h_2 - h_e) - \dot m_c h_c")  # fmt: skip
+@law(
+    "drying_circuit",
+    name="circuit_condenser",
+    source="mujumdar2014; keey1978",
+    title="Closed circuit of gas with a condenser",
+    equation=r"\dot Q_e = \dot m_g\,(h_2 - h_e) - \dot m_c h_c",
+)
 class CondenserCircuit(AbstractCoilCircuit):
-    """Gas leaves the dryer with a relative humidity, sheds its vapor on a coil cooled from outside (part of it passes by) and is heated from outside.
+    """Gas leaves the dryer with a relative humidity, sheds its vapor on a coil cooled from outside (part of
+    it passes by) and is heated from outside.
 
-    The usual circuit of nitrogen that dries a product wet with solvent. Called, it gives the least work to cool the coil, per heat taken from it:
-    a Carnot machine that rejects the heat at a temperature.
+    The usual circuit of nitrogen that dries a product wet with solvent. Called, it gives the least work to
+    cool the coil, per heat taken from it: a Carnot machine that rejects the heat at a temperature.
 
     By hand: 40 K between a coil at 263.15 K and 303.15 K outside.
 
@@ -202,18 +257,34 @@ class CondenserCircuit(AbstractCoilCircuit):
         c = self.around(duty)
         margins = (("coil", c.margin),)
         return Circuit(
-            c.product, c.stray, c.condensate, c.given, jnp.zeros(()), c.dry_gas, c.temperature_outlet, margins, c.converged, c.taken
+            c.product,
+            c.stray,
+            c.condensate,
+            c.given,
+            jnp.zeros(()),
+            c.dry_gas,
+            c.temperature_outlet,
+            margins,
+            c.converged,
+            c.taken,
         )
 
 
-@law("drying_circuit", name="circuit_steam", source="mujumdar2014; iapwsif97", fitted={"pressure_condensing": (611.213, 16.529e6)}, title="Closed circuit of superheated vapor",
-     equation=r"M = \frac{\dot Q}{h_v(T_1) - h_v(T_2)},\quad P = \dot m_e\,w(p, p_c)\,\frac{T_2}{T_b}")  # fmt: skip
+@law(
+    "drying_circuit",
+    name="circuit_steam",
+    source="mujumdar2014; iapwsif97",
+    fitted={"pressure_condensing": (611.213, 16.529e6)},
+    title="Closed circuit of superheated vapor",
+    equation=r"M = \frac{\dot Q}{h_v(T_1) - h_v(T_2)},\quad P = \dot m_e\,w(p, p_c)\,\frac{T_2}{T_b}",
+)
 class SteamCircuit(AbstractCircuit):
-    """Superheated steam (or vapor of another solvent) at the pressure of the feed; what evaporates leaves as steam, or is compressed and condenses to
-    heat the circuit.
+    """Superheated steam (or vapor of another solvent) at the pressure of the feed; what evaporates leaves as
+    steam, or is compressed and condenses to heat the circuit.
 
-    With ``pressure_condensing`` the excess steam is compressed to it (work of saturated steam times the ratio of temperatures) and gives its heat
-    to the circulating steam; its condensate leaves boiling. The product leaves at the boiling temperature unless its temperature is given.
+    With ``pressure_condensing`` the excess steam is compressed to it (work of saturated steam times the ratio
+    of temperatures) and gives its heat to the circulating steam; its condensate leaves boiling. The product
+    leaves at the boiling temperature unless its temperature is given.
 
     Compression from 1 atm to 2 bar with 75 %: 167 kJ/kg, the order of the course notes (160 to 200).
 
@@ -231,14 +302,21 @@ class SteamCircuit(AbstractCircuit):
         """Work to compress a kilogram of saturated steam; zero without compression."""
         if self.pressure_condensing is None:
             return 0.0 * pressure
-        return vapor_recompression.function(pressure, self.pressure_condensing, self.compressor_efficiency).energy_per_water
+        return vapor_recompression.function(
+            pressure, self.pressure_condensing, self.compressor_efficiency
+        ).energy_per_water
 
     def run(self, duty: Duty) -> Circuit:
         humid = HumidMixture(duty.feed.mixture, alone=True)
-        boiling, T2 = humid.boiling_temperature(duty.feed.pressure), jnp.asarray(self.temperature_outlet, dtype=float)
+        boiling, T2 = (
+            humid.boiling_temperature(duty.feed.pressure),
+            jnp.asarray(self.temperature_outlet, dtype=float),
+        )
         product, vapor, need = duty.parted(T2, boiling)
         P, T1 = duty.feed.pressure, jnp.asarray(duty.temperature_inlet, dtype=float)
-        if humid.solvent == "water":  # real steam, whose heat capacity near boiling is above that of the streams' ideal gas
+        if (
+            humid.solvent == "water"
+        ):  # real steam, whose heat capacity near boiling is above that of the streams' ideal gas
             given = steam_enthalpy.function(T1, P) - steam_enthalpy.function(T2, P)
         else:
             vapor_of = duty.feed.mixture.gases[humid.vapor]
@@ -250,15 +328,18 @@ class SteamCircuit(AbstractCircuit):
             return Circuit(product, vapor, nothing, heater, 0.0 * need, steam, T2, margins)
         if humid.solvent != "water":
             raise ApplicabilityError(
-                _("Compressed vapor is known for water only, not for {liquid}: leave 'pressure_condensing' out.").format(
-                    liquid=humid.solvent
-                ),
+                _(
+                    "Compressed vapor is known for water only, not for {liquid}: leave "
+                    "'pressure_condensing' out."
+                ).format(liquid=humid.solvent),
                 name="pressure_condensing",
             )
         power = duty.water * self(duty.feed.pressure) * T2 / boiling
         condensing = humid.boiling_temperature(self.pressure_condensing)
         liquid = jnp.zeros_like(duty.feed.liquid).at[0].set(duty.water)
-        condensate = nothing.replace(liquid=liquid, temperature=condensing, pressure=jnp.asarray(self.pressure_condensing, dtype=float))
+        condensate = nothing.replace(
+            liquid=liquid, temperature=condensing, pressure=jnp.asarray(self.pressure_condensing, dtype=float)
+        )
         stray = vapor.replace(gas=duty.feed.gas)
         given = vapor.enthalpy_flow - stray.enthalpy_flow + power - condensate.enthalpy_flow
         margins = (*margins, ("warm", condensing - duty.temperature_inlet))
@@ -266,7 +347,9 @@ class SteamCircuit(AbstractCircuit):
 
 
 class ClosedOutlets(NamedTuple):
-    """Dried product, vapor that leaves the circuit, condensate; heat of the heater net of losses (negative: rejected), compressor and fan."""
+    """Dried product, vapor that leaves the circuit, condensate; heat of the heater net of losses (negative:
+    rejected), compressor and fan.
+    """
 
     product: Stream
     vapor: Stream
@@ -292,10 +375,11 @@ class ClosedFigures(NamedTuple):
 
 @equipment("closed_dryer", source="mujumdar2014; bonazzi2003", title="Dryer in a closed circuit (balance)")
 class ClosedDryer(Unit):
-    """Dries a feed to a moisture in a gas that circulates: say what becomes of the gas (``drying_circuit``) and how hot it enters.
+    """Dries a feed to a moisture in a gas that circulates: say what becomes of the gas (``drying_circuit``)
+    and how hot it enters.
 
-    Energy counts heater, compressor and fan; heat given back by a surplus of the condenser is not credited, and the machine that cools the coil of
-    a circuit with a condenser is not counted.
+    Energy counts heater, compressor and fan; heat given back by a surplus of the condenser is not credited,
+    and the machine that cools the coil of a circuit with a condenser is not counted.
     """
 
     drying_circuit: Annotated[Any, Law("drying_circuit")]
@@ -307,24 +391,50 @@ class ClosedDryer(Unit):
     temperature_limit: Temperature | None = None
 
     limits: ClassVar[Limits] = {
-        "coil": Limit("humidity of the outlet air above saturation at the coil", 0.0, 1e9, "dimensionless", "mujumdar2014"),
-        "dry": Limit("outlet temperature of the steam above boiling", 0.0, 1e9, "dimensionless", "mujumdar2014"),
-        "warm": Limit("temperature at which heat is given off above that of the heated gas", 0.0, 1e9, "dimensionless", "mujumdar2014"),
-        "moisture": Limit("moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"),
+        "coil": Limit(
+            "humidity of the outlet air above saturation at the coil",
+            0.0,
+            1e9,
+            "dimensionless",
+            "mujumdar2014",
+        ),
+        "dry": Limit(
+            "outlet temperature of the steam above boiling", 0.0, 1e9, "dimensionless", "mujumdar2014"
+        ),
+        "warm": Limit(
+            "temperature at which heat is given off above that of the heated gas",
+            0.0,
+            1e9,
+            "dimensionless",
+            "mujumdar2014",
+        ),
+        "moisture": Limit(
+            "moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"
+        ),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     }
 
     def inside(self, feed: Stream) -> Circuit:
         water = jnp.maximum(feed.liquid[0] - self.moisture_outlet * feed.solid_flow, 0.0)
         found = self.drying_circuit.run(
-            Duty(water, feed, self.temperature_inlet, self.moisture_outlet, self.temperature_product, self.heat_loss, self.fan_power)
+            Duty(
+                water,
+                feed,
+                self.temperature_inlet,
+                self.moisture_outlet,
+                self.temperature_product,
+                self.heat_loss,
+                self.fan_power,
+            )
         )
         unsolved(found.converged, type(self).card, reason=_UNSOLVED)
         return found
 
     def outlets(self, inside: Circuit, feed: Stream) -> ClosedOutlets:
         c = inside
-        return ClosedOutlets(c.product, c.vapor, c.condensate, c.heater - c.cooling - self.heat_loss, c.power + self.fan_power)
+        return ClosedOutlets(
+            c.product, c.vapor, c.condensate, c.heater - c.cooling - self.heat_loss, c.power + self.fan_power
+        )
 
     def figures(self, inside: Circuit, outlets: ClosedOutlets, feed: Stream) -> ClosedFigures:
         c = inside
@@ -343,7 +453,9 @@ class ClosedDryer(Unit):
             moisture_extraction_rate=safe_divide(water, bought),
         )
 
-    def measured(self, inside: Circuit, outlets: ClosedOutlets, figures: ClosedFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Circuit, outlets: ClosedOutlets, figures: ClosedFigures, feed: Stream
+    ) -> dict[str, Any]:
         found = dict(inside.margins) | {"moisture": figures.moisture_dry_basis - self.moisture_outlet}
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product - self.temperature_limit

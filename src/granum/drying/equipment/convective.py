@@ -25,7 +25,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     SpecificMoistureExtraction,
     Temperature,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.drying.equipment.well_mixed import evaporate
 from granum.numerics import find_root, safe_divide
@@ -35,11 +35,16 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 COLDEST, HOTTEST = 200.0, 1200.0  # K, bracket of the exhaust
-_UNSOLVED = "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the heater and the heat loss against the flow of gas, and what is asked of the outlet."
+_UNSOLVED = (
+    "No temperature of the exhaust was found at which heat and evaporation agree: check the duty of the "
+    "heater and the heat loss against the flow of gas, and what is asked of the outlet."
+)
 
 
 class ConvectiveOutlets(NamedTuple):
-    """Dried product, exhaust air, condensate of the heat recovery; heat of the heater net of losses, and fan power."""
+    """Dried product, exhaust air, condensate of the heat recovery; heat of the heater net of losses, and fan
+    power.
+    """
 
     product: Stream
     exhaust: Stream
@@ -80,15 +85,19 @@ class Inside(NamedTuple):
     condensate: Stream
 
 
-@equipment("convective_dryer", source="keey1978; mujumdar2014; bonazzi2003", title="Convective dryer (balance)")
+@equipment(
+    "convective_dryer", source="keey1978; mujumdar2014; bonazzi2003", title="Convective dryer (balance)"
+)
 class ConvectiveDryer(Unit):
-    """Heats the air, dries the feed with it and gives back part of the exhaust; one statement about the outlet fixes the rest.
+    """Heats the air, dries the feed with it and gives back part of the exhaust; one statement about the
+    outlet fixes the rest.
 
-    Say how hot: ``temperature_inlet`` of the air at the dryer, or the ``heat_duty`` of the heater; with neither there is no heater. Say how
-    far, by one of ``moisture_outlet`` of the product, ``temperature_outlet`` or ``relative_humidity_outlet`` of the exhaust. The recirculated fraction
-    is of the exhaust. ``effectiveness`` is that of an exchanger from the exhaust, which may condense, to the fresh air. The product leaves
-    at the temperature of the exhaust unless ``temperature_product`` is given.
-    Only the first liquid evaporates, as if pure; the heat of sorption is left out.
+    Say how hot: ``temperature_inlet`` of the air at the dryer, or the ``heat_duty`` of the heater; with
+    neither there is no heater. Say how far, by one of ``moisture_outlet`` of the product,
+    ``temperature_outlet`` or ``relative_humidity_outlet`` of the exhaust. The recirculated fraction is of the
+    exhaust. ``effectiveness`` is that of an exchanger from the exhaust, which may condense, to the fresh air.
+    The product leaves at the temperature of the exhaust unless ``temperature_product`` is given. Only the
+    first liquid evaporates, as if pure; the heat of sorption is left out.
     """
 
     temperature_inlet: Temperature | None = None
@@ -107,28 +116,50 @@ class ConvectiveDryer(Unit):
     limits: ClassVar[Limits] = {
         "humid": Limit("relative humidity of the exhaust", 0.0, 1.0, "dimensionless", "keey1978"),
         "energy": Limit("energy per water evaporated", 2.4e6, 6.5e6, "J/kg", "bonazzi2003; houdon2017"),
-        "moisture": Limit("moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"),
-        "exhaust": Limit("temperature of the exhaust against the specification", -1e-6, 1e-6, "delta_degC", "keey1978"),
-        "humidity": Limit("relative humidity of the exhaust against the specification", -1e-6, 1e-6, "dimensionless", "keey1978"),
-        "equilibrium": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
+        "moisture": Limit(
+            "moisture of the product against the specification", -1e-9, 1e-9, "kg/kg", "keey1978"
+        ),
+        "exhaust": Limit(
+            "temperature of the exhaust against the specification", -1e-6, 1e-6, "delta_degC", "keey1978"
+        ),
+        "humidity": Limit(
+            "relative humidity of the exhaust against the specification",
+            -1e-6,
+            1e-6,
+            "dimensionless",
+            "keey1978",
+        ),
+        "equilibrium": Limit(
+            "moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"
+        ),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     } | FLAMMABLE
 
     def __check_init__(self) -> None:
         if self.temperature_inlet is not None and self.heat_duty is not None:
-            raise InputError(_("Too much is given: one of 'temperature_inlet' and 'heat_duty' follows from the other."), name="heat_duty")
-        ends = [n for n in ("moisture_outlet", "temperature_outlet", "relative_humidity_outlet") if getattr(self, n) is not None]
+            raise InputError(
+                _("Too much is given: one of 'temperature_inlet' and 'heat_duty' follows from the other."),
+                name="heat_duty",
+            )
+        ends = [
+            n
+            for n in ("moisture_outlet", "temperature_outlet", "relative_humidity_outlet")
+            if getattr(self, n) is not None
+        ]
         if len(ends) != 1:
             raise InputError(
                 _(
-                    "One more value fixes this dryer: give exactly one of 'moisture_outlet', 'temperature_outlet', 'relative_humidity_outlet'; given: {names}."
+                    "One more value fixes this dryer: give exactly one of 'moisture_outlet', "
+                    "'temperature_outlet', 'relative_humidity_outlet'; given: {names}."
                 ).format(names=", ".join(ends) or _("none")),
                 given=ends,
             )
 
     def outlets(self, inside: Inside, feed: Stream, gas: Stream) -> ConvectiveOutlets:
         heat = inside.heater - self.heat_loss
-        return ConvectiveOutlets(inside.product, inside.exhaust, inside.condensate, heat, jnp.asarray(self.fan_power))
+        return ConvectiveOutlets(
+            inside.product, inside.exhaust, inside.condensate, heat, jnp.asarray(self.fan_power)
+        )
 
     def inside(self, feed: Stream, gas: Stream) -> Inside:
         """The whole dryer, solved for the temperature of its exhaust."""
@@ -145,9 +176,12 @@ class ConvectiveDryer(Unit):
 
         def parted(both: Stream, T: Any) -> tuple[Stream, Stream]:
             """Product and exhaust."""
-            out = both.replace(solid=jnp.zeros_like(both.solid), liquid=jnp.zeros_like(both.liquid), temperature=T)
+            out = both.replace(
+                solid=jnp.zeros_like(both.solid), liquid=jnp.zeros_like(both.liquid), temperature=T
+            )
             left = both.replace(
-                gas=jnp.zeros_like(both.gas), temperature=T if self.temperature_product is None else self.temperature_product
+                gas=jnp.zeros_like(both.gas),
+                temperature=T if self.temperature_product is None else self.temperature_product,
             )
             return left, out
 
@@ -156,8 +190,12 @@ class ConvectiveDryer(Unit):
             product, out = parted(both, T)
             leaves = product.enthalpy_flow + out.enthalpy_flow
             if self.temperature_inlet is None:
-                there = gas.enthalpy_flow + (0.0 if self.heat_duty is None else self.heat_duty) + self.fan_power
-            else:  # the gas through the dryer is hot, fresh and recirculated alike, and what returns to it leaves again
+                there = (
+                    gas.enthalpy_flow + (0.0 if self.heat_duty is None else self.heat_duty) + self.fan_power
+                )
+            # the gas through the dryer is hot, fresh and recirculated alike, and what returns to it leaves
+            # again
+            else:
                 mixed = gas.replace(gas=gas.gas + back * out.gas)
                 there = mixed.enthalpy_at(self.temperature_inlet) - back * out.enthalpy_flow
             return leaves - there - feed.enthalpy_flow + self.heat_loss
@@ -177,15 +215,25 @@ class ConvectiveDryer(Unit):
 
             def missing(T: Any) -> Any:
                 y = humid.fraction(moved(jnp.clip(water_at(T), 0.0, water)))
-                return y - self.relative_humidity_outlet * humid.pair.saturated_fraction(T, gas.pressure, False)
+                return y - self.relative_humidity_outlet * humid.pair.saturated_fraction(
+                    T, gas.pressure, False
+                )
 
-            asked = find_root(missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet)
+            asked = find_root(
+                missing, COLDEST, HOTTEST if self.temperature_inlet is None else self.temperature_inlet
+            )
             known, W = asked.converged, water_at(asked.value)
         W = jnp.clip(W, 0.0, water)
-        guess = jnp.minimum(gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0)
+        guess = jnp.minimum(
+            gas.temperature if self.temperature_inlet is None else self.temperature_inlet, 320.0
+        )
         both = moved(W)
         root = find_root(
-            lambda T: heat_missing(both, T) / jnp.maximum(jnp.sum(gas.gas) * 1e3, 1e-300), COLDEST, HOTTEST, start=guess, tolerance=1e-14
+            lambda T: heat_missing(both, T) / jnp.maximum(jnp.sum(gas.gas) * 1e3, 1e-300),
+            COLDEST,
+            HOTTEST,
+            start=guess,
+            tolerance=1e-14,
         )
         product, out = parted(both, root.value)
         mixed = gas.replace(gas=gas.gas + back * out.gas)
@@ -200,17 +248,21 @@ class ConvectiveDryer(Unit):
         return Inside(inlet, out, product, duty - recovered, recovered, exhaust, condensate)
 
     def _recover(self, gas: Stream, out: Stream, duty: Any) -> tuple[Any, Stream, Stream, Any]:
-        """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below its dew point. Also whether the
-        temperature that this leaves it was found."""
+        """Heat from the exhaust to the fresh air, never more than the heater needs; the exhaust drains below
+        its dew point. Also whether the temperature that this leaves it was found.
+        """
         if isinstance(self.effectiveness, float | int) and self.effectiveness == 0:
             return jnp.zeros(()), out, out.part(), jnp.asarray(True)
-        # exhaust beyond saturation fails a check of its own; it must not start to condense before it is cooled
+        # exhaust beyond saturation fails a check of its own; it must not start to condense before it is
+        # cooled
         humid = HumidMixture(out.mixture)
         vapor = out.gas[humid.vapor]
         beyond = jnp.maximum(safe_divide(vapor, humid.saturated_vapor(out, out.temperature)), 1.0)
 
         def drained(T: Any) -> tuple[Stream, Stream]:
-            both = humid.moved(out, -jnp.maximum(vapor - beyond * humid.saturated_vapor(out, T), 0.0)).replace(temperature=T)
+            both = humid.moved(
+                out, -jnp.maximum(vapor - beyond * humid.saturated_vapor(out, T), 0.0)
+            ).replace(temperature=T)
             return both.part(gas=1.0), both.part(liquid=1.0)
 
         def given(T: Any) -> Any:
@@ -225,7 +277,9 @@ class ConvectiveDryer(Unit):
         dry, wet = drained(root.value)
         return given(root.value), dry, wet, root.converged
 
-    def figures(self, inside: Inside, outlets: ConvectiveOutlets, feed: Stream, gas: Stream) -> ConvectiveFigures:
+    def figures(
+        self, inside: Inside, outlets: ConvectiveOutlets, feed: Stream, gas: Stream
+    ) -> ConvectiveFigures:
         found = inside
         W = feed.liquid[0] - found.product.liquid[0]
         bought = found.heater + self.fan_power
@@ -250,7 +304,14 @@ class ConvectiveDryer(Unit):
             moisture_extraction_rate=safe_divide(W, bought),
         )
 
-    def measured(self, inside: Inside, outlets: ConvectiveOutlets, figures: ConvectiveFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self,
+        inside: Inside,
+        outlets: ConvectiveOutlets,
+        figures: ConvectiveFigures,
+        feed: Stream,
+        gas: Stream,
+    ) -> dict[str, Any]:
         X, phi = figures.moisture_dry_basis, figures.relative_humidity_outlet
         found = {"humid": phi} | flammable(inside.outlet)
         if HumidMixture(feed.mixture).solvent == "water":

@@ -26,7 +26,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     Temperature,
     Time,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.formulas.contact_drying import moisture_dry_basis_after
@@ -66,12 +66,14 @@ class DrumFigures(NamedTuple):
 
 @equipment("drum_dryer", source="mujumdar2014, ch. 9; treybal1980, ch. 12", title="Drum (cylinder) dryer")
 class DrumDryer(Unit):
-    """A film or web wrapped on a steam-heated cylinder: it warms up, boils at a constant rate, then dries at a falling one, and is scraped off.
+    """A film or web wrapped on a steam-heated cylinder: it warms up, boils at a constant rate, then dries at
+    a falling one, and is scraped off.
 
-    The coefficient is the overall one from steam to film. Below the critical moisture the flux falls in a straight line to zero at
-    equilibrium. The film covers ``wrapped_fraction`` of the turn; turning faster makes
-    it thinner for a shorter time, so that the moisture reached hangs on area and steam alone. The product leaves between boiling and wall temperature, the closer to the
-    wall the drier it is. ``heat_loss_share`` is of the steam's heat.
+    The coefficient is the overall one from steam to film. Below the critical moisture the flux falls in a
+    straight line to zero at equilibrium. The film covers ``wrapped_fraction`` of the turn; turning faster
+    makes it thinner for a shorter time, so that the moisture reached hangs on area and steam alone. The
+    product leaves between boiling and wall temperature, the closer to the wall the drier it is.
+    ``heat_loss_share`` is of the steam's heat.
     """
 
     diameter: Length
@@ -86,7 +88,9 @@ class DrumDryer(Unit):
     temperature_limit: Temperature | None = None
 
     limits: ClassVar[Limits] = {
-        "capacity": Limit("water evaporated per area", 15.0, 80.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 9"),
+        "capacity": Limit(
+            "water evaporated per area", 15.0, 80.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 9"
+        ),
         "time": Limit("contact time on the drum", 3.0, 30.0, "s", "houdon2017"),
         "steam": Limit("temperature of the heating surface", 100.0, 180.0, "degC", "houdon2017"),
         "ratio": Limit("steam per water evaporated", 1.1, 1.6, "dimensionless", "mujumdar2014, ch. 9"),
@@ -110,7 +114,14 @@ class DrumDryer(Unit):
         heating = warm * turn / area / (U * jnp.maximum(mean, 1e-6))
         N = U * (wall - boiling) / latent
         X1 = safe_divide(feed.liquid[0], feed.solid_flow)
-        X2 = moisture_dry_basis_after(X1, jnp.maximum(contact - heating, 0.0), N, load, self.critical_moisture, self.equilibrium_moisture)
+        X2 = moisture_dry_basis_after(
+            X1,
+            jnp.maximum(contact - heating, 0.0),
+            N,
+            load,
+            self.critical_moisture,
+            self.equilibrium_moisture,
+        )
         dryness = jnp.clip((self.critical_moisture - X2) / self.critical_moisture, 0.0, 1.0)
         T2 = boiling + dryness * (wall - boiling)
         return {
@@ -127,22 +138,43 @@ class DrumDryer(Unit):
         }
 
     @classmethod
-    def size(cls, moisture_outlet: Any, feed: Stream, diameter: Any, rotation_speed: Any, pressure_steam: Any, **more: Any) -> DrumDryer:
-        """The width of a drum of given diameter that a product moisture needs: warming, constant and falling rate, each in closed form."""
+    def size(
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        diameter: Any,
+        rotation_speed: Any,
+        pressure_steam: Any,
+        **more: Any,
+    ) -> DrumDryer:
+        """The width of a drum of given diameter that a product moisture needs: warming, constant and falling
+        rate, each in closed form.
+        """
         first = cls(diameter, 1.0, rotation_speed, pressure_steam, **more)
         film = first.inside(feed)
-        X1, Xc, Xe = safe_divide(feed.liquid[0], feed.solid_flow), first.critical_moisture, first.equilibrium_moisture
+        X1, Xc, Xe = (
+            safe_divide(feed.liquid[0], feed.solid_flow),
+            first.critical_moisture,
+            first.equilibrium_moisture,
+        )
         if not Xe < float(moisture_outlet) < float(X1):
             raise InputError(
-                _("A drum dries to a moisture between equilibrium ({low} kg/kg) and the feed ({high} kg/kg), not to {value}.").format(
-                    low=format_number(Xe, 3), high=format_number(float(X1), 3), value=format_number(float(moisture_outlet), 3)
+                _(
+                    "A drum dries to a moisture between equilibrium ({low} kg/kg) and the feed ({high} "
+                    "kg/kg), not to {value}."
+                ).format(
+                    low=format_number(Xe, 3),
+                    high=format_number(float(X1), 3),
+                    value=format_number(float(moisture_outlet), 3),
                 ),
                 name="moisture_outlet",
             )
         upper = jnp.minimum(X1, Xc)
         ways = jnp.maximum(X1 - jnp.maximum(Xc, moisture_outlet), 0.0)
         ways = ways + jnp.where(
-            moisture_outlet < upper, (upper - Xe) * jnp.log((upper - Xe) / (jnp.minimum(moisture_outlet, upper) - Xe)), 0.0
+            moisture_outlet < upper,
+            (upper - Xe) * jnp.log((upper - Xe) / (jnp.minimum(moisture_outlet, upper) - Xe)),
+            0.0,
         )
         # time on the drum is turn · wrapped fraction; warming and drying both take turn/area times a number
         per_area = film["heating"] * film["area"] / film["turn"] + feed.solid_flow * ways / film["N"]
@@ -174,7 +206,9 @@ class DrumDryer(Unit):
             energy_per_water=safe_divide(duty, water),
         )
 
-    def measured(self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: dict[str, Any], outlets: ContactDried, figures: DrumFigures, feed: Stream
+    ) -> dict[str, Any]:
         found = {
             "capacity": figures.evaporation_per_area * 3600.0,
             "time": figures.contact_time,

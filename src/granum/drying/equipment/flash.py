@@ -28,9 +28,11 @@ FIRST_CELLS = 1.08  # growth of the cells from the feed point on, where the part
 
 @equipment("flash_dryer", source="baeyens1995; levy1999", title="Flash dryer")
 class FlashDryer(Dryer):
-    """Particles of each size accelerate from their feed velocity, slip behind the gas and dry on the way; heat after Ranz and Marshall.
+    """Particles of each size accelerate from their feed velocity, slip behind the gas and dry on the way;
+    heat after Ranz and Marshall.
 
-    Dilute: particles do not touch. The size does not change with moisture. ``downward`` is 1 for a falling duct, 0.5 for a level one.
+    Dilute: particles do not touch. The size does not change with moisture. ``downward`` is 1 for a falling
+    duct, 0.5 for a level one.
     """
 
     length: Length
@@ -57,22 +59,37 @@ class FlashDryer(Dryer):
         growth = FIRST_CELLS ** jnp.arange(self.cells)
         sizes = jnp.asarray(feed.mixture.sizes)
         return Path(
-            self.length * growth / jnp.sum(growth), self.extent(), STANDARD_GRAVITY * (2.0 * self.downward - 1.0), self.feed_velocity, sizes,
-            feed.solid_density, feed.solid_density, liquid_density(feed), False,
-        )  # fmt: skip
+            self.length * growth / jnp.sum(growth),
+            self.extent(),
+            STANDARD_GRAVITY * (2.0 * self.downward - 1.0),
+            self.feed_velocity,
+            sizes,
+            feed.solid_density,
+            feed.solid_density,
+            liquid_density(feed),
+            False,
+        )
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _flown(self, feed, gas)
 
     @classmethod
     def size(
-        cls, moisture_outlet: Any, feed: Stream, gas: Stream, gas_velocity: Any, kinetics: AbstractKinetics, **more: Any
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        gas_velocity: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
     ) -> FlashDryer:
         """The duct in which the inlet gas has a velocity, as long as a product moisture needs."""
         diameter = float(jnp.sqrt(4.0 / pi * gas.gas_volume_flow / gas_velocity))
         return sized(cls(10.0, diameter, kinetics, **more), "length", moisture_outlet, 0.05, 500.0, feed, gas)
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "velocity": gas.gas_volume_flow / self.extent(),
             "inlet": gas.temperature,
@@ -85,7 +102,16 @@ class FlashDryer(Dryer):
 def _flown(dryer: FlashDryer, feed: Stream, gas: Stream) -> Through:
     dry = counted(feed)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
-    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
+    inlet = Inlet(
+        X,
+        jnp.full_like(X, 1.0) * feed.temperature,
+        HumidMixture(gas.mixture).humidity_ratio(gas),
+        gas.temperature,
+    )
     matter = replace(Matter.of(dry, gas), dissolved=composition(feed))
     network = Network.co_current(dryer.cells)
-    return Through(*convey(dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, network, dryer.heat_loss))
+    return Through(
+        *convey(
+            dryer.path(dry), matter, dryer.kinetics, gas, inlet, dry.solid_by_size, network, dryer.heat_loss
+        )
+    )

@@ -1,4 +1,6 @@
-"""Fluidized-bed dryer: well mixed, or long and narrow with solid in plug flow; gas passes as bubbles and through the dense phase."""
+"""Fluidized-bed dryer: well mixed, or long and narrow with solid in plug flow; gas passes as bubbles and
+through the dense phase.
+"""
 
 from __future__ import annotations
 
@@ -34,13 +36,19 @@ TABLE = NOTES.format(table="IV.16")
 AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 
 
-@equipment("fluidized_bed_dryer", source="kunii1991, ch. 16; vanecek1966; groenewold1997", title="Fluidized-bed dryer")
+@equipment(
+    "fluidized_bed_dryer",
+    source="kunii1991, ch. 16; vanecek1966; groenewold1997",
+    title="Fluidized-bed dryer",
+)
 class FluidBedDryer(ContactDryer):
-    """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in bubbles.
+    """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in
+    bubbles.
 
-    With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed times, so that some leave as they
-    came. With more cells solid flows along the bed through that many tanks in series, each with fresh gas. The bypass is the bubble
-    gas that has not been exchanged on its way up, unless it is given.
+    With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
+    times, so that some leave as they came. With more cells solid flows along the bed through that many tanks
+    in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its way up,
+    unless it is given.
     """
 
     area: Area
@@ -53,7 +61,9 @@ class FluidBedDryer(ContactDryer):
     temperature_limit: Temperature | None = None
 
     limits: ClassVar[Limits] = ContactDryer.limits | {
-        "fluidized": Limit("gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"),
+        "fluidized": Limit(
+            "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
+        ),
         "velocity": Limit("gas velocity at the inlet", 0.2, 3.0, "m/s", TABLE),
         "inlet": Limit("gas temperature at the inlet", 323.15, 473.15, "K", TABLE),
         "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
@@ -69,10 +79,14 @@ class FluidBedDryer(ContactDryer):
 
     def minimum_velocity(self, feed: Stream, gas: Stream) -> Any:
         """Of fluidization, with the gas of the inlet."""
-        return minimum_fluidization_velocity_wen_yu.function(solid_diameter(feed), feed.solid_density, gas.gas_density, gas.gas_viscosity)
+        return minimum_fluidization_velocity_wen_yu.function(
+            solid_diameter(feed), feed.solid_density, gas.gas_density, gas.gas_viscosity
+        )
 
     def bypass(self, feed: Stream, gas: Stream) -> Any:
-        """Share of the gas that leaves as it entered: bubbles after exchange with their clouds, whose particles dry too, over the settled height."""
+        """Share of the gas that leaves as it entered: bubbles after exchange with their clouds, whose
+        particles dry too, over the settled height.
+        """
         if self.bypass_fraction is not None:
             return self.bypass_fraction
         U, first = gas.gas_volume_flow / self.area, self.minimum_velocity(feed, gas)
@@ -85,11 +99,15 @@ class FluidBedDryer(ContactDryer):
         return jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-exchange * H / rise)
 
     def _specific(self, feed: Stream, gas: Stream) -> Any:
-        """Heat transfer coefficient times surface per dry solid of each size, W/(K kg), with Gunn's Nusselt number."""
+        """Heat transfer coefficient times surface per dry solid of each size, W/(K kg), with Gunn's Nusselt
+        number.
+        """
         sizes = jnp.asarray(feed.mixture.sizes)
         conductivity = gas.gas_conductivity
         Re = gas.gas_flow / self.area * sizes / gas.gas_viscosity
-        nusselt = nusselt_number_gunn.function(Re, gas.gas_heat_capacity * gas.gas_viscosity / conductivity, self.void_fraction)
+        nusselt = nusselt_number_gunn.function(
+            Re, gas.gas_heat_capacity * gas.gas_viscosity / conductivity, self.void_fraction
+        )
         return nusselt * conductivity / sizes * 6.0 / (sizes * feed.solid_density)
 
     def contact(self, feed: Stream, gas: Stream) -> Contact:
@@ -97,16 +115,24 @@ class FluidBedDryer(ContactDryer):
         n, bed = self.cells, self.bed(feed, gas)
         time, solid = bed.time / n, jnp.broadcast_to(bed.flow * bed.time / n, (n, bed.flow.shape[0]))
         return Contact(
-            bed.matter, self.kinetics, solid, jnp.full_like(solid, 1.0) / time, bed.gas_flow, Network.cross_current(n),
-            lambda X, Ts, Tg, Y: bed.exchange, heat_loss=self.heat_loss / n,
-        )  # fmt: skip
+            bed.matter,
+            self.kinetics,
+            solid,
+            jnp.full_like(solid, 1.0) / time,
+            bed.gas_flow,
+            Network.cross_current(n),
+            lambda X, Ts, Tg, Y: bed.exchange,
+            heat_loss=self.heat_loss / n,
+        )
 
     def bed(self, feed: Stream, gas: Stream) -> Bed:
         """The whole bed, the feed ``counted`` as dry matter and water."""
         matter = Matter.of(feed, gas)
         dry = matter.humid.dry_flow(gas) * (1.0 - self.bypass(feed, gas))
         time = self.mass / jnp.maximum(feed.solid_flow, 1e-12)
-        return Bed(matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss)
+        return Bed(
+            matter, self.kinetics, self._specific(feed, gas), feed.solid_by_size, time, dry, self.heat_loss
+        )
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         found, share = _fluidized(self, feed, gas), self.bypass(feed, gas)
@@ -115,23 +141,38 @@ class FluidBedDryer(ContactDryer):
         found = found._replace(vapor=found.vapor + share * vapor, gas_enthalpy=found.gas_enthalpy + past)
         return Through(found, 1.0 * self.mass)
 
-    def dynamic(self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None) -> tuple[Profile, Any]:
+    def dynamic(
+        self, feed: Stream, gas: Stream, step: Any, inlets: Inlet, start: Any = None
+    ) -> tuple[Profile, Any]:
         """In time, of a bed with tanks in series."""
         if self.cells == 1:
             raise InputError(
-                _("A well-mixed bed in time would need the ages of its particles: give 'cells' = 2 or more for a bed in time.")
+                _(
+                    "A well-mixed bed in time would need the ages of its particles: give 'cells' = 2 or "
+                    "more for a bed in time."
+                )
             )
         return super().dynamic(feed, gas, step, inlets, start)
 
     @classmethod
     def size(
-        cls, moisture_outlet: Any, feed: Stream, gas: Stream, gas_velocity: Any, kinetics: AbstractKinetics, **more: Any
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        gas_velocity: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
     ) -> FluidBedDryer:
-        """The bed in which the inlet gas has a velocity, and the solid stays as long as a product moisture needs."""
+        """The bed in which the inlet gas has a velocity, and the solid stays as long as a product moisture
+        needs.
+        """
         area = float(gas.gas_volume_flow / gas_velocity)
         return sized(cls(area, 200.0 * area, kinetics, **more), "mass", moisture_outlet, 1e-3, 1e7, feed, gas)
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         U = gas.gas_volume_flow / self.area
         return super().measured(inside, outlets, figures, feed, gas) | {
             "fluidized": U / self.minimum_velocity(feed, gas),
@@ -154,4 +195,9 @@ def _fluidized(dryer: FluidBedDryer, feed: Stream, gas: Stream) -> Profile:
     )
     if n == 1:
         return steady_bed(bed, before, fresh)
-    return steady_tanks(replace(bed, time=bed.time / n, gas_flow=bed.gas_flow / n, heat_loss=bed.heat_loss / n), before, fresh, n)
+    return steady_tanks(
+        replace(bed, time=bed.time / n, gas_flow=bed.gas_flow / n, heat_loss=bed.heat_loss / n),
+        before,
+        fresh,
+        n,
+    )

@@ -1,4 +1,6 @@
-"""A freeze dryer for vials, in batches that follow one another: primary drying by the vial model, secondary drying by desorption."""
+"""A freeze dryer for vials, in batches that follow one another: primary drying by the vial model, secondary
+drying by desorption.
+"""
 
 from __future__ import annotations
 
@@ -28,11 +30,17 @@ from granum.core.kinds import (
     TemperatureRate,
     Time,
     Volume,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.drying.formulas.freeze_drying import choked_flow_rate, primary_drying, secondary_drying_time
 from granum.drying.formulas.vials import SUBLIMATION_HEAT
-from granum.drying.kinds import HeatTransferPerPressure, PerLength, PerPressure, VaporResistance, VaporResistanceGradient
+from granum.drying.kinds import (
+    HeatTransferPerPressure,
+    PerLength,
+    PerPressure,
+    VaporResistance,
+    VaporResistanceGradient,
+)
 from granum.numerics import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
@@ -66,12 +74,14 @@ class FreezeFigures(NamedTuple):
 
 @equipment("freeze_dryer", source="pikal1985; pikal1990; shivkumar2019", title="Freeze dryer for vials")
 class FreezeDryer(Unit):
-    """Vials freeze, sublime on shelves that warm to a temperature, and desorb at a second one; batches follow one another without a break.
+    """Vials freeze, sublime on shelves that warm to a temperature, and desorb at a second one; batches follow
+    one another without a break.
 
-    The feed's flow is the mean over the cycle and fixes how many vials are in a batch. Its dry solid per volume is the concentration. What
-    does not freeze, ``unfrozen_moisture`` per dry solid, stays for secondary drying, which ends at ``moisture_outlet``. ``heat_duty_shelf``
-    and ``heat_duty_condenser`` are means over the cycle of the heats of sublimation and desorption; melted condenser ice leaves at the
-    feed's temperature.
+    The feed's flow is the mean over the cycle and fixes how many vials are in a batch. Its dry solid per
+    volume is the concentration. What does not freeze, ``unfrozen_moisture`` per dry solid, stays for
+    secondary drying, which ends at ``moisture_outlet``. ``heat_duty_shelf`` and ``heat_duty_condenser`` are
+    means over the cycle of the heats of sublimation and desorption; melted condenser ice leaves at the feed's
+    temperature.
     """
 
     pressure_chamber: Pressure
@@ -101,19 +111,30 @@ class FreezeDryer(Unit):
     limits: ClassVar[Limits] = {
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "pikal1985"),
         "time": Limit("drying time of a batch", 36000.0, 259200.0, "s", "houdon2017"),
-        "choked": Limit("sublimation over the choked flow of the duct", 0.0, 1.0, "dimensionless", "patel2010"),
-        "capacity": Limit("sublimation over the capacity of the machine", 0.0, 1.0, "dimensionless", "shivkumar2019"),
+        "choked": Limit(
+            "sublimation over the choked flow of the duct", 0.0, 1.0, "dimensionless", "patel2010"
+        ),
+        "capacity": Limit(
+            "sublimation over the capacity of the machine", 0.0, 1.0, "dimensionless", "shivkumar2019"
+        ),
     }
 
     def outlets(self, inside: None, feed: Stream) -> FreezeDried:
         first = next((liquid.name for liquid in feed.mixture.liquids), "–")
         if first != "water":
             raise ApplicabilityError(
-                _("A freeze dryer sublimes ice only: the first liquid of the mixture must be water (it is {liquid}).").format(liquid=first)
+                _(
+                    "A freeze dryer sublimes ice only: the first liquid of the mixture must be water "
+                    "(it is {liquid})."
+                ).format(liquid=first)
             )
         keep = jnp.minimum(self.moisture_outlet * feed.solid_flow, feed.liquid[0])
         kept = feed.liquid.at[0].set(keep)
-        product = feed.replace(liquid=kept, gas=jnp.zeros_like(feed.gas), temperature=jnp.asarray(self.temperature_shelf_secondary))
+        product = feed.replace(
+            liquid=kept,
+            gas=jnp.zeros_like(feed.gas),
+            temperature=jnp.asarray(self.temperature_shelf_secondary),
+        )
         melted = feed.replace(solid=jnp.zeros_like(feed.solid), liquid=feed.liquid - kept, gas=feed.gas)
         duty = product.enthalpy_flow + melted.enthalpy_flow - feed.enthalpy_flow
         return FreezeDried(product, melted, duty)
@@ -121,20 +142,42 @@ class FreezeDryer(Unit):
     def figures(self, inside: None, outlets: FreezeDried, feed: Stream) -> FreezeFigures:
         concentration = safe_divide(feed.solid_flow, feed.slurry_volume_flow)
         primary = primary_drying(
-            self.pressure_chamber, self.temperature_shelf, self.area_vial, self.area_product, self.volume_fill, concentration,
-            self.vial_coefficient_contact, self.vial_coefficient_gas, self.vapor_resistance, self.vapor_resistance_slope,
-            self.vapor_resistance_saturation, self.vial_coefficient_saturation, self.temperature_shelf_start, self.ramp_rate, feed.solid_density,
-        )  # fmt: skip
+            self.pressure_chamber,
+            self.temperature_shelf,
+            self.area_vial,
+            self.area_product,
+            self.volume_fill,
+            concentration,
+            self.vial_coefficient_contact,
+            self.vial_coefficient_gas,
+            self.vapor_resistance,
+            self.vapor_resistance_slope,
+            self.vapor_resistance_saturation,
+            self.vial_coefficient_saturation,
+            self.temperature_shelf_start,
+            self.ramp_rate,
+            feed.solid_density,
+        )
         secondary = secondary_drying_time(
-            self.unfrozen_moisture, self.moisture_outlet, self.temperature_shelf_secondary, self.desorption_rate, self.activation_energy,
-            0.0, self.temperature_shelf, self.ramp_rate_secondary,
-        )  # fmt: skip
+            self.unfrozen_moisture,
+            self.moisture_outlet,
+            self.temperature_shelf_secondary,
+            self.desorption_rate,
+            self.activation_energy,
+            0.0,
+            self.temperature_shelf,
+            self.ramp_rate_secondary,
+        )
         cycle = self.freezing_time + primary.drying_time + secondary
         vials = feed.slurry_volume_flow * cycle / self.volume_fill
         water = feed.liquid[0] - outlets.product.liquid[0]
         heat = SUBLIMATION_HEAT * water
         highest = primary.sublimation_flux_highest * self.area_product * vials
-        choked = None if self.duct_diameter is None else choked_flow_rate(self.pressure_chamber, self.duct_diameter) + 0.0 * highest
+        choked = (
+            None
+            if self.duct_diameter is None
+            else choked_flow_rate(self.pressure_chamber, self.duct_diameter) + 0.0 * highest
+        )
         return FreezeFigures(
             drying_time_primary=primary.drying_time,
             drying_time_secondary=secondary,
@@ -151,7 +194,9 @@ class FreezeDryer(Unit):
             choked_flow_rate=choked,
         )
 
-    def measured(self, inside: None, outlets: FreezeDried, figures: FreezeFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: None, outlets: FreezeDried, figures: FreezeFigures, feed: Stream
+    ) -> dict[str, Any]:
         found = {
             "hot": figures.temperature_product - self.temperature_limit,
             "time": figures.drying_time_primary + figures.drying_time_secondary,

@@ -1,4 +1,6 @@
-"""Paddle, screw, disc or drum contact dryer: an agitated bed on heated walls, under vacuum or not (penetration model)."""
+"""Paddle, screw, disc or drum contact dryer: an agitated bed on heated walls, under vacuum or not
+(penetration model).
+"""
 
 from __future__ import annotations
 
@@ -31,12 +33,16 @@ from granum.core.kinds import (
     Temperature,
     ThermalConductivity,
     Time,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.core.units import format_number
 from granum.drying.contact.dryer import ready
 from granum.drying.equipment.drum import ContactDried
-from granum.drying.formulas.contact_drying import contact_time_mixing, heat_transfer_coefficient_wall_particles, penetration_drying
+from granum.drying.formulas.contact_drying import (
+    contact_time_mixing,
+    heat_transfer_coefficient_wall_particles,
+    penetration_drying,
+)
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
 from granum.drying.profile_charts import contact_chart
 from granum.drying.wet_surface import boiled
@@ -78,7 +84,9 @@ class PaddleFigures(NamedTuple):
 
 
 class Heat(NamedTuple):
-    """Boiling temperature, coefficients of wall and of bed, heat capacities of the dry solid and of the liquid."""
+    """Boiling temperature, coefficients of wall and of bed, heat capacities of the dry solid and of the
+    liquid.
+    """
 
     boiling: jax.Array
     wall: jax.Array
@@ -88,7 +96,9 @@ class Heat(NamedTuple):
 
 
 class Heated(NamedTuple):
-    """The bed on its walls: coefficients, that of the paste, its way, and the heated area that the feed needs, m²."""
+    """The bed on its walls: coefficients, that of the paste, its way, and the heated area that the feed
+    needs, m².
+    """
 
     heat: Heat
     paste: Any
@@ -96,17 +106,24 @@ class Heated(NamedTuple):
     area: Any
 
 
-@equipment("paddle_dryer", source="mollekopf1984; vdi2010, ch. Mc; milhe2014", title="Paddle or screw dryer (contact)")
+@equipment(
+    "paddle_dryer",
+    source="mollekopf1984; vdi2010, ch. Mc; milhe2014",
+    title="Paddle or screw dryer (contact)",
+)
 class PaddleDryer(Unit):
-    """An agitated bed that boils on heated walls: found is the area, or the batch time, to dry to the moisture wanted.
+    """An agitated bed that boils on heated walls: found is the area, or the batch time, to dry to the
+    moisture wanted.
 
-    Heat passes the wall's gap, then penetrates the resting bed behind a drying front until it is mixed again (Schlünder and Mollekopf).
-    What does not evaporate warms the bed. Continuous dryers are taken in plug flow, which the paddles of one shaft nearly give; a batch is
-    the same curve in time. Under vacuum the pressure sets the boiling temperature. Properties are those of the dry bed; non-hygroscopic
-    product. ``dry_mass_per_area`` is the hold-up per heated area. Mixing numbers are those of paddles unless given.
+    Heat passes the wall's gap, then penetrates the resting bed behind a drying front until it is mixed again
+    (Schlünder and Mollekopf). What does not evaporate warms the bed. Continuous dryers are taken in plug
+    flow, which the paddles of one shaft nearly give; a batch is the same curve in time. Under vacuum the
+    pressure sets the boiling temperature. Properties are those of the dry bed; non-hygroscopic product.
+    ``dry_mass_per_area`` is the hold-up per heated area. Mixing numbers are those of paddles unless given.
 
-    A sludge is a paste above ``pasty_moisture``: it wets the wall, so that no gap resists, and boils as heat penetrates it between two mixings; its
-    coefficient follows from the effusivity of solid and water unless measured. ``rate`` asks the other way round: how far an area dries.
+    A sludge is a paste above ``pasty_moisture``: it wets the wall, so that no gap resists, and boils as heat
+    penetrates it between two mixings; its coefficient follows from the effusivity of solid and water unless
+    measured. ``rate`` asks the other way round: how far an area dries.
     """
 
     wall_temperature: Temperature
@@ -128,7 +145,9 @@ class PaddleDryer(Unit):
     temperature_limit: Temperature | None = None
 
     limits: ClassVar[Limits] = {
-        "capacity": Limit("water evaporated per area", 1.0, 30.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 1"),
+        "capacity": Limit(
+            "water evaporated per area", 1.0, 30.0, "kg/(m^2*hour)", "houdon2017; mujumdar2014, ch. 1"
+        ),
         "time": Limit("residence time of the bed", 600.0, 36000.0, "s", "houdon2017"),
         "dry": Limit("moisture of the product above equilibrium", 0.0, 1e3, "kg/kg", "keey1978"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
@@ -144,8 +163,13 @@ class PaddleDryer(Unit):
         if not bool(root.converged):
             least, most = (float(eqx.tree_at(_moisture, dryer, X).area(feed)) for X in (wettest, DRIEST))
             raise ApplicabilityError(
-                _("An area of {value} m² does not fit this feed: warming it takes {low} m², drying it wholly {high} m².").format(
-                    value=format_number(float(area), 3), low=format_number(least, 3), high=format_number(most, 3)
+                _(
+                    "An area of {value} m² does not fit this feed: warming it takes {low} m², drying it "
+                    "wholly {high} m²."
+                ).format(
+                    value=format_number(float(area), 3),
+                    low=format_number(least, 3),
+                    high=format_number(most, 3),
                 ),
                 name="area",
             )
@@ -170,7 +194,9 @@ class PaddleDryer(Unit):
         boiling, wall, bed = heat[:3]
         series = 1.0 / (1.0 / wall + 1.0 / bed) if self.pasty_moisture is None else paste
         start = jnp.minimum(feed.temperature, boiling - 1e-6)
-        mean = (boiling - start) / jnp.log((self.wall_temperature - start) / (self.wall_temperature - boiling))
+        mean = (boiling - start) / jnp.log(
+            (self.wall_temperature - start) / (self.wall_temperature - boiling)
+        )
         warm = (feed.enthalpy_at(boiling) - feed.enthalpy_at(start)) / (series * mean)
         return feed.solid_flow * curve.time[-1] / self.dry_mass_per_area + warm
 
@@ -185,7 +211,9 @@ class PaddleDryer(Unit):
 
         def slopes(X: jax.Array, T: jax.Array) -> tuple[jax.Array, jax.Array, jax.Array]:
             """dT/d(−X), dt/d(−X) and flux."""
-            p = penetration_drying(jnp.maximum(X, 1e-6), self.wall_temperature, T, wall, bed, solid_heat, latent)
+            p = penetration_drying(
+                jnp.maximum(X, 1e-6), self.wall_temperature, T, wall, bed, solid_heat, latent
+            )
             heat = p.heat_transfer_coefficient * (self.wall_temperature - T)
             warm = heat * (1.0 - p.latent_share) / (solid_heat + X * liquid_heat)
             return warm / p.drying_flux, self.dry_mass_per_area / p.drying_flux, p.drying_flux
@@ -202,21 +230,31 @@ class PaddleDryer(Unit):
 
         pasty = paste * (self.wall_temperature - boiling) / latent
         first = (X0 - X1) * self.dry_mass_per_area / pasty
-        (T, t), (X, Ts, ts, fluxes) = jax.lax.scan(step, (boiling + 0.0 * X1, first), jnp.arange(STEPS, dtype=float))
+        (T, t), (X, Ts, ts, fluxes) = jax.lax.scan(
+            step, (boiling + 0.0 * X1, first), jnp.arange(STEPS, dtype=float)
+        )
         pieces = [(X, Ts, ts, fluxes), tuple(jnp.reshape(a, (1,)) for a in (X2, T, t, slopes(X2, T)[2]))]
         if self.pasty_moisture is not None:
             share = jnp.arange(PASTY_STEPS) / PASTY_STEPS
-            pieces.insert(0, (X0 - share * (X0 - X1), boiling + 0.0 * share, share * first, pasty + 0.0 * share))
+            pieces.insert(
+                0, (X0 - share * (X0 - X1), boiling + 0.0 * share, share * first, pasty + 0.0 * share)
+            )
         return ContactCurve(*(jnp.concatenate(column) for column in zip(*pieces, strict=True)))
 
     def _paste(self, feed: Stream, heat: Heat) -> Any:
-        """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and liquid while it rests."""
+        """Coefficient of the paste, W/(m² K): heat that penetrates a mixture of solid and liquid while it
+        rests.
+        """
         if self.heat_transfer_coefficient_paste is not None:
             return jnp.asarray(self.heat_transfer_coefficient_paste)
         X = safe_divide(feed.liquid[0], feed.solid_flow)
         liquid_density = feed.mixture.densities("liquids", heat.boiling)[0]
-        held = (heat.capacity + X * heat.liquid_capacity) / (1.0 / feed.solid_density + X / liquid_density)  # J/(m³ K)
-        return heat_transfer_coefficient_penetration(jnp.sqrt(held * self.thermal_conductivity_paste), self._contact())
+        held = (heat.capacity + X * heat.liquid_capacity) / (
+            1.0 / feed.solid_density + X / liquid_density
+        )  # J/(m³ K)
+        return heat_transfer_coefficient_penetration(
+            jnp.sqrt(held * self.thermal_conductivity_paste), self._contact()
+        )
 
     def _heat(self, feed: Stream) -> Heat:
         humid = HumidMixture(feed.mixture, alone=True)
@@ -227,22 +265,38 @@ class PaddleDryer(Unit):
         else:
             vapor = humid.fluid
             wall = heat_transfer_coefficient_wall_particles(
-                self.particle_diameter, mean, self.pressure, vapor.vapor_conductivity.value(mean), molar_mass=vapor.molar_mass,
+                self.particle_diameter,
+                mean,
+                self.pressure,
+                vapor.vapor_conductivity.value(mean),
+                molar_mass=vapor.molar_mass,
                 specific_heat_capacity=vapor.vapor_heat_capacity.value(mean),
-            )  # fmt: skip
+            )
         dry = feed.replace(liquid=jnp.zeros_like(feed.liquid), gas=jnp.zeros_like(feed.gas))
-        capacity = (dry.enthalpy_at(boiling + 5.0) - dry.enthalpy_at(boiling - 5.0)) / (10.0 * feed.solid_flow)
+        capacity = (dry.enthalpy_at(boiling + 5.0) - dry.enthalpy_at(boiling - 5.0)) / (
+            10.0 * feed.solid_flow
+        )
         liquid = feed.mixture.liquids[0]
         liquid_capacity = (liquid.enthalpy(boiling + 5.0) - liquid.enthalpy(boiling - 5.0)) / 10.0
         effusivity = jnp.sqrt(self.bulk_density * capacity * self.thermal_conductivity_bed)
-        return Heat(boiling, wall, heat_transfer_coefficient_penetration(effusivity, self._contact()), capacity, liquid_capacity)
+        return Heat(
+            boiling,
+            wall,
+            heat_transfer_coefficient_penetration(effusivity, self._contact()),
+            capacity,
+            liquid_capacity,
+        )
 
     def _contact(self) -> jax.Array:
-        return contact_time_mixing(self.rotation_speed, self.diameter, self.mixing_factor, self.mixing_exponent)
+        return contact_time_mixing(
+            self.rotation_speed, self.diameter, self.mixing_factor, self.mixing_exponent
+        )
 
     def outlets(self, inside: Heated, feed: Stream) -> ContactDried:
         bed = inside.curve
-        product, vapor = boiled(feed, self.moisture_outlet, bed.temperature[-1], bed.temperature[0], self.pressure)
+        product, vapor = boiled(
+            feed, self.moisture_outlet, bed.temperature[-1], bed.temperature[0], self.pressure
+        )
         return ContactDried(product, vapor, product.enthalpy_flow + vapor.enthalpy_flow - feed.enthalpy_flow)
 
     def figures(self, inside: Heated, outlets: ContactDried, feed: Stream) -> PaddleFigures:
@@ -271,7 +325,9 @@ class PaddleDryer(Unit):
         bed = made.inside.curve
         return {_("Profiles in a dryer"): contact_chart(bed.time, bed.moisture, bed.temperature)}
 
-    def measured(self, inside: Heated, outlets: ContactDried, figures: PaddleFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Heated, outlets: ContactDried, figures: PaddleFigures, feed: Stream
+    ) -> dict[str, Any]:
         found = {
             "capacity": figures.evaporation_per_area * 3600.0,
             "time": figures.residence_time,

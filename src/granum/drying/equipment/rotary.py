@@ -8,7 +8,17 @@ from typing import Annotated, Any, ClassVar, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Fraction, HeatTransferCoefficient, Law, Length, PositiveNumber, Power, RotationSpeed, Temperature, Within
+from granum.core.kinds import (
+    Fraction,
+    HeatTransferCoefficient,
+    Law,
+    Length,
+    PositiveNumber,
+    Power,
+    RotationSpeed,
+    Temperature,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
@@ -22,11 +32,15 @@ from granum.streams.units import Limits
 TABLE = NOTES.format(table="IV.6")
 
 
-@equipment("rotary_dryer", source="friedman1949; friedman1949part2; treybal1980, ch. 12", title="Rotary dryer")
+@equipment(
+    "rotary_dryer", source="friedman1949; friedman1949part2; treybal1980, ch. 12", title="Rotary dryer"
+)
 class RotaryDryer(ContactDryer):
-    """Drum with flights: time of passage after Friedman and Marshall, heat by the volume, tanks in series for the spread of residence times.
+    """Drum with flights: time of passage after Friedman and Marshall, heat by the volume, tanks in series for
+    the spread of residence times.
 
-    ``wall_coefficient`` adds heat from a steam-heated wall over the wetted share of the shell (the conductive drum).
+    ``wall_coefficient`` adds heat from a steam-heated wall over the wetted share of the shell (the conductive
+    drum).
     """
 
     length: Length
@@ -64,9 +78,15 @@ class RotaryDryer(ContactDryer):
         """Mean time of passage of the solid."""
         against = 1.0 if self.gas_direction == "counter-current" else -1.0
         return residence_time_friedman_marshall.function(
-            self.length, self.diameter, self.drum_slope, self.rotation_speed, solid_diameter(feed), gas.gas_flow / self.section,
-            jnp.maximum(feed.solid_flow, 1e-12) / self.section, against,
-        )  # fmt: skip
+            self.length,
+            self.diameter,
+            self.drum_slope,
+            self.rotation_speed,
+            solid_diameter(feed),
+            gas.gas_flow / self.section,
+            jnp.maximum(feed.solid_flow, 1e-12) / self.section,
+            against,
+        )
 
     def contact(self, feed: Stream, gas: Stream) -> Contact:
         n, F = self.cells, feed.solid_by_size
@@ -75,23 +95,52 @@ class RotaryDryer(ContactDryer):
         Ua = volumetric_heat_transfer_rotary.function(
             gas.gas_flow / self.section, self.diameter, self.transfer_constant, self.transfer_exponent
         )
-        exchange = Ua * self.extent() / (jnp.sum(F) * time)  # every class takes heat in proportion to its mass
+        exchange = (
+            Ua * self.extent() / (jnp.sum(F) * time)
+        )  # every class takes heat in proportion to its mass
         wall = 0.0
         if self.wall_coefficient is not None:
-            wall = self.wall_coefficient * self.wetted_share * pi * self.diameter * self.length / (jnp.sum(F) * time)
+            wall = (
+                self.wall_coefficient
+                * self.wetted_share
+                * pi
+                * self.diameter
+                * self.length
+                / (jnp.sum(F) * time)
+            )
         matter = Matter.of(feed, gas)
-        network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        network = (
+            Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        )
         return Contact(
-            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / time, matter.humid.dry_flow(gas), network,
-            lambda X, Ts, Tg, Y: exchange, wall, self.wall_temperature, self.heat_loss / n,
-        )  # fmt: skip
+            matter,
+            self.kinetics,
+            solid,
+            jnp.full_like(solid, 1.0) * n / time,
+            matter.humid.dry_flow(gas),
+            network,
+            lambda X, Ts, Tg, Y: exchange,
+            wall,
+            self.wall_temperature,
+            self.heat_loss / n,
+        )
 
     @classmethod
-    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, diameter: Any, kinetics: AbstractKinetics, **more: Any) -> RotaryDryer:
+    def size(
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        diameter: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
+    ) -> RotaryDryer:
         """The drum as long as a product moisture needs."""
         return sized(cls(10.0, diameter, kinetics, **more), "length", moisture_outlet, 0.2, 200.0, feed, gas)
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "filled": figures.solid_holdup / (feed.solid_density * 0.6) / self.extent(),
             "flux": gas.gas_flow / self.section,

@@ -1,4 +1,6 @@
-"""Silo (column) dryer for grain: hot air across a falling layer of grain, then cold air, which may go back to the heater."""
+"""Silo (column) dryer for grain: hot air across a falling layer of grain, then cold air, which may go back to
+the heater.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ TABLE = NOTES.format(table="IV.12")
 
 
 class DriedGrain(NamedTuple):
-    """Dried grain, exhaust of the drying zone, air of the cooling zone (to be led back to the heater), heat from outside."""
+    """Dried grain, exhaust of the drying zone, air of the cooling zone (to be led back to the heater), heat
+    from outside.
+    """
 
     product: Stream
     exhaust: Stream
@@ -45,10 +49,12 @@ class DriedGrain(NamedTuple):
 
 @equipment("silo_dryer", source="brooker1992; thompson1968", title="Silo dryer for grain")
 class SiloDryer(LayerDryer):
-    """Cross-flow column: grain falls in a layer through a drying zone and a cooling zone of the same thickness; air crosses it.
+    """Cross-flow column: grain falls in a layer through a drying zone and a cooling zone of the same
+    thickness; air crosses it.
 
-    Deep bed of thin layers. ``turned`` lets the air of the second half of the drying zone enter from the other side. Without air at the port
-    ``cooling`` there is no cooling zone; its air leaves as ``warmed_air`` and may feed the heater in the flowsheet.
+    Deep bed of thin layers. ``turned`` lets the air of the second half of the drying zone enter from the
+    other side. Without air at the port ``cooling`` there is no cooling zone; its air leaves as ``warmed_air``
+    and may feed the heater in the flowsheet.
     """
 
     volume: Volume
@@ -108,30 +114,56 @@ class SiloDryer(LayerDryer):
     def through(self, feed: Stream, gas: Stream, cooling: Stream | None = None) -> Through:
         return _grain(self, feed, gas, cooling)
 
-    def outlets(self, inside: Through, feed: Stream, gas: Stream, cooling: Stream | None = None) -> DriedGrain:
+    def outlets(
+        self, inside: Through, feed: Stream, gas: Stream, cooling: Stream | None = None
+    ) -> DriedGrain:
         found = inside.profile
         if cooling is None:
             product, exhaust, duty = dried(feed, gas, found)
             return DriedGrain(product, exhaust, empty(feed.mixture, gas.temperature, gas.pressure), duty)
         assert inside.cooling is not None
         vapor, heat = inside.cooling
-        product, exhaust, duty = dried(feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat))
+        product, exhaust, duty = dried(
+            feed, gas, found._replace(vapor=found.vapor - vapor, gas_enthalpy=found.gas_enthalpy - heat)
+        )
         stray = cooling.part(solid=1.0, liquid=1.0)
         air = cooling.replace(gas=cooling.gas.at[HumidMixture(feed.mixture).vapor].set(vapor))
         return DriedGrain(product, exhaust, warmed(air, heat + stray.enthalpy_flow), duty)
 
     @classmethod
-    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, layer_depth: Any, bulk_density_dry: Any, kinetics: AbstractKinetics,
-             **more: Any) -> SiloDryer:  # fmt: skip
+    def size(
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        layer_depth: Any,
+        bulk_density_dry: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
+    ) -> SiloDryer:
         """The volume of grain that a product moisture needs with the given hot air."""
-        return sized(cls(1.0, layer_depth, bulk_density_dry, kinetics, **more), "volume", moisture_outlet, 1e-3, 1e4, feed, gas)
+        return sized(
+            cls(1.0, layer_depth, bulk_density_dry, kinetics, **more),
+            "volume",
+            moisture_outlet,
+            1e-3,
+            1e4,
+            feed,
+            gas,
+        )
 
     def pressure_gradient(self, gas: Stream) -> PressureGradient:
         """That the hot air loses in the grain."""
         return pressure_gradient_shedd.function(gas.gas_volume_flow / self.area())
 
     def measured(
-        self, inside: Through, outlets: DriedGrain, figures: DryerFigures, feed: Stream, gas: Stream, cooling: Stream | None = None
+        self,
+        inside: Through,
+        outlets: DriedGrain,
+        figures: DryerFigures,
+        feed: Stream,
+        gas: Stream,
+        cooling: Stream | None = None,
     ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "inlet": gas.temperature,

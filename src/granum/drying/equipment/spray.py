@@ -11,7 +11,18 @@ from jax.scipy.special import gammaln
 
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Density, DynamicViscosity, Law, Length, PositiveNumber, Power, Ratio, SurfaceTension, Temperature, Within
+from granum.core.kinds import (
+    Density,
+    DynamicViscosity,
+    Law,
+    Length,
+    PositiveNumber,
+    Power,
+    Ratio,
+    SurfaceTension,
+    Temperature,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Inlet, Network
 from granum.drying.contact.conveyed import Path, convey, drop_ratio, liquid_density
@@ -30,10 +41,12 @@ GROWTH = 1.08  # of the cells from the atomizer on
 
 @equipment("spray_dryer", source="masters1991; chen2008rea; langrish2009", title="Spray dryer")
 class SprayDryer(Dryer):
-    """Drops of a Rosin–Rammler spread around the atomizer's Sauter mean fall with the gas, shrink while they are full drops, and dry.
+    """Drops of a Rosin–Rammler spread around the atomizer's Sauter mean fall with the gas, shrink while they
+    are full drops, and dry.
 
-    The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or suspended, is shared out over them.
-    ``gas_dispersion`` mixes the gas along the chamber: exchange flow between cells over through-flow, up to some tens; plug flow without it.
+    The size classes of the mixture are those of the dry particles; the solid of the feed, dissolved or
+    suspended, is shared out over them. ``gas_dispersion`` mixes the gas along the chamber: exchange flow
+    between cells over through-flow, up to some tens; plug flow without it.
     """
 
     length: Length
@@ -63,7 +76,13 @@ class SprayDryer(Dryer):
     def liquor(self, feed: Stream, gas: Stream) -> Liquor:
         """The feed as the atomizer meets it."""
         flow = feed.solid_flow + feed.liquid_flow
-        return Liquor(flow, flow / feed.slurry_volume_flow, self.dynamic_viscosity, self.surface_tension, gas.gas_density)
+        return Liquor(
+            flow,
+            flow / feed.slurry_volume_flow,
+            self.dynamic_viscosity,
+            self.surface_tension,
+            gas.gas_density,
+        )
 
     def shares(self, feed: Stream, gas: Stream) -> Any:
         """Solid in each class of dry particles, from the volume distribution of the drops."""
@@ -83,9 +102,16 @@ class SprayDryer(Dryer):
         """The chamber, with short cells where the drops are fast."""
         growth = GROWTH ** jnp.arange(self.cells)
         return Path(
-            self.length * growth / jnp.sum(growth), 0.25 * pi * self.diameter**2, STANDARD_GRAVITY, self.atomizer.launch(self.liquor(feed, gas)),
-            jnp.asarray(feed.mixture.sizes), self.dry_density, feed.solid_density, liquid_density(feed), True,
-        )  # fmt: skip
+            self.length * growth / jnp.sum(growth),
+            0.25 * pi * self.diameter**2,
+            STANDARD_GRAVITY,
+            self.atomizer.launch(self.liquor(feed, gas)),
+            jnp.asarray(feed.mixture.sizes),
+            self.dry_density,
+            feed.solid_density,
+            liquid_density(feed),
+            True,
+        )
 
     def through(self, feed: Stream, gas: Stream) -> Through:
         return _sprayed(self, feed, gas)
@@ -95,12 +121,23 @@ class SprayDryer(Dryer):
 
     @classmethod
     def size(
-        cls, moisture_outlet: Any, feed: Stream, gas: Stream, diameter: Any, atomizer: Any, kinetics: AbstractKinetics, **more: Any
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        diameter: Any,
+        atomizer: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
     ) -> SprayDryer:
         """The chamber as high as a product moisture needs."""
-        return sized(cls(5.0, diameter, atomizer, kinetics, **more), "length", moisture_outlet, 0.05, 200.0, feed, gas)
+        return sized(
+            cls(5.0, diameter, atomizer, kinetics, **more), "length", moisture_outlet, 0.05, 200.0, feed, gas
+        )
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "inlet": gas.temperature,
             "outlet": outlets.exhaust.temperature,
@@ -116,8 +153,24 @@ def _sprayed(dryer: SprayDryer, feed: Stream, gas: Stream) -> Through:
     drops = dryer.atomized(dry, gas)
     X = jnp.full(len(feed.mixture.sizes), 1.0) * dry.moisture_dry_basis
     matter = replace(Matter.of(drops, gas), dissolved=composition(feed))
-    inlet = Inlet(X, jnp.full_like(X, 1.0) * feed.temperature, HumidMixture(gas.mixture).humidity_ratio(gas), gas.temperature)
+    inlet = Inlet(
+        X,
+        jnp.full_like(X, 1.0) * feed.temperature,
+        HumidMixture(gas.mixture).humidity_ratio(gas),
+        gas.temperature,
+    )
     network = Network.co_current(dryer.cells)
     if dryer.gas_dispersion is not None:
         network = network.dispersed(dryer.gas_dispersion)
-    return Through(*convey(dryer.path(dry, gas), matter, dryer.kinetics, gas, inlet, drops.solid_by_size, network, dryer.heat_loss))
+    return Through(
+        *convey(
+            dryer.path(dry, gas),
+            matter,
+            dryer.kinetics,
+            gas,
+            inlet,
+            drops.solid_by_size,
+            network,
+            dryer.heat_loss,
+        )
+    )

@@ -32,7 +32,7 @@ from granum.core.kinds import (
     Speed,
     Temperature,
     Time,
-)  # fmt: skip
+)
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.column import Zone, mean_moisture, pass_zones
@@ -50,7 +50,10 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-_UNSOLVED = "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation agree: give hotter air, or less radiated heat."
+_UNSOLVED = (
+    "No temperature of the wet surface was found between −5 °C and boiling at which heat and evaporation "
+    "agree: give hotter air, or less radiated heat."
+)
 
 
 class TrayDried(NamedTuple):
@@ -107,13 +110,15 @@ class _Rest(eqx.Module):
 
 @equipment("tray_dryer", source="treybal1980, ch. 12; geankoplis2003, ch. 9", title="Tray oven")
 class TrayDryer(Unit):
-    """Batches on trays over which air of constant temperature circulates along the surface; the fresh air fixes its humidity.
+    """Batches on trays over which air of constant temperature circulates along the surface; the fresh air
+    fixes its humidity.
 
-    The air over the trays is as humid as the exhaust, on average over the cycle; it cools along each tray while the surface is wet at its wet bulb.
-    Below the critical moisture the flux falls in a straight line to equilibrium. The heat transfer coefficient follows from the air
-    speed unless it is given; ``radiated_heat`` is infrared or microwave heat per area that evaporates besides it. Trays dry from above,
-    and from below too when ``sides`` is 2. Feed and gas flows are means over the cycle; the product leaves at the temperature of the air.
-    ``batch`` follows a load in time, cell by cell along the air.
+    The air over the trays is as humid as the exhaust, on average over the cycle; it cools along each tray
+    while the surface is wet at its wet bulb. Below the critical moisture the flux falls in a straight line to
+    equilibrium. The heat transfer coefficient follows from the air speed unless it is given;
+    ``radiated_heat`` is infrared or microwave heat per area that evaporates besides it. Trays dry from above,
+    and from below too when ``sides`` is 2. Feed and gas flows are means over the cycle; the product leaves at
+    the temperature of the air. ``batch`` follows a load in time, cell by cell along the air.
     """
 
     temperature_inlet: Temperature
@@ -135,13 +140,17 @@ class TrayDryer(Unit):
     limits: ClassVar[Limits] = {
         "speed": Limit("air speed over the trays", 0.5, 8.0, "m/s", "treybal1980, ch. 12"),
         "humid": Limit("relative humidity of the exhaust", 0.0, 0.9, "dimensionless", "mujumdar2014, ch. 1"),
-        "reached": Limit("moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"),
+        "reached": Limit(
+            "moisture of the product above equilibrium with the hot air", 0.0, 1e3, "kg/kg", "keey1978"
+        ),
         "recycle": Limit("recirculated share of the air", 0.0, 0.98, "dimensionless", "treybal1980, ch. 12"),
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "bonazzi2003"),
     } | FLAMMABLE
 
     def outlets(self, inside: dict[str, Any], feed: Stream, gas: Stream) -> TrayDried:
-        product, vapor = boiled(feed, self.moisture_outlet, self.temperature_inlet, inside["T2"], gas.pressure)
+        product, vapor = boiled(
+            feed, self.moisture_outlet, self.temperature_inlet, inside["T2"], gas.pressure
+        )
         exhaust = vapor.replace(gas=vapor.gas + gas.gas)
         duty = product.enthalpy_flow + exhaust.enthalpy_flow - feed.enthalpy_flow - gas.enthalpy_flow
         return TrayDried(product, exhaust, duty)
@@ -160,7 +169,13 @@ class TrayDryer(Unit):
         )
         transfer = h / (humid.lewis_factor * c * (1.0 + w))
         wet = wet_surface(
-            lambda Ts: h * (T - Ts) + self.radiated_heat, T, w, transfer, gas.pressure, humid.pair, humid.heat_of_vaporization
+            lambda Ts: h * (T - Ts) + self.radiated_heat,
+            T,
+            w,
+            transfer,
+            gas.pressure,
+            humid.pair,
+            humid.heat_of_vaporization,
         )
         unsolved(wet.converged, type(self).card, reason=_UNSOLVED)
         Tw = wet.value
@@ -170,23 +185,43 @@ class TrayDryer(Unit):
         X1 = safe_divide(feed.liquid[0], feed.solid_flow)
         phi = jnp.clip(humid.relative_humidity(moist), 1e-3, 0.99)
         Xe = self.equilibrium_moisture if self.isotherm is None else self.isotherm(phi, T)
-        time = drying_time(self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe).drying_time
-        return {"w": w, "h": h, "Tw": Tw, "end": end, "N": N, "Xe": Xe, "time": time, "T2": end, "flux": flux, "water": water}
+        time = drying_time(
+            self.dry_mass_per_area, 1.0, N, X1, self.moisture_outlet, self.critical_moisture, Xe
+        ).drying_time
+        return {
+            "w": w,
+            "h": h,
+            "Tw": Tw,
+            "end": end,
+            "N": N,
+            "Xe": Xe,
+            "time": time,
+            "T2": end,
+            "flux": flux,
+            "water": water,
+        }
 
-    def batch(self, feed: Stream, gas: Stream, duration: Any = None, cells: int = 20, steps: int = 60) -> Batch:
-        """One load from cold, along the air and in time: the leading edge dries first, and the air that leaves changes as the load dries.
+    def batch(
+        self, feed: Stream, gas: Stream, duration: Any = None, cells: int = 20, steps: int = 60
+    ) -> Batch:
+        """One load from cold, along the air and in time: the leading edge dries first, and the air that
+        leaves changes as the load dries.
 
-        The air enters as in the steady figures, hot and as humid as the exhaust is on average. Without a ``duration`` it is one and a half times the
-        drying time of those figures.
+        The air enters as in the steady figures, hot and as humid as the exhaust is on average. Without a
+        ``duration`` it is one and a half times the drying time of those figures.
         """
         if not isinstance(self.radiated_heat, float | int) or self.radiated_heat != 0:
             raise ApplicabilityError(
-                _("A load is followed in time without radiated heat: set 'radiated_heat' to zero."), name="radiated_heat"
+                _("A load is followed in time without radiated heat: set 'radiated_heat' to zero."),
+                name="radiated_heat",
             )
         length = 1.5 * self.inside(feed, gas)["time"] if duration is None else duration
         found = _followed(self, feed, gas, length, cells, steps)
         if not isinstance(found.converged, Tracer) and not bool(found.converged):
-            raise ConvergenceError(_("The load could not be followed to its end: take more 'steps', or a shorter 'duration'."), last=found)
+            raise ConvergenceError(
+                _("The load could not be followed to its end: take more 'steps', or a shorter 'duration'."),
+                last=found,
+            )
         return found
 
     def figures(self, inside: dict[str, Any], outlets: TrayDried, feed: Stream, gas: Stream) -> TrayFigures:
@@ -213,7 +248,9 @@ class TrayDryer(Unit):
             energy_per_water=safe_divide(duty, s["water"]),
         )
 
-    def measured(self, inside: dict[str, Any], outlets: TrayDried, figures: TrayFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: dict[str, Any], outlets: TrayDried, figures: TrayFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         found = {
             "speed": self.gas_velocity,
             "humid": figures.relative_humidity,
@@ -227,22 +264,39 @@ class TrayDryer(Unit):
 
 @ready
 def _followed(tray: TrayDryer, feed: Stream, gas: Stream, duration: Any, cells: int, steps: int) -> Batch:
-    """Cells of standing solid along the air; each dries at the rate of the wet bulb of its own air, and below the critical moisture in proportion."""
+    """Cells of standing solid along the air; each dries at the rate of the wet bulb of its own air, and below
+    the critical moisture in proportion.
+    """
     s = tray.inside(feed, gas)
     T, w = jnp.asarray(tray.temperature_inlet), s["w"]
     isotherm = _Rest(jnp.asarray(tray.equilibrium_moisture)) if tray.isotherm is None else tray.isotherm
     exchange = s["h"] * tray.sides / tray.dry_mass_per_area
     like = Contact(
-        Matter.of(feed, gas).blended(feed), VanMeelKinetics(tray.critical_moisture, isotherm=isotherm), jnp.full((cells, 1), 1.0 / cells),
-        jnp.zeros((cells, 1)), 1.0, Network.co_current(cells), lambda X, Ts, Tg, Y: exchange,
-    )  # fmt: skip
+        Matter.of(feed, gas).blended(feed),
+        VanMeelKinetics(tray.critical_moisture, isotherm=isotherm),
+        jnp.full((cells, 1), 1.0 / cells),
+        jnp.zeros((cells, 1)),
+        1.0,
+        Network.co_current(cells),
+        lambda X, Ts, Tg, Y: exchange,
+    )
     per_solid = s["flux"] / (1.0 + w) * tray.tray_gap / (tray.tray_length * tray.dry_mass_per_area)
-    (found,) = pass_zones(like, feed.moisture_dry_basis, feed.temperature, [Zone(duration, per_solid, False, w, T)], steps)
+    (found,) = pass_zones(
+        like, feed.moisture_dry_basis, feed.temperature, [Zone(duration, per_solid, False, w, T)], steps
+    )
     mean, layers = mean_moisture(like, found), found.layers
     times, fallen = jnp.append(0.0, found.time), jnp.append(feed.moisture_dry_basis, mean)
     reached = jnp.interp(-tray.moisture_outlet, -fallen, times, right=jnp.nan)
     return Batch(
-        found.time, layers.moisture[..., 0], layers.temperature[..., 0], layers.gas_temperature, layers.humidity, mean, reached,
-        per_solid * duration, found.vapor,
-        found.gas_enthalpy, jnp.all(layers.converged),
-    )  # fmt: skip
+        found.time,
+        layers.moisture[..., 0],
+        layers.temperature[..., 0],
+        layers.gas_temperature,
+        layers.humidity,
+        mean,
+        reached,
+        per_solid * duration,
+        found.vapor,
+        found.gas_enthalpy,
+        jnp.all(layers.converged),
+    )

@@ -7,7 +7,17 @@ from typing import Annotated, Any, ClassVar, Literal
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, HeatTransferCoefficient, Law, Power, SpecificSurfaceMass, Temperature, Time, Volume, Within
+from granum.core.kinds import (
+    Area,
+    HeatTransferCoefficient,
+    Law,
+    Power,
+    SpecificSurfaceMass,
+    Temperature,
+    Time,
+    Volume,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.cells import Contact, Network
 from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
@@ -22,7 +32,8 @@ TABLE = NOTES.format(table="IV.8")
 
 @equipment("tunnel_dryer", source="keey1978; geankoplis2003, ch. 9", title="Tunnel dryer")
 class TunnelDryer(ContactDryer):
-    """Trucks in a row with gas along their surface, with or against them, close enough to count as a steady flow.
+    """Trucks in a row with gas along their surface, with or against them, close enough to count as a steady
+    flow.
 
     Heat by the flux of gas through the free section unless a coefficient is given.
     """
@@ -55,20 +66,39 @@ class TunnelDryer(ContactDryer):
             h = heat_transfer_coefficient_parallel.function(gas.gas_flow / self.free_area)
         exchange = h * self.surface_per_mass
         matter = Matter.of(feed, gas)
-        network = Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        network = (
+            Network.counter_current(n) if self.gas_direction == "counter-current" else Network.co_current(n)
+        )
         return Contact(
-            matter, self.kinetics, solid, jnp.full_like(solid, 1.0) * n / self.residence_time, matter.humid.dry_flow(gas), network,
-            lambda X, Ts, Tg, Y: exchange, heat_loss=self.heat_loss / n,
-        )  # fmt: skip
+            matter,
+            self.kinetics,
+            solid,
+            jnp.full_like(solid, 1.0) * n / self.residence_time,
+            matter.humid.dry_flow(gas),
+            network,
+            lambda X, Ts, Tg, Y: exchange,
+            heat_loss=self.heat_loss / n,
+        )
 
     @classmethod
-    def size(cls, moisture_outlet: Any, feed: Stream, gas: Stream, surface_per_mass: Any, free_area: Any, volume: Any,
-             kinetics: AbstractKinetics, **more: Any) -> TunnelDryer:  # fmt: skip
+    def size(
+        cls,
+        moisture_outlet: Any,
+        feed: Stream,
+        gas: Stream,
+        surface_per_mass: Any,
+        free_area: Any,
+        volume: Any,
+        kinetics: AbstractKinetics,
+        **more: Any,
+    ) -> TunnelDryer:
         """The tunnel in which the trucks stay as long as a product moisture needs."""
         first = cls(3600.0, surface_per_mass, free_area, volume, kinetics, **more)
         return sized(first, "residence_time", moisture_outlet, 10.0, 1e6, feed, gas)
 
-    def measured(self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, gas) | {
             "inlet": gas.temperature,
             "capacity": self.hourly(figures),

@@ -1,4 +1,6 @@
-"""A continuous dryer in which gas and solid are well mixed: the simplest true model of a fluidized-bed dryer."""
+"""A continuous dryer in which gas and solid are well mixed: the simplest true model of a fluidized-bed
+dryer.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,18 @@ import jax.numpy as jnp
 
 from granum.core import equipment
 from granum.core.flags import unsolved
-from granum.core.kinds import Area, HumidityRatio, Mass, MassFlow, MoistureDryBasis, Power, RelativeHumidity, Speed, Temperature, Time
+from granum.core.kinds import (
+    Area,
+    HumidityRatio,
+    Mass,
+    MassFlow,
+    MoistureDryBasis,
+    Power,
+    RelativeHumidity,
+    Speed,
+    Temperature,
+    Time,
+)
 from granum.core.limits import Limit
 from granum.drying.contact.dryer import Dried
 from granum.drying.wet_surface import crystallized
@@ -22,7 +35,10 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 COLDEST_FILM = 200.0  # K
-UNSOLVED = "No temperature of the bed was found at which heat and evaporation agree: give hotter gas or more of it, less wet solid, or a smaller heat loss."
+UNSOLVED = (
+    "No temperature of the bed was found at which heat and evaporation agree: give hotter gas or more of "
+    "it, less wet solid, or a smaller heat loss."
+)
 
 
 class WellMixedFigures(NamedTuple):
@@ -40,12 +56,14 @@ class WellMixedFigures(NamedTuple):
 
 @equipment("well_mixed_dryer", source="kunii1991, ch. 16; ranz1952", title="Well-mixed (fluidized-bed) dryer")
 class WellMixedDryer(Unit):
-    """Dries the liquor film on non-porous particles in a gas that is well mixed with them; sizes of particle dry at their own rate.
+    """Dries the liquor film on non-porous particles in a gas that is well mixed with them; sizes of particle
+    dry at their own rate.
 
-    The film is spread over the particle surface in proportion to its area. It evaporates at the wet-bulb temperature of the bed
-    gas, with heat transfer after Ranz and Marshall at the superficial velocity, until it is gone; residence times are exponential.
-    Particles and gas leave at the bed temperature. What was dissolved in the evaporated water stays on the particles as solid.
-    Simplifications: the saturated film evaporates like the pure liquid, and no moisture is bound inside the crystals.
+    The film is spread over the particle surface in proportion to its area. It evaporates at the wet-bulb
+    temperature of the bed gas, with heat transfer after Ranz and Marshall at the superficial velocity, until
+    it is gone; residence times are exponential. Particles and gas leave at the bed temperature. What was
+    dissolved in the evaporated water stays on the particles as solid. Simplifications: the saturated film
+    evaporates like the pure liquid, and no moisture is bound inside the crystals.
     """
 
     residence_time: Time
@@ -77,7 +95,9 @@ class WellMixedDryer(Unit):
         def by_kinetics(T: Any, evaporated: Any) -> Any:
             bed = after(jnp.clip(evaporated, 0.0, water), T)
             saturated = jnp.minimum(humid.pair.saturated_fraction(T, bed.pressure, False), 1.0)
-            Tw = self._surface_temperature(humid, T, bed.pressure, jnp.minimum(humid.fraction(bed), saturated))
+            Tw = self._surface_temperature(
+                humid, T, bed.pressure, jnp.minimum(humid.fraction(bed), saturated)
+            )
             latent = humid.heat_of_vaporization(Tw)
             flux = self._heat_transfer(bed) * jnp.maximum(T - Tw, 0.0) / latent  # kg/(m² s) per class
             area = (
@@ -88,7 +108,9 @@ class WellMixedDryer(Unit):
             area = jnp.sum(area, axis=(0, *range(2, area.ndim)))  # m² per kg of all solid, by class
             film = safe_divide(water, feed.solid_flow * jnp.sum(area))  # kg of water per m²
             time = film / jnp.maximum(flux, 1e-12)  # to dry one particle
-            dried = -jnp.expm1(-time / self.residence_time) * self.residence_time / time  # share evaporated, exponential residence times
+            dried = (
+                -jnp.expm1(-time / self.residence_time) * self.residence_time / time
+            )  # share evaporated, exponential residence times
             return water * jnp.sum(area * dried) / jnp.sum(area)
 
         coldest = jnp.maximum(jnp.minimum(feed.temperature, gas.temperature) - 60.0, COLDEST_FILM + 5.0)
@@ -108,12 +130,16 @@ class WellMixedDryer(Unit):
 
     @staticmethod
     def _surface_temperature(humid: HumidMixture, T: Any, P: Any, y: Any) -> Any:
-        """Wet bulb over liquid. The general ``wet_bulb`` also knows ice and vast arrays; here its balance alone compiles much faster."""
+        """Wet bulb over liquid. The general ``wet_bulb`` also knows ice and vast arrays; here its balance
+        alone compiles much faster.
+        """
         pair = humid.pair
         top = jnp.minimum(T, pair.boiling_temperature(P)) * (1.0 + 1e-9)
         h = pair.molar_enthalpy(T, P, y)
         lewis = pair.lewis_factor()
-        return find_root(lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, lewis), COLDEST_FILM, top).value
+        return find_root(
+            lambda Ts: wet_bulb_balance(pair, Ts, h, P, y, False, lewis), COLDEST_FILM, top
+        ).value
 
     def _heat_transfer(self, bed: Stream) -> Any:
         """Heat transfer coefficient of each size class, W/(m² K)."""
@@ -125,7 +151,9 @@ class WellMixedDryer(Unit):
 
     @staticmethod
     def _sizes(bed: Stream) -> Any:
-        """Class sizes; an empty class takes the size of the fullest one, so that nothing is flagged for particles that are not there."""
+        """Class sizes; an empty class takes the size of the fullest one, so that nothing is flagged for
+        particles that are not there.
+        """
         shares = bed.size_fractions
         return jnp.where(shares > 1e-9, bed.mixture.sizes, jnp.asarray(bed.mixture.sizes)[jnp.argmax(shares)])
 
@@ -142,12 +170,18 @@ class WellMixedDryer(Unit):
             heat_duty=outlets.heat_duty,
         )
 
-    def measured(self, inside: Stream, outlets: Dried, figures: WellMixedFigures, feed: Stream, gas: Stream) -> dict[str, Any]:
-        return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis} | flammable(outlets.exhaust)
+    def measured(
+        self, inside: Stream, outlets: Dried, figures: WellMixedFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return {"humid": figures.relative_humidity, "moist": figures.moisture_dry_basis} | flammable(
+            outlets.exhaust
+        )
 
 
 def evaporate(wet: Stream, share: Any) -> Stream:
-    """Move a share of the liquid that evaporates into the gas; the same share of each solute crystallizes on the solid of its own name."""
+    """Move a share of the liquid that evaporates into the gas; the same share of each solute crystallizes on
+    the solid of its own name.
+    """
     m = wet.mixture
     for solute in m.liquids[1:]:
         m.index("solids", solute.name)  # says which one is missing

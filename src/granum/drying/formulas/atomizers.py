@@ -53,7 +53,13 @@ def droplet_diameter_elkotb(
     86
     """
     nu = dynamic_viscosity / density
-    return 3.08 * nu**0.385 * (surface_tension * density) ** 0.737 * gas_density**0.06 * jnp.maximum(pressure_difference, 1.0) ** -0.54
+    return (
+        3.08
+        * nu**0.385
+        * (surface_tension * density) ** 0.737
+        * gas_density**0.06
+        * jnp.maximum(pressure_difference, 1.0) ** -0.54
+    )
 
 
 @formula(
@@ -82,14 +88,27 @@ def droplet_diameter_lefebvre(
 
 
 @formula(
-    source="masters1991", fitted={"tip_speed": (100.0, 200.0)},
-    equation=r"d_{32} = 1.4\times 10^{4}\,\frac{\dot m^{0.24}}{(N d)^{0.83}(n b)^{0.12}}\ \mathrm{\mu m},\quad \dot m\ \mathrm{in\ kg/h},\ N\ \mathrm{in\ rpm}",
-    typical={"mass_flow": (0.05, 3.0), "rotation_speed": (800.0, 2000.0), "diameter": (0.1, 0.3), "vane_height": (5e-3, 4e-2)},
+    source="masters1991",
+    fitted={"tip_speed": (100.0, 200.0)},
+    equation=(
+        r"d_{32} = 1.4\times 10^{4}\,\frac{\dot m^{0.24}}{(N d)^{0.83}(n b)^{0.12}}\ \mathrm{\mu m},\quad "
+        r"\dot m\ \mathrm{in\ kg/h},\ N\ \mathrm{in\ rpm}"
+    ),
+    typical={
+        "mass_flow": (0.05, 3.0),
+        "rotation_speed": (800.0, 2000.0),
+        "diameter": (0.1, 0.3),
+        "vane_height": (5e-3, 4e-2),
+    },
     output="droplet_diameter",
     title="Drops of an atomizer wheel (Masters)",
-)  # fmt: skip
+)
 def droplet_diameter_masters(
-    mass_flow: MassFlow, rotation_speed: RotationSpeed, diameter: Length, vane_height: Length, vane_count: PositiveNumber = 24.0
+    mass_flow: MassFlow,
+    rotation_speed: RotationSpeed,
+    diameter: Length,
+    vane_height: Length,
+    vane_count: PositiveNumber = 24.0,
 ) -> Length:
     """Sauter mean diameter of drops from a vaned wheel; mass flow of feed in kg/h and meters in the print.
 
@@ -102,16 +121,31 @@ def droplet_diameter_masters(
     """
     watch(tip_speed=0.5 * rotation_speed * diameter)
     load = (mass_flow * HOUR) ** 0.24
-    return MICRON * 1.4e4 * load / ((rotation_speed / RPM * diameter) ** 0.83 * (vane_count * vane_height) ** 0.12)
+    return (
+        MICRON
+        * 1.4e4
+        * load
+        / ((rotation_speed / RPM * diameter) ** 0.83 * (vane_count * vane_height) ** 0.12)
+    )
 
 
 @formula(
     source="friedman1952",
-    equation=r"\frac{d_{32}}{r} = 0.4\left(\frac{\Gamma}{\rho N r^2}\right)^{0.6}\left(\frac{\eta}{\Gamma}\right)^{0.2}\left(\frac{\sigma\rho\,n b}{\Gamma^2}\right)^{0.1}",
-    typical=FEED | {"mass_flow": (0.05, 3.0), "rotation_speed": (800.0, 2000.0), "diameter": (0.1, 0.3), "vane_height": (5e-3, 4e-2)},
+    equation=(
+        r"\frac{d_{32}}{r} = 0.4\left(\frac{\Gamma}{\rho N "
+        r"r^2}\right)^{0.6}\left(\frac{\eta}{\Gamma}\right)^{0.2}\left(\frac{\sigma\rho\,n "
+        r"b}{\Gamma^2}\right)^{0.1}"
+    ),
+    typical=FEED
+    | {
+        "mass_flow": (0.05, 3.0),
+        "rotation_speed": (800.0, 2000.0),
+        "diameter": (0.1, 0.3),
+        "vane_height": (5e-3, 4e-2),
+    },
     output="droplet_diameter",
     title="Drops of an atomizer wheel (Friedman, Gluckert and Marshall)",
-)  # fmt: skip
+)
 def droplet_diameter_friedman(
     mass_flow: MassFlow,
     rotation_speed: RotationSpeed,
@@ -122,9 +156,11 @@ def droplet_diameter_friedman(
     surface_tension: SurfaceTension,
     vane_count: PositiveNumber = 24.0,
 ) -> Length:
-    """Sauter mean diameter of drops from a vaned wheel with the liquid's properties; Γ is mass flow over wetted vane periphery, N in 1/s.
+    """Sauter mean diameter of drops from a vaned wheel with the liquid's properties; Γ is mass flow over
+    wetted vane periphery, N in 1/s.
 
-    By hand, 1000 kg/h of water, 15 000 rpm, 0.2 m, 24 vanes of 20 mm: 0.04 m · 0.00659 · 0.2803 · 1.590 = 117 µm.
+    By hand, 1000 kg/h of water, 15 000 rpm, 0.2 m, 24 vanes of 20 mm: 0.04 m · 0.00659 · 0.2803 · 1.590 =
+    117 µm.
 
     >>> round(droplet_diameter_friedman("1000 kg/hour", "15000 rpm", 0.2, 0.02, 1000.0, 1e-3, 0.072) * 1e6)
     117
@@ -132,17 +168,31 @@ def droplet_diameter_friedman(
     r, wetted = 0.5 * diameter, vane_count * vane_height
     N, load = rotation_speed / (2.0 * pi), mass_flow / wetted
     inertia = (load / (density * N * r**2)) ** 0.6
-    return 0.4 * r * inertia * (dynamic_viscosity / load) ** 0.2 * (surface_tension * density * wetted / load**2) ** 0.1
+    return (
+        0.4
+        * r
+        * inertia
+        * (dynamic_viscosity / load) ** 0.2
+        * (surface_tension * density * wetted / load**2) ** 0.1
+    )
 
 
 @formula(
     source="nukiyama1939; perry2008, ch. 14",
-    equation=r"d_{32} = \frac{585}{v}\sqrt{\frac{\sigma}{\rho}} + 597\left(\frac{\eta}{\sqrt{\sigma\rho}}\right)^{0.45}\left(\frac{1000\,Q_l}{Q_g}\right)^{1.5}\ \mathrm{\mu m\ (cgs)}",
+    equation=(
+        r"d_{32} = \frac{585}{v}\sqrt{\frac{\sigma}{\rho}} + "
+        r"597\left(\frac{\eta}{\sqrt{\sigma\rho}}\right)^{0.45}\left(\frac{1000\,Q_l}{Q_g}\right)^{1.5}\ \mathrm{\mu m\ (cgs)}"  # noqa: E501
+    ),
     fitted={"density": (700.0, 1200.0), "surface_tension": (0.019, 0.073), "dynamic_viscosity": (3e-4, 0.05)},
-    typical=FEED | {"density": (1000.0, 1180.0), "relative_velocity": (80.0, 300.0), "liquid_gas_volume_ratio": (1e-4, 1e-3)},
+    typical=FEED
+    | {
+        "density": (1000.0, 1180.0),
+        "relative_velocity": (80.0, 300.0),
+        "liquid_gas_volume_ratio": (1e-4, 1e-3),
+    },
     output="droplet_diameter",
     title="Drops of a two-fluid nozzle (Nukiyama–Tanasawa)",
-)  # fmt: skip
+)
 def droplet_diameter_nukiyama_tanasawa(
     relative_velocity: Speed,
     liquid_gas_volume_ratio: MassRatio,
@@ -150,25 +200,35 @@ def droplet_diameter_nukiyama_tanasawa(
     dynamic_viscosity: DynamicViscosity,
     surface_tension: SurfaceTension,
 ) -> Length:
-    """Sauter mean diameter of drops torn off by fast gas; velocity in m/s, the liquid in cgs units (dyn/cm, g/cm³, poise) in the print.
+    """Sauter mean diameter of drops torn off by fast gas; velocity in m/s, the liquid in cgs units (dyn/cm,
+    g/cm³, poise) in the print.
 
-    By hand, water, 100 m/s, gas over liquid 5000 by volume: 585/100 · √72 + 597 · (0.01/√72)^0.45 · 0.2^1.5 = 49.6 + 2.6 = 52.2 µm.
+    By hand, water, 100 m/s, gas over liquid 5000 by volume: 585/100 · √72 + 597 · (0.01/√72)^0.45 · 0.2^1.5 =
+    49.6 + 2.6 = 52.2 µm.
 
     >>> round(droplet_diameter_nukiyama_tanasawa(100.0, 2e-4, 1000.0, 1e-3, 0.072) * 1e6, 1)
     52.2
     """
     sigma, rho, eta = surface_tension * 1e3, density * 1e-3, dynamic_viscosity * 10.0
     first = 585.0 / relative_velocity * jnp.sqrt(sigma / rho)
-    return MICRON * (first + 597.0 * (eta / jnp.sqrt(sigma * rho)) ** 0.45 * (1000.0 * liquid_gas_volume_ratio) ** 1.5)
+    return MICRON * (
+        first + 597.0 * (eta / jnp.sqrt(sigma * rho)) ** 0.45 * (1000.0 * liquid_gas_volume_ratio) ** 1.5
+    )
 
 
 @formula(
     source="godsave1953; masters1991",
     equation=r"t = \frac{\rho\,L_v\,(d_0^2 - d_1^2)}{8\,\lambda\,(T_g - T_w)}",
-    typical={"droplet_diameter": (3e-5, 3e-4), "droplet_diameter_end": (1e-6, 2e-5), "temperature_difference": (20.0, 150.0), "density": (1000.0, 1200.0),
-             "thermal_conductivity": (0.024, 0.04)},
-    title="Evaporation time of a drop, d² law", output="drying_time",
-)  # fmt: skip
+    typical={
+        "droplet_diameter": (3e-5, 3e-4),
+        "droplet_diameter_end": (1e-6, 2e-5),
+        "temperature_difference": (20.0, 150.0),
+        "density": (1000.0, 1200.0),
+        "thermal_conductivity": (0.024, 0.04),
+    },
+    title="Evaporation time of a drop, d² law",
+    output="drying_time",
+)
 def drying_time_droplet(
     droplet_diameter: Length,
     temperature_difference: Annotated[TemperatureDifference, Within(0.0)],
@@ -177,7 +237,8 @@ def drying_time_droplet(
     thermal_conductivity: ThermalConductivity = 0.026,
     heat_of_vaporization: SpecificEnergy = 2.4e6,
 ) -> Time:
-    """Time to evaporate a still drop of solvent from one diameter to another, heat conducted through the gas (Nusselt number 2).
+    """Time to evaporate a still drop of solvent from one diameter to another, heat conducted through the gas
+    (Nusselt number 2).
 
     By hand: 100 µm, 60 K: 1000 · 2.4e6 · 1e-8/(8 · 0.026 · 60) = 1.92 s.
 
@@ -186,4 +247,9 @@ def drying_time_droplet(
     """
     d0, d1 = droplet_diameter, droplet_diameter_end
     impossible(d1 > d0, d1, "droplet_diameter_end", 0.0, d0)
-    return density * heat_of_vaporization * (d0**2 - d1**2) / (8.0 * thermal_conductivity * temperature_difference)
+    return (
+        density
+        * heat_of_vaporization
+        * (d0**2 - d1**2)
+        / (8.0 * thermal_conductivity * temperature_difference)
+    )

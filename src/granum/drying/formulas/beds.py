@@ -22,16 +22,24 @@ BORDER = 350.0
 
 
 @formula(
-    source="geankoplis2003, ch. 9; wilke1945; gamson1943", fitted={"reynolds": (50.0, 4000.0)},
-    equation=r"h = 0.151\,\frac{G^{0.59}}{d^{0.41}}\ (\mathrm{Re}>350),\quad h = 0.214\,\frac{G^{0.49}}{d^{0.51}}\ (\mathrm{Re}<350),\quad G\ \mathrm{in\ kg/(m^2 h)}",
+    source="geankoplis2003, ch. 9; wilke1945; gamson1943",
+    fitted={"reynolds": (50.0, 4000.0)},
+    equation=(
+        r"h = 0.151\,\frac{G^{0.59}}{d^{0.41}}\ (\mathrm{Re}>350),\quad h = "
+        r"0.214\,\frac{G^{0.49}}{d^{0.51}}\ (\mathrm{Re}<350),\quad G\ \mathrm{in\ kg/(m^2 h)}"
+    ),
     typical={"gas_mass_flux": (0.3, 2.0), "particle_diameter": (4e-3, 2e-2)},
     output="heat_transfer_coefficient",
     title="Convection to particles of a bed, gas through it",
-)  # fmt: skip
-def heat_transfer_coefficient_through_bed(gas_mass_flux: MassFlux, particle_diameter: Length) -> HeatTransferCoefficient:
-    """Air through a bed of particles on a belt or screen, flux on the empty section. The form changes at a Reynolds number of 350.
+)
+def heat_transfer_coefficient_through_bed(
+    gas_mass_flux: MassFlux, particle_diameter: Length
+) -> HeatTransferCoefficient:
+    """Air through a bed of particles on a belt or screen, flux on the empty section. The form changes at a
+    Reynolds number of 350.
 
-    Geankoplis, granular paste in cylinders of equivalent diameter 13.5 mm: G = 2570 kg/(m² h) gives 90.9 W/(m² K).
+    Geankoplis, granular paste in cylinders of equivalent diameter 13.5 mm: G = 2570 kg/(m² h) gives
+    90.9 W/(m² K).
 
     The two forms are those of Wilke and Hougen, from 50, and of Gamson and others, to 4000.
 
@@ -51,7 +59,9 @@ def heat_transfer_coefficient_through_bed(gas_mass_flux: MassFlux, particle_diam
     output="specific_surface",
     title="Surface of a bed of cylinders",
 )
-def specific_surface_cylinders(diameter: Length, length: Length, void_fraction: VoidFraction) -> SpecificSurface:
+def specific_surface_cylinders(
+    diameter: Length, length: Length, void_fraction: VoidFraction
+) -> SpecificSurface:
     """Surface per volume of a bed of cylinders of given diameter and length.
 
     Geankoplis, cylinders 6.35 mm by 25.4 mm, void fraction 0.6: 283.5 m²/m³.
@@ -71,9 +81,12 @@ def specific_surface_cylinders(diameter: Length, length: Length, void_fraction: 
     title="Resistance of grain to air flow (Shedd)",
 )
 def pressure_gradient_shedd(
-    superficial_velocity: Speed, shedd_coefficient: PositiveNumber = 2.07e4, shedd_constant: PositiveNumber = 30.4
+    superficial_velocity: Speed,
+    shedd_coefficient: PositiveNumber = 2.07e4,
+    shedd_constant: PositiveNumber = 30.4,
 ) -> PressureGradient:
-    """Pressure lost by air in a bed of grain, with the constants of shelled corn: a in Pa s²/m³, b in s/m; loose fill, clean.
+    """Pressure lost by air in a bed of grain, with the constants of shelled corn: a in Pa s²/m³, b in s/m;
+    loose fill, clean.
 
     By hand: 2.07e4 · 0.01/ln(4.04) = 148 Pa/m at 0.1 m/s.
 
@@ -92,10 +105,11 @@ def pressure_gradient_shedd(
     title="Deep bed of grain (Hukill)",
 )
 def moisture_ratio_hukill(depth_units: PositiveNumber, time_units: PositiveNumber) -> PositiveNumber:
-    """Moisture ratio in a deep bed at a depth and time: the time unit halves the moisture ratio of a thin layer, the depth unit holds the grain
-    whose whole excess water the air could take up in one time unit.
+    """Moisture ratio in a deep bed at a depth and time: the time unit halves the moisture ratio of a thin
+    layer, the depth unit holds the grain whose whole excess water the air could take up in one time unit.
 
-    Exact for drying in proportion to moisture ratio and to the cooling of the air. At the bottom it halves with each time unit:
+    Exact for drying in proportion to moisture ratio and to the cooling of the air. At the bottom it halves
+    with each time unit:
 
     >>> round(moisture_ratio_hukill(depth_units=1e-12, time_units=1.0), 9)
     0.5

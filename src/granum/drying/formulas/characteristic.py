@@ -28,7 +28,8 @@ class AbstractCharacteristicCurve(eqx.Module):
     equation=r"f = \Phi^{\,n}",
 )
 class PowerCurve(AbstractCharacteristicCurve):
-    """Power of the characteristic moisture: n = 1 is the straight line, below 1 coarse capillary solids, above 1 hygroscopic ones.
+    """Power of the characteristic moisture: n = 1 is the straight line, below 1 coarse capillary solids,
+    above 1 hygroscopic ones.
 
     >>> float(PowerCurve(2.0)(0.5))
     0.25
@@ -43,8 +44,13 @@ class PowerCurve(AbstractCharacteristicCurve):
         return jnp.clip(phi, 1e-30, 1.0) ** self.characteristic_exponent
 
 
-@law("characteristic_rate", name="characteristic_hyperbolic", source="burgschweiger1999", title="Characteristic curve, one-parameter hyperbola",
-     equation=r"f = \frac{k\,\Phi}{1 + \Phi\,(k-1)}")  # fmt: skip
+@law(
+    "characteristic_rate",
+    name="characteristic_hyperbolic",
+    source="burgschweiger1999",
+    title="Characteristic curve, one-parameter hyperbola",
+    equation=r"f = \frac{k\,\Phi}{1 + \Phi\,(k-1)}",
+)
 class HyperbolicCurve(AbstractCharacteristicCurve):
     """Hyperbola with one parameter: k = 1 is the straight line, above 1 the rate falls late.
 

@@ -1,4 +1,6 @@
-"""Contact drying on heated walls: heat from wall to particles, penetration with an evaporation front, mixing, trays and films."""
+"""Contact drying on heated walls: heat from wall to particles, penetration with an evaporation front, mixing,
+trays and films.
+"""
 
 from __future__ import annotations
 
@@ -27,17 +29,27 @@ from granum.core.kinds import (
     Temperature,
     ThermalConductivity,
     Time,
-)  # fmt: skip
+)
 from granum.numerics import find_root
 
 _PENETRATION = "mollekopf1984; vdi2010, ch. Mc"
 COVERED = 0.8  # share of the wall covered by particles
 
 
-@formula(source=_PENETRATION, equation=r"h_{ws} = \varphi h_{wp} + (1-\varphi)\frac{2\lambda_g/d}{\sqrt2 + 2(l+\delta)/d} + 4\varepsilon\sigma T^3,\quad "
-         r"h_{wp} = \frac{4\lambda_g}{d}\left[\left(1+\frac{2(l+\delta)}{d}\right)\ln\left(1+\frac{d}{2(l+\delta)}\right) - 1\right]",
-         typical={"particle_diameter": (2e-4, 3e-3), "pressure": (1e3, 1e5), "temperature": (320.0, 400.0), "roughness": (0.0, 5e-6),
-                  "thermal_conductivity": (0.018, 0.026)}, output="heat_transfer_coefficient", title="Heat transfer from a wall to a bed of particles")  # fmt: skip
+@formula(
+    source=_PENETRATION,
+    equation=r"h_{ws} = \varphi h_{wp} + (1-\varphi)\frac{2\lambda_g/d}{\sqrt2 + 2(l+\delta)/d} + 4\varepsilon\sigma T^3,\quad "  # noqa: E501
+    r"h_{wp} = \frac{4\lambda_g}{d}\left[\left(1+\frac{2(l+\delta)}{d}\right)\ln\left(1+\frac{d}{2(l+\delta)}\right) - 1\right]",  # noqa: E501
+    typical={
+        "particle_diameter": (2e-4, 3e-3),
+        "pressure": (1e3, 1e5),
+        "temperature": (320.0, 400.0),
+        "roughness": (0.0, 5e-6),
+        "thermal_conductivity": (0.018, 0.026),
+    },
+    output="heat_transfer_coefficient",
+    title="Heat transfer from a wall to a bed of particles",
+)
 def heat_transfer_coefficient_wall_particles(
     particle_diameter: Length,
     temperature: Temperature,
@@ -49,11 +61,14 @@ def heat_transfer_coefficient_wall_particles(
     molar_mass: MolarMass = 0.018015268,
     specific_heat_capacity: HeatCapacity = 1890.0,
 ) -> HeatTransferCoefficient:
-    """Coefficient between a heated wall and the first layer of particles, through the gas in the gap; it falls when the mean free path grows.
+    """Coefficient between a heated wall and the first layer of particles, through the gas in the gap; it
+    falls when the mean free path grows.
 
-    The gas in the gap is water vapor unless its conductivity, molar mass and heat capacity are given; four fifths of the wall are covered. Under vacuum the wall, at atmospheric pressure the bed resists more.
+    The gas in the gap is water vapor unless its conductivity, molar mass and heat capacity are given; four
+    fifths of the wall are covered. Under vacuum the wall, at atmospheric pressure the bed resists more.
 
-    By hand for 1 mm, no roughness, 1e5 Pa and 373 K: l = 0.184 µm, h_wp = 96·(1.00037·ln 2720 − 1) = 663, whole 547 W/(m² K).
+    By hand for 1 mm, no roughness, 1e5 Pa and 373 K: l = 0.184 µm, h_wp = 96·(1.00037·ln 2720 − 1) = 663,
+    whole 547 W/(m² K).
 
     >>> round(heat_transfer_coefficient_wall_particles("1 mm", 373.15, 1e5))
     547
@@ -75,10 +90,17 @@ def heat_transfer_coefficient_wall_particles(
     return COVERED * touching + (1.0 - COVERED) * between + radiation
 
 
-@formula(source=_PENETRATION, equation=r"t_R = \frac{C\,\mathrm{Fr}^x}{n},\quad \mathrm{Fr} = \frac{(2\pi n)^2 D}{2 g}",
-         typical={"rotation_speed": (0.5, 6.0), "diameter": (0.3, 2.0)}, title="Contact time between mixings")  # fmt: skip
+@formula(
+    source=_PENETRATION,
+    equation=r"t_R = \frac{C\,\mathrm{Fr}^x}{n},\quad \mathrm{Fr} = \frac{(2\pi n)^2 D}{2 g}",
+    typical={"rotation_speed": (0.5, 6.0), "diameter": (0.3, 2.0)},
+    title="Contact time between mixings",
+)
 def contact_time_mixing(
-    rotation_speed: RotationSpeed, diameter: Length, mixing_factor: PositiveNumber = 9.0, mixing_exponent: Ratio = 0.05
+    rotation_speed: RotationSpeed,
+    diameter: Length,
+    mixing_factor: PositiveNumber = 9.0,
+    mixing_exponent: Ratio = 0.05,
 ) -> Time:
     """Time for which an agitated bed may be thought to rest on the wall before it is wholly mixed.
 
@@ -102,12 +124,20 @@ class Penetration(NamedTuple):
     drying_flux: MassFlux
 
 
-@formula(source=_PENETRATION,
-         equation=r"\sqrt\pi\,\zeta e^{\zeta^2}\left(\frac{h_{b}}{h_{ws}} + \mathrm{erf}\,\zeta\right) = \frac{c\,(T_w-T_b)}{X L_v},\quad "
-         r"h = \frac{h_{ws}}{1 + \frac{h_{ws}}{h_b}\mathrm{erf}\,\zeta},\quad N = \frac{h\,(T_w - T_b)\,e^{-\zeta^2}}{L_v}",
-         typical={"moisture_dry_basis": (0.05, 0.4), "wall_temperature": (370.0, 410.0), "temperature_bed": (310.0, 350.0),
-                  "heat_transfer_coefficient_wall": (200.0, 800.0), "heat_transfer_coefficient_bed": (40.0, 200.0)},
-         title="Contact drying of an agitated bed (penetration model)", output="drying_flux")  # fmt: skip
+@formula(
+    source=_PENETRATION,
+    equation=r"\sqrt\pi\,\zeta e^{\zeta^2}\left(\frac{h_{b}}{h_{ws}} + \mathrm{erf}\,\zeta\right) = \frac{c\,(T_w-T_b)}{X L_v},\quad "  # noqa: E501
+    r"h = \frac{h_{ws}}{1 + \frac{h_{ws}}{h_b}\mathrm{erf}\,\zeta},\quad N = \frac{h\,(T_w - T_b)\,e^{-\zeta^2}}{L_v}",  # noqa: E501
+    typical={
+        "moisture_dry_basis": (0.05, 0.4),
+        "wall_temperature": (370.0, 410.0),
+        "temperature_bed": (310.0, 350.0),
+        "heat_transfer_coefficient_wall": (200.0, 800.0),
+        "heat_transfer_coefficient_bed": (40.0, 200.0),
+    },
+    title="Contact drying of an agitated bed (penetration model)",
+    output="drying_flux",
+)
 def penetration_drying(
     moisture_dry_basis: MoistureDryBasis,
     wall_temperature: Temperature,
@@ -117,22 +147,35 @@ def penetration_drying(
     specific_heat_capacity: HeatCapacity = 1000.0,
     heat_of_vaporization: SpecificEnergy = 2.4e6,
 ) -> Penetration:
-    """Mean heat and vapor flux of one contact period: a drying front runs from the wall into the bed, dry behind it.
+    """Mean heat and vapor flux of one contact period: a drying front runs from the wall into the bed, dry
+    behind it.
 
-    ``heat_transfer_coefficient_bed`` is that of the dry bed penetrated for the contact time (``heat_transfer_coefficient_penetration``).
-    Without wall resistance it is the one-phase Stefan problem; a very wet bed takes what the wall gives; a dry one has both in series.
+    ``heat_transfer_coefficient_bed`` is that of the dry bed penetrated for the contact time
+    (``heat_transfer_coefficient_penetration``). Without wall resistance it is the one-phase Stefan problem; a
+    very wet bed takes what the wall gives; a dry one has both in series.
 
     >>> wet = penetration_drying(1e4, 380.0, 330.0, 500.0, 100.0)
     >>> round(wet.heat_transfer_coefficient, 1), round(wet.latent_share, 3)
     (500.0, 1.0)
     """
-    impossible(wall_temperature < temperature_bed, wall_temperature, "wall_temperature", temperature_bed, jnp.inf)
+    impossible(
+        wall_temperature < temperature_bed, wall_temperature, "wall_temperature", temperature_bed, jnp.inf
+    )
     impossible(~(heat_of_vaporization > 0.0), heat_of_vaporization, "heat_of_vaporization", 0.0, jnp.inf)
-    stefan = specific_heat_capacity * (wall_temperature - temperature_bed) / (jnp.maximum(moisture_dry_basis, 1e-9) * heat_of_vaporization)
+    stefan = (
+        specific_heat_capacity
+        * (wall_temperature - temperature_bed)
+        / (jnp.maximum(moisture_dry_basis, 1e-9) * heat_of_vaporization)
+    )
     ratio = heat_transfer_coefficient_bed / heat_transfer_coefficient_wall
 
     def balance(z: Any) -> Any:
-        return jnp.log(jnp.sqrt(jnp.pi) * z) + z * z + jnp.log(ratio + jax.lax.erf(z)) - jnp.log(jnp.maximum(stefan, 1e-30))
+        return (
+            jnp.log(jnp.sqrt(jnp.pi) * z)
+            + z * z
+            + jnp.log(ratio + jax.lax.erf(z))
+            - jnp.log(jnp.maximum(stefan, 1e-30))
+        )
 
     z = find_root(balance, 1e-16, 8.0, start=jnp.minimum(stefan / (ratio * 1.78), 1.0), tolerance=1e-12).value
     z = jnp.where(stefan > 0, z, 0.0)
@@ -141,10 +184,20 @@ def penetration_drying(
     return Penetration(z, h, share, h * (wall_temperature - temperature_bed) * share / heat_of_vaporization)
 
 
-@formula(source="treybal1980, ch. 12", equation=r"T_2 = T_h + (T_1 - T_h)\,e^{-\frac{h\,L}{G\,c\,s}}",
-         typical={"temperature": (340.0, 390.0), "surface_temperature": (305.0, 315.0), "heat_transfer_coefficient": (20.0, 60.0),
-                  "gas_mass_flux": (1.0, 5.0), "tray_length": (0.3, 1.5), "tray_gap": (0.03, 0.1)},
-         title="Gas along a wet tray", output="temperature_outlet")  # fmt: skip
+@formula(
+    source="treybal1980, ch. 12",
+    equation=r"T_2 = T_h + (T_1 - T_h)\,e^{-\frac{h\,L}{G\,c\,s}}",
+    typical={
+        "temperature": (340.0, 390.0),
+        "surface_temperature": (305.0, 315.0),
+        "heat_transfer_coefficient": (20.0, 60.0),
+        "gas_mass_flux": (1.0, 5.0),
+        "tray_length": (0.3, 1.5),
+        "tray_gap": (0.03, 0.1),
+    },
+    title="Gas along a wet tray",
+    output="temperature_outlet",
+)
 def temperature_outlet_tray(
     temperature: Temperature,
     surface_temperature: Temperature,
@@ -154,9 +207,11 @@ def temperature_outlet_tray(
     tray_gap: Length,
     specific_heat_capacity: HeatCapacity = 1050.0,
 ) -> Temperature:
-    """Temperature of the gas at the end of a wet tray whose surface stays at the wet bulb; the mean flux follows from the difference.
+    """Temperature of the gas at the end of a wet tray whose surface stays at the wet bulb; the mean flux
+    follows from the difference.
 
-    A tutorial of the University of Glasgow (ENG2109): 0.3 kg/s at 90 °C and 10 %, 0.5 m wide, 200 W/(m² K), leaves at 60 °C after 3.59 m.
+    A tutorial of the University of Glasgow (ENG2109): 0.3 kg/s at 90 °C and 10 %, 0.5 m wide, 200 W/(m² K),
+    leaves at 60 °C after 3.59 m.
 
     >>> round(temperature_outlet_tray("90 degC", "45 degC", 200.0, 6.0, 3.59, 0.1, 1092.0) - 273.15)
     60
@@ -165,11 +220,19 @@ def temperature_outlet_tray(
     return surface_temperature + (temperature - surface_temperature) * jnp.exp(-units)
 
 
-@formula(source="treybal1980, ch. 12",
-         equation=r"X(t) = X_0 - \frac{N t}{m/A}\ (X \ge X_c),\qquad X = X_e + (X_c - X_e)\,e^{-\frac{N\,(t-t_c)}{(m/A)\,(X_c - X_e)}}",
-         typical={"moisture_dry_basis_inlet": (1.0, 4.0), "contact_time": (2.0, 20.0), "drying_rate_constant": (5e-3, 2e-2),
-                  "dry_mass_per_area": (0.01, 0.05), "critical_moisture": (0.2, 0.5)},
-         title="Moisture after a time at a constant and a falling rate", output="moisture_dry_basis")  # fmt: skip
+@formula(
+    source="treybal1980, ch. 12",
+    equation=r"X(t) = X_0 - \frac{N t}{m/A}\ (X \ge X_c),\qquad X = X_e + (X_c - X_e)\,e^{-\frac{N\,(t-t_c)}{(m/A)\,(X_c - X_e)}}",  # noqa: E501
+    typical={
+        "moisture_dry_basis_inlet": (1.0, 4.0),
+        "contact_time": (2.0, 20.0),
+        "drying_rate_constant": (5e-3, 2e-2),
+        "dry_mass_per_area": (0.01, 0.05),
+        "critical_moisture": (0.2, 0.5),
+    },
+    title="Moisture after a time at a constant and a falling rate",
+    output="moisture_dry_basis",
+)
 def moisture_dry_basis_after(
     moisture_dry_basis_inlet: MoistureDryBasis,
     contact_time: Time,
@@ -178,7 +241,8 @@ def moisture_dry_basis_after(
     critical_moisture: MoistureDryBasis,
     equilibrium_moisture: MoistureDryBasis = 0.0,
 ) -> MoistureDryBasis:
-    """Moisture of a film, tray or sheet of known dry mass per area: straight down to the critical moisture, then exponential.
+    """Moisture of a film, tray or sheet of known dry mass per area: straight down to the critical moisture,
+    then exponential.
 
     By hand: 0.02 kg/m², 0.01 kg/(m² s), from 2: critical 0.4 after 3.2 s; 0.8 s later 0.4·e⁻¹ = 0.1472.
 

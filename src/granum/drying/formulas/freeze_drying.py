@@ -1,4 +1,6 @@
-"""Freeze drying: primary drying of vials with the limits of product and machine, slabs, choked flow and secondary drying."""
+"""Freeze drying: primary drying of vials with the limits of product and machine, slabs, choked flow and
+secondary drying.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +28,17 @@ from granum.core.kinds import (
     ThermalConductivity,
     Time,
     Volume,
-)  # fmt: skip
-from granum.drying.formulas.vials import COLDEST, ICE_CONDUCTIVITY, MODEL, NODES, SUBLIMATION_HEAT, WARMEST, dry, vial_of
+)
+from granum.drying.formulas.vials import (
+    COLDEST,
+    ICE_CONDUCTIVITY,
+    MODEL,
+    NODES,
+    SUBLIMATION_HEAT,
+    WARMEST,
+    dry,
+    vial_of,
+)
 from granum.drying.kinds import (
     HeatTransferPerPressure,
     PerLength,
@@ -55,10 +66,10 @@ class PrimaryDrying(NamedTuple):
 
 COLD = "Ice does not sublime at this temperature and chamber pressure."
 _TYPICAL = {
-    "pressure_chamber": (5.0, 25.0), "temperature_shelf": (263.0, 298.0), "temperature_shelf_start": (233.0, 240.0), "ramp_rate": (0.005, 0.03),
-    "area_vial": (3.5e-4, 4e-4), "area_product": (3e-4, 3.2e-4), "volume_fill": (1e-6, 4e-6), "concentration": (30.0, 100.0),
-    "vial_coefficient_contact": (8.0, 14.0), "vial_coefficient_gas": (0.15, 0.4), "vial_coefficient_saturation": (2e-3, 5e-3),
-    "vapor_resistance": (4e4, 8e4), "vapor_resistance_slope": (3e7, 9e7), "vapor_resistance_saturation": (0.0, 50.0),
+    "pressure_chamber": (5.0, 25.0), "temperature_shelf": (263.0, 298.0), "temperature_shelf_start": (233.0, 240.0), "ramp_rate": (0.005, 0.03),  # noqa: E501
+    "area_vial": (3.5e-4, 4e-4), "area_product": (3e-4, 3.2e-4), "volume_fill": (1e-6, 4e-6), "concentration": (30.0, 100.0),  # noqa: E501
+    "vial_coefficient_contact": (8.0, 14.0), "vial_coefficient_gas": (0.15, 0.4), "vial_coefficient_saturation": (2e-3, 5e-3),  # noqa: E501
+    "vapor_resistance": (4e4, 8e4), "vapor_resistance_slope": (3e7, 9e7), "vapor_resistance_saturation": (0.0, 50.0),  # noqa: E501
     "solid_density": (1400.0, 1600.0),
 }  # fmt: skip
 
@@ -66,7 +77,7 @@ _TYPICAL = {
 @formula(
     source=MODEL + "; iapws2011melting",
     fitted={"temperature_product": (150.0, 273.16), "temperature_front": (150.0, 273.16)},
-    equation=r"A_v K_v (T_{sh}-T_b) = \Delta H_s A_p\frac{p_i(T_s)-P}{R_p(L)},\quad T_b = T_s + \frac{\Delta H_s\,\dot m (L_0-L)}{A_p k_i},\quad "
+    equation=r"A_v K_v (T_{sh}-T_b) = \Delta H_s A_p\frac{p_i(T_s)-P}{R_p(L)},\quad T_b = T_s + \frac{\Delta H_s\,\dot m (L_0-L)}{A_p k_i},\quad "  # noqa: E501
     r"\frac{dL}{dt} = \frac{\dot m\,L_0}{m_i}",
     typical=_TYPICAL,
     title="Primary drying of a vial",
@@ -88,29 +99,63 @@ def primary_drying(
     ramp_rate: TemperatureRate = 1.0 / 60.0,
     solid_density: Density = 1500.0,
 ) -> PrimaryDrying:
-    """Time, highest product temperature and fluxes of the sublimation of a frozen fill, quasi-steady from moment to moment.
+    """Time, highest product temperature and fluxes of the sublimation of a frozen fill, quasi-steady from
+    moment to moment.
 
-    The shelf warms at the ramp rate from its first temperature and is then held; the chamber pressure is constant. The product temperature
-    is that of the vial bottom, the highest in the product. Not possible (no value) where the shelf is too cold for ice to sublime.
-    Constants of ice after Shivkumar et al.; its vapor pressure is IAPWS's, within 0.5 % of theirs.
+    The shelf warms at the ramp rate from its first temperature and is then held; the chamber pressure is
+    constant. The product temperature is that of the vial bottom, the highest in the product. Not possible (no
+    value) where the shelf is too cold for ice to sublime. Constants of ice after Shivkumar et al.; its vapor
+    pressure is IAPWS's, within 0.5 % of theirs.
 
     Their example ends between 6.65 and 6.66 h, at −14.77 °C.
 
     The vapor pressure of ice is that of IAPWS, up to the triple point.
 
-    >>> found = primary_drying("150 mtorr", "20 degC", "3.8 cm^2", "3.14 cm^2", "2 mL", "0.05 g/mL", "2.75e-4 cal/(s*K*cm^2)",
-    ...     "8.93e-4 cal/(s*K*cm^2*torr)", "1.4 cm^2*hour*torr/g", "16 cm*hour*torr/g", 0.0, "0.46 1/torr", "-35 degC", "1 kelvin/min")
+    >>> found = primary_drying(
+    ...     "150 mtorr",
+    ...     "20 degC",
+    ...     "3.8 cm^2",
+    ...     "3.14 cm^2",
+    ...     "2 mL",
+    ...     "0.05 g/mL",
+    ...     "2.75e-4 cal/(s*K*cm^2)",
+    ...     "8.93e-4 cal/(s*K*cm^2*torr)",
+    ...     "1.4 cm^2*hour*torr/g",
+    ...     "16 cm*hour*torr/g",
+    ...     0.0,
+    ...     "0.46 1/torr",
+    ...     "-35 degC",
+    ...     "1 kelvin/min",
+    ... )
     >>> round(found.drying_time / 3600, 2), round(found.temperature_product - 273.15, 1)
     (6.65, -14.8)
     """
-    vial = vial_of(area_vial, area_product, volume_fill, concentration, solid_density, vial_coefficient_contact, vial_coefficient_gas,
-                   vial_coefficient_saturation, vapor_resistance, vapor_resistance_slope, vapor_resistance_saturation, pressure_chamber)  # fmt: skip
+    vial = vial_of(
+        area_vial,
+        area_product,
+        volume_fill,
+        concentration,
+        solid_density,
+        vial_coefficient_contact,
+        vial_coefficient_gas,
+        vial_coefficient_saturation,
+        vapor_resistance,
+        vapor_resistance_slope,
+        vapor_resistance_saturation,
+        pressure_chamber,
+    )
     total, path = dry(vial, temperature_shelf_start, temperature_shelf, ramp_rate)
     flags.impossible(~jnp.isfinite(total), temperature_shelf, "temperature_shelf", reason=COLD)
     mean = vial.ice_per_height * vial.height / total
     ends = path.flux[-1]
     return PrimaryDrying(
-        total, jnp.max(path.bottom, axis=0), jnp.max(path.front, axis=0), mean, jnp.max(path.flux, axis=0), ends, vial.height + 0.0 * total
+        total,
+        jnp.max(path.bottom, axis=0),
+        jnp.max(path.front, axis=0),
+        mean,
+        jnp.max(path.flux, axis=0),
+        ends,
+        vial.height + 0.0 * total,
     )
 
 
@@ -125,10 +170,18 @@ class VialLimit(NamedTuple):
     sublimation_flux_equipment: MassFlux
 
 
-@formula(source="nail2008; shivkumar2019; iapws2011melting", fitted={"temperature_limit": (150.0, 273.16)},
-         equation=r"\frac{\Delta H_s\,g\,(L_0-L)}{k_i} = T_{lim} - T_s,\quad g = \frac{p_i(T_s)-P}{R_p},\quad g_{eq} = \frac{a + b P}{N A_p}",
-         typical={**_TYPICAL, "temperature_limit": (245.0, 265.0), "sublimation_capacity": (3e-4, 6e-4), "vial_count": (300.0, 500.0)},
-         title="Design space of primary drying")  # fmt: skip
+@formula(
+    source="nail2008; shivkumar2019; iapws2011melting",
+    fitted={"temperature_limit": (150.0, 273.16)},
+    equation=r"\frac{\Delta H_s\,g\,(L_0-L)}{k_i} = T_{lim} - T_s,\quad g = \frac{p_i(T_s)-P}{R_p},\quad g_{eq} = \frac{a + b P}{N A_p}",  # noqa: E501
+    typical={
+        **_TYPICAL,
+        "temperature_limit": (245.0, 265.0),
+        "sublimation_capacity": (3e-4, 6e-4),
+        "vial_count": (300.0, 500.0),
+    },
+    title="Design space of primary drying",
+)
 def freeze_drying_limit(
     pressure_chamber: Pressure,
     temperature_limit: Temperature,
@@ -146,22 +199,51 @@ def freeze_drying_limit(
     vial_coefficient_saturation: PerPressure = 0.0,
     solid_density: Density = 1500.0,
 ) -> VialLimit:
-    """Edges of the design space at one pressure: product at its limit all the time, and the machine at its capacity all the time.
+    """Edges of the design space at one pressure: product at its limit all the time, and the machine at its
+    capacity all the time.
 
-    ``temperature_shelf`` is the highest constant one that never passes the limit. ``sublimation_capacity`` is what chamber, duct and
-    condenser carry at that pressure, for all vials. No value where the product at its limit has less vapor pressure than the chamber.
+    ``temperature_shelf`` is the highest constant one that never passes the limit. ``sublimation_capacity`` is
+    what chamber, duct and condenser carry at that pressure, for all vials. No value where the product at its
+    limit has less vapor pressure than the chamber.
 
-    Shivkumar et al., example at 150 mTorr and −5 °C: 1.98 h at 3.11 kg/(m² h), 2.29 at the end; the machine 0.489 h.
+    Shivkumar et al., example at 150 mTorr and −5 °C: 1.98 h at 3.11 kg/(m² h), 2.29 at the end; the machine
+    0.489 h.
 
     The vapor pressure of ice is that of IAPWS, up to the triple point.
 
-    >>> edge = freeze_drying_limit("150 mtorr", "-5 degC", "1.573 kg/hour", 398.0, "3.8 cm^2", "3.14 cm^2", "2 mL", "0.05 g/mL",
-    ...     "2.75e-4 cal/(s*K*cm^2)", "8.93e-4 cal/(s*K*cm^2*torr)", "1.4 cm^2*hour*torr/g", "16 cm*hour*torr/g", 0.0, "0.46 1/torr")
+    >>> edge = freeze_drying_limit(
+    ...     "150 mtorr",
+    ...     "-5 degC",
+    ...     "1.573 kg/hour",
+    ...     398.0,
+    ...     "3.8 cm^2",
+    ...     "3.14 cm^2",
+    ...     "2 mL",
+    ...     "0.05 g/mL",
+    ...     "2.75e-4 cal/(s*K*cm^2)",
+    ...     "8.93e-4 cal/(s*K*cm^2*torr)",
+    ...     "1.4 cm^2*hour*torr/g",
+    ...     "16 cm*hour*torr/g",
+    ...     0.0,
+    ...     "0.46 1/torr",
+    ... )
     >>> round(edge.drying_time / 3600, 2), round(edge.drying_time_equipment / 3600, 2)
     (1.98, 0.49)
     """
-    vial = vial_of(area_vial, area_product, volume_fill, concentration, solid_density, vial_coefficient_contact, vial_coefficient_gas,
-                   vial_coefficient_saturation, vapor_resistance, vapor_resistance_slope, vapor_resistance_saturation, pressure_chamber)  # fmt: skip
+    vial = vial_of(
+        area_vial,
+        area_product,
+        volume_fill,
+        concentration,
+        solid_density,
+        vial_coefficient_contact,
+        vial_coefficient_gas,
+        vial_coefficient_saturation,
+        vapor_resistance,
+        vapor_resistance_slope,
+        vapor_resistance_saturation,
+        pressure_chamber,
+    )
     limit = jnp.asarray(temperature_limit)
     subliming = ice_vapor_pressure(limit) > vial.pressure
     flags.impossible(~subliming, limit, "temperature_limit", reason=COLD)
@@ -181,7 +263,9 @@ def freeze_drying_limit(
     time = gauss_legendre(lambda L: vial.ice_per_height / flux_at(L), jnp.zeros_like(L0), L0, order=NODES)
     depths = jnp.linspace(0.0, 1.0, 9).reshape((-1,) + (1,) * L0.ndim) * L0
     fluxes = flux_at(depths)
-    shelf = limit + SUBLIMATION_HEAT * jnp.min(fluxes, axis=0) * vial.area_product / (vial.heat_transfer * vial.area)
+    shelf = limit + SUBLIMATION_HEAT * jnp.min(fluxes, axis=0) * vial.area_product / (
+        vial.heat_transfer * vial.area
+    )
     mass = vial.ice_per_height * vial.height
     most = sublimation_capacity / (vial_count * area_product)
     return VialLimit(shelf, time, mass / time, fluxes[-1], mass / most + 0.0 * time, most + 0.0 * time)
@@ -195,10 +279,23 @@ class SlabFreezeDrying(NamedTuple):
     drying_time: Time
 
 
-@formula(source="king1971; iapws2011melting", fitted={"temperature_front": (150.0, 273.16)}, equation=r"\lambda\,(T_0 - T_f) = \Delta H_s\,b\,[p_i(T_f) - p_0],\qquad t = \frac{\Delta H_s\,\rho_d (X_0 - X) L^2}{2\lambda\,(T_0-T_f)}",
-         typical={"surface_temperature": (300.0, 340.0), "pressure_chamber": (5.0, 60.0), "thermal_conductivity": (0.03, 0.15), "vapor_permeability": (1e-8, 5e-8),
-                  "thickness": (2e-3, 1e-2), "dry_density": (80.0, 300.0), "moisture_dry_basis_inlet": (2.0, 9.0), "moisture_dry_basis_outlet": (0.05, 0.2)},
-         output="freeze_drying_slab", title="Freeze drying of a layer of food")  # fmt: skip
+@formula(
+    source="king1971; iapws2011melting",
+    fitted={"temperature_front": (150.0, 273.16)},
+    equation=r"\lambda\,(T_0 - T_f) = \Delta H_s\,b\,[p_i(T_f) - p_0],\qquad t = \frac{\Delta H_s\,\rho_d (X_0 - X) L^2}{2\lambda\,(T_0-T_f)}",  # noqa: E501
+    typical={
+        "surface_temperature": (300.0, 340.0),
+        "pressure_chamber": (5.0, 60.0),
+        "thermal_conductivity": (0.03, 0.15),
+        "vapor_permeability": (1e-8, 5e-8),
+        "thickness": (2e-3, 1e-2),
+        "dry_density": (80.0, 300.0),
+        "moisture_dry_basis_inlet": (2.0, 9.0),
+        "moisture_dry_basis_outlet": (0.05, 0.2),
+    },
+    output="freeze_drying_slab",
+    title="Freeze drying of a layer of food",
+)
 def freeze_drying_slab(
     surface_temperature: Temperature,
     pressure_chamber: Pressure,
@@ -209,12 +306,15 @@ def freeze_drying_slab(
     moisture_dry_basis_inlet: MoistureDryBasis,
     moisture_dry_basis_outlet: MoistureDryBasis = 0.0,
 ) -> SlabFreezeDrying:
-    """Temperature of the ice front, which stays the same, and time for it to cross a layer from the heated surface (uniformly retreating ice).
+    """Temperature of the ice front, which stays the same, and time for it to cross a layer from the heated
+    surface (uniformly retreating ice).
 
-    Heat comes and vapor leaves through the dry layer; both fluxes fall alike as it grows. ``thickness`` is the way of the front: half of a
-    piece that is heated from both sides. Pressure and temperature are those at the surface of the product.
+    Heat comes and vapor leaves through the dry layer; both fluxes fall alike as it grows. ``thickness`` is
+    the way of the front: half of a piece that is heated from both sides. Pressure and temperature are those
+    at the surface of the product.
 
-    Coffee extract at 30 °C and 97 µm Hg with 0.035 W/(m K) and 3.5e-9 kg/(m s µm Hg): −29.4 °C and 301 µm Hg by King's chart.
+    Coffee extract at 30 °C and 97 µm Hg with 0.035 W/(m K) and 3.5e-9 kg/(m s µm Hg): −29.4 °C and 301 µm Hg
+    by King's chart.
 
     The vapor pressure of ice is that of IAPWS, up to the triple point.
 
@@ -236,34 +336,59 @@ def freeze_drying_slab(
     return SlabFreezeDrying(T, ice_vapor_pressure(T), time)
 
 
-@formula(source="patel2010; searles2004", fitted={"discharge_coefficient": (0.0, 1.0)}, equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",
-         typical={"duct_diameter": (0.1, 0.6), "pressure_chamber": (3.0, 30.0), "temperature": (260.0, 300.0), "discharge_coefficient": (0.6, 1.0)},
-         title="Choked flow in the duct of a freeze dryer")  # fmt: skip
+@formula(
+    source="patel2010; searles2004",
+    fitted={"discharge_coefficient": (0.0, 1.0)},
+    equation=r"\dot m = C_d\,\frac{\pi D^2}{4}\,P\sqrt{\frac{\gamma M}{R T}}\left(\frac{2}{\gamma+1}\right)^{\frac{\gamma+1}{2(\gamma-1)}}",  # noqa: E501
+    typical={
+        "duct_diameter": (0.1, 0.6),
+        "pressure_chamber": (3.0, 30.0),
+        "temperature": (260.0, 300.0),
+        "discharge_coefficient": (0.6, 1.0),
+    },
+    title="Choked flow in the duct of a freeze dryer",
+)
 def choked_flow_rate(
-    pressure_chamber: Pressure, duct_diameter: Length, temperature: Temperature = 283.15, discharge_coefficient: PositiveNumber = 0.75
+    pressure_chamber: Pressure,
+    duct_diameter: Length,
+    temperature: Temperature = 283.15,
+    discharge_coefficient: PositiveNumber = 0.75,
 ) -> MassFlow:
-    """Most water vapor that the duct to the condenser carries at a chamber pressure: sonic flow of an ideal gas, heat-capacity ratio 1.33.
+    """Most water vapor that the duct to the condenser carries at a chamber pressure: sonic flow of an ideal
+    gas, heat-capacity ratio 1.33.
 
-    Beyond it the pressure can no longer be controlled. The discharge coefficient falls with the length of the duct: about 0.9 for two and
-    0.75 for five diameters of a smooth duct, less with baffles.
+    Beyond it the pressure can no longer be controlled. The discharge coefficient falls with the length of the
+    duct: about 0.9 for two and 0.75 for five diameters of a smooth duct, less with baffles.
 
     By hand: 10 Pa on 1 m² at 300 K without loss is 10·√(1.33/(461.5·300))·0.5826 = 18.1 g/s.
 
     A coefficient of 1 is the duct without loss.
 
-    >>> round(choked_flow_rate(10.0, (4 / 3.141592653589793)**0.5, 300.0, 1.0) * 1e3, 1)
+    >>> round(choked_flow_rate(10.0, (4 / 3.141592653589793) ** 0.5, 300.0, 1.0) * 1e3, 1)
     18.1
     """
     gamma = 1.33
-    sonic = jnp.sqrt(gamma * 0.018015268 / (GAS_CONSTANT * temperature)) * (2.0 / (gamma + 1.0)) ** ((gamma + 1.0) / (2.0 * (gamma - 1.0)))
+    sonic = jnp.sqrt(gamma * 0.018015268 / (GAS_CONSTANT * temperature)) * (2.0 / (gamma + 1.0)) ** (
+        (gamma + 1.0) / (2.0 * (gamma - 1.0))
+    )
     return discharge_coefficient * jnp.pi / 4.0 * duct_diameter**2 * pressure_chamber * sonic
 
 
-@formula(source="pikal1990; fissore2011", equation=r"\ln\frac{X_0 - X_e}{X - X_e} = \int_0^t k_0\,e^{-E/RT(t)}\,dt",
-         typical={"moisture_dry_basis_inlet": (0.15, 0.25), "moisture_dry_basis_outlet": (0.01, 0.03), "moisture_dry_basis_equilibrium": (0.0, 0.005),
-                  "temperature_shelf": (293.0, 313.0), "temperature_shelf_start": (255.0, 265.0), "ramp_rate": (1e-3, 5e-3),
-                  "desorption_rate": (1e-5, 1e-4), "activation_energy": (3e4, 5e4)},
-         title="Time of secondary drying")  # fmt: skip
+@formula(
+    source="pikal1990; fissore2011",
+    equation=r"\ln\frac{X_0 - X_e}{X - X_e} = \int_0^t k_0\,e^{-E/RT(t)}\,dt",
+    typical={
+        "moisture_dry_basis_inlet": (0.15, 0.25),
+        "moisture_dry_basis_outlet": (0.01, 0.03),
+        "moisture_dry_basis_equilibrium": (0.0, 0.005),
+        "temperature_shelf": (293.0, 313.0),
+        "temperature_shelf_start": (255.0, 265.0),
+        "ramp_rate": (1e-3, 5e-3),
+        "desorption_rate": (1e-5, 1e-4),
+        "activation_energy": (3e4, 5e4),
+    },
+    title="Time of secondary drying",
+)
 def secondary_drying_time(
     moisture_dry_basis_inlet: MoistureDryBasis,
     moisture_dry_basis_outlet: MoistureDryBasis,
@@ -275,7 +400,8 @@ def secondary_drying_time(
     ramp_rate: TemperatureRate = 0.1 / 60.0,
     reference_temperature: Temperature = 293.15,
 ) -> Time:
-    """Time to desorb the water that did not freeze, first order in the moisture above equilibrium, the product being as warm as the shelf.
+    """Time to desorb the water that did not freeze, first order in the moisture above equilibrium, the
+    product being as warm as the shelf.
 
     ``desorption_rate`` holds at the reference temperature. The shelf warms at the ramp rate and is then held.
 
@@ -290,15 +416,25 @@ def secondary_drying_time(
     needed = jnp.log(jnp.where(possible, X0 - Xe, 1.0) / jnp.where(possible, X - Xe, 1.0))
 
     def rate(T: Any) -> Any:
-        return desorption_rate * jnp.exp(activation_energy / GAS_CONSTANT * (1.0 / reference_temperature - 1.0 / T))
+        return desorption_rate * jnp.exp(
+            activation_energy / GAS_CONSTANT * (1.0 / reference_temperature - 1.0 / T)
+        )
 
-    start, end = jnp.asarray(temperature_shelf_start, dtype=float), jnp.asarray(temperature_shelf, dtype=float)
+    start, end = (
+        jnp.asarray(temperature_shelf_start, dtype=float),
+        jnp.asarray(temperature_shelf, dtype=float),
+    )
     warming = jnp.abs(end - start) / ramp_rate
 
     def reached(t: Any) -> Any:
         """Integral of the rate over the warming up to a time."""
         share = jnp.where(warming > 0, t / jnp.where(warming > 0, warming, 1.0), 0.0)
-        return t * gauss_legendre(lambda x: rate(start + (end - start) * share * x), jnp.zeros_like(share), jnp.ones_like(share), order=12)
+        return t * gauss_legendre(
+            lambda x: rate(start + (end - start) * share * x),
+            jnp.zeros_like(share),
+            jnp.ones_like(share),
+            order=12,
+        )
 
     during = reached(warming)
     held = warming + (needed - during) / rate(end)

@@ -19,7 +19,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     Temperature,
     WaterActivity,
-)  # fmt: skip
+)
 from granum.drying.isotherms.adsorption import Gab
 from granum.materials.formulas.steam import water_heat_of_vaporization
 
@@ -27,7 +27,12 @@ IsothermLaw = Annotated[Any, Law("isotherm")]
 POTATO = Gab(monolayer_moisture=0.209, monolayer_constant=4.416, multilayer_constant=0.976)
 
 
-@formula(source="keey1978", equation=r"X = \frac{x}{1-x}", typical={"moisture_wet_basis": (0.05, 0.8)}, title="Moisture, wet to dry basis")
+@formula(
+    source="keey1978",
+    equation=r"X = \frac{x}{1-x}",
+    typical={"moisture_wet_basis": (0.05, 0.8)},
+    title="Moisture, wet to dry basis",
+)
 def moisture_dry_basis(moisture_wet_basis: MoistureWetBasis) -> MoistureDryBasis:
     """Kilograms of water per kilogram of dry solid, from the fraction of the whole that is water.
 
@@ -37,7 +42,12 @@ def moisture_dry_basis(moisture_wet_basis: MoistureWetBasis) -> MoistureDryBasis
     return moisture_wet_basis / (1.0 - moisture_wet_basis)
 
 
-@formula(source="keey1978", equation=r"x = \frac{X}{1+X}", typical={"moisture_dry_basis": (0.05, 4.0)}, title="Moisture, dry to wet basis")
+@formula(
+    source="keey1978",
+    equation=r"x = \frac{X}{1+X}",
+    typical={"moisture_dry_basis": (0.05, 4.0)},
+    title="Moisture, dry to wet basis",
+)
 def moisture_wet_basis(moisture_dry_basis: MoistureDryBasis) -> MoistureWetBasis:
     """Fraction of the whole that is water, from kilograms of water per kilogram of dry solid.
 
@@ -47,8 +57,13 @@ def moisture_wet_basis(moisture_dry_basis: MoistureDryBasis) -> MoistureWetBasis
     return moisture_dry_basis / (1.0 + moisture_dry_basis)
 
 
-@formula(source="keey1978", equation=r"X = \frac{m - m_s}{m_s}", typical={"mass": (1.2, 5.0), "dry_solid_mass": (0.5, 1.0)},
-         title="Moisture from masses", output="moisture_dry_basis")  # fmt: skip
+@formula(
+    source="keey1978",
+    equation=r"X = \frac{m - m_s}{m_s}",
+    typical={"mass": (1.2, 5.0), "dry_solid_mass": (0.5, 1.0)},
+    title="Moisture from masses",
+    output="moisture_dry_basis",
+)
 def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDryBasis:
     """Moisture of a sample from its mass and the mass left when it is bone dry.
 
@@ -59,11 +74,20 @@ def moisture_dry_basis_from_mass(mass: Mass, dry_solid_mass: Mass) -> MoistureDr
     return (mass - dry_solid_mass) / dry_solid_mass
 
 
-@formula(source="keey1978", equation=r"\dot m_e = \dot m_s\,(X_1 - X_2)",
-         typical={"moisture_dry_basis_inlet": (0.5, 1.0), "moisture_dry_basis_outlet": (0.05, 0.2), "dry_solid_flow": (0.1, 1.0)},
-         title="Water evaporated from a solid")  # fmt: skip
+@formula(
+    source="keey1978",
+    equation=r"\dot m_e = \dot m_s\,(X_1 - X_2)",
+    typical={
+        "moisture_dry_basis_inlet": (0.5, 1.0),
+        "moisture_dry_basis_outlet": (0.05, 0.2),
+        "dry_solid_flow": (0.1, 1.0),
+    },
+    title="Water evaporated from a solid",
+)
 def evaporation_rate(
-    dry_solid_flow: MassFlow, moisture_dry_basis_inlet: MoistureDryBasis, moisture_dry_basis_outlet: MoistureDryBasis
+    dry_solid_flow: MassFlow,
+    moisture_dry_basis_inlet: MoistureDryBasis,
+    moisture_dry_basis_outlet: MoistureDryBasis,
 ) -> SignedMassFlow:
     """Water that a dryer takes from a flow of dry solid; negative where the solid leaves wetter.
 
@@ -98,8 +122,9 @@ def kinds_of_water(
 ) -> WaterKinds:
     """Split of a solid's water in contact with gas of a relative humidity.
 
-    Bound water lowers the vapor pressure: it reaches to the end of the hygroscopic range, taken at the water activity given. Free water
-    is what the gas can remove, down to equilibrium. Water of constitution belongs to the dry solid.
+    Bound water lowers the vapor pressure: it reaches to the end of the hygroscopic range, taken at the water
+    activity given. Free water is what the gas can remove, down to equilibrium. Water of constitution belongs
+    to the dry solid.
 
     >>> kinds = kinds_of_water(moisture_dry_basis=5.0, water_activity=0.5)
     >>> round(kinds.moisture_dry_basis_free + kinds.moisture_dry_basis_equilibrium, 6)
@@ -112,33 +137,52 @@ def kinds_of_water(
     return WaterKinds(X - bound, bound, jnp.maximum(X - equilibrium, 0.0), equilibrium)
 
 
-@formula(source="keey1978", equation=r"X_e = X(a_w, T)", typical={"water_activity": (0.1, 0.8)}, title="Equilibrium moisture",
-         output="moisture_dry_basis")  # fmt: skip
+@formula(
+    source="keey1978",
+    equation=r"X_e = X(a_w, T)",
+    typical={"water_activity": (0.1, 0.8)},
+    title="Equilibrium moisture",
+    output="moisture_dry_basis",
+)
 def equilibrium_moisture(
     water_activity: WaterActivity, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
 ) -> MoistureDryBasis:
-    """Moisture of a product in equilibrium with gas whose relative humidity is the water activity; isotherms by name or with constants.
+    """Moisture of a product in equilibrium with gas whose relative humidity is the water activity; isotherms
+    by name or with constants.
 
     Wood Handbook, table: 9.2 % at 21.1 °C and 50 %.
 
-    >>> round(equilibrium_moisture(water_activity="50 %", isotherm="hailwood_horrobin", temperature="21.1 degC"), 3)
+    >>> round(
+    ...     equilibrium_moisture(
+    ...         water_activity="50 %", isotherm="hailwood_horrobin", temperature="21.1 degC"
+    ...     ),
+    ...     3,
+    ... )
     0.092
     """
     return isotherm(water_activity, temperature) + 0.0 * water_activity
 
 
 @formula(
-    source="keey1978", equation=r"a_w = X^{-1}(X, T)", typical={"moisture_dry_basis": (0.05, 0.2)}, title="Water activity of a product"
+    source="keey1978",
+    equation=r"a_w = X^{-1}(X, T)",
+    typical={"moisture_dry_basis": (0.05, 0.2)},
+    title="Water activity of a product",
 )
 def water_activity(
     moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
 ) -> WaterActivity:
     """Water activity of a product of known moisture: the relative humidity of the air with which it keeps.
 
-    >>> round(water_activity(moisture_dry_basis=0.092, isotherm="hailwood_horrobin", temperature="21.1 degC"), 2)
+    >>> round(
+    ...     water_activity(moisture_dry_basis=0.092, isotherm="hailwood_horrobin", temperature="21.1 degC"), 2
+    ... )
     0.5
     """
-    return isotherm.told_activity(jnp.asarray(moisture_dry_basis, dtype=float), temperature) + 0.0 * moisture_dry_basis
+    return (
+        isotherm.told_activity(jnp.asarray(moisture_dry_basis, dtype=float), temperature)
+        + 0.0 * moisture_dry_basis
+    )
 
 
 class SorptionHeat(NamedTuple):
@@ -151,20 +195,29 @@ class SorptionHeat(NamedTuple):
 @formula(
     source="keey1978; iglesias1976; iapwsif97",
     fitted={"temperature": (273.15, 623.15)},
-    equation=r"q_n = -\frac{R}{M_w}\left[\frac{\partial\ln a_w}{\partial(1/T)}\right]_X,\qquad q_{st} = q_n + L_v",
+    equation=(
+        r"q_n = -\frac{R}{M_w}\left[\frac{\partial\ln a_w}{\partial(1/T)}\right]_X,\qquad q_{st} = "
+        r"q_n + L_v"
+    ),
     typical={"moisture_dry_basis": (0.08, 0.2)},
     title="Isosteric heat of sorption",
     output="isosteric_heat",
 )
-def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15) -> SorptionHeat:
-    """Heat to evaporate bound water: net part from the isotherm's shift with temperature, plus the latent heat.
+def isosteric_heat(
+    moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw = POTATO, temperature: Temperature = 298.15
+) -> SorptionHeat:
+    """Heat to evaporate bound water: net part from the isotherm's shift with temperature, plus the latent
+    heat.
 
-    Zero net heat for an isotherm without temperature. A negative value says that the printed constants let isotherms cross.
+    Zero net heat for an isotherm without temperature. A negative value says that the printed constants let
+    isotherms cross.
 
     The latent heat is that of water from 0 to 350 °C.
 
     >>> from granum.drying.isotherms.grains import ChungPfost
-    >>> corn = ChungPfost(isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205)
+    >>> corn = ChungPfost(
+    ...     isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205
+    ... )
     >>> round(isosteric_heat(moisture_dry_basis=0.15, isotherm=corn).isosteric_heat_net / 1e3)
     330
     """
@@ -172,8 +225,13 @@ def isosteric_heat(moisture_dry_basis: MoistureDryBasis, isotherm: IsothermLaw =
     return SorptionHeat(net, net + water_heat_of_vaporization.function(temperature))
 
 
-@formula(source="keey1978", equation=r"X = s\,X_{des} + (1-s)\,X_{ads}", typical={"water_activity": (0.2, 0.8)},
-         title="Moisture between the branches of hysteresis", output="moisture_dry_basis")  # fmt: skip
+@formula(
+    source="keey1978",
+    equation=r"X = s\,X_{des} + (1-s)\,X_{ads}",
+    typical={"water_activity": (0.2, 0.8)},
+    title="Moisture between the branches of hysteresis",
+    output="moisture_dry_basis",
+)
 def hysteresis_moisture(
     water_activity: WaterActivity,
     isotherm_desorption: IsothermLaw = POTATO,
@@ -181,19 +239,26 @@ def hysteresis_moisture(
     desorption_share: Fraction = 1.0,
     temperature: Temperature = 298.15,
 ) -> MoistureDryBasis:
-    """Moisture on a scanning curve as a linear mix of the desorption branch, which dryers follow, and the adsorption branch.
+    """Moisture on a scanning curve as a linear mix of the desorption branch, which dryers follow, and the
+    adsorption branch.
 
-    >>> a = Gab(0.06, 10.0, 0.9); d = Gab(0.08, 10.0, 0.9)
+    >>> a = Gab(0.06, 10.0, 0.9)
+    >>> d = Gab(0.08, 10.0, 0.9)
     >>> round(hysteresis_moisture(0.5, d, a, 0.5) / (0.5 * float(a(0.5)) + 0.5 * float(d(0.5))), 9)
     1.0
     """
     desorbed = isotherm_desorption(water_activity, temperature)
-    return desorption_share * desorbed + (1.0 - desorption_share) * isotherm_adsorption(water_activity, temperature)
+    return desorption_share * desorbed + (1.0 - desorption_share) * isotherm_adsorption(
+        water_activity, temperature
+    )
 
 
-@formula(source="gordon1952", equation=r"T_g = \frac{T_{gs} + k\,X\,T_{gw}}{1 + k X}",
-         typical={"moisture_dry_basis": (0.02, 0.2), "glass_transition_temperature_dry": (330.0, 380.0)},
-         title="Glass transition of a moist solid (Gordon–Taylor)")  # fmt: skip
+@formula(
+    source="gordon1952",
+    equation=r"T_g = \frac{T_{gs} + k\,X\,T_{gw}}{1 + k X}",
+    typical={"moisture_dry_basis": (0.02, 0.2), "glass_transition_temperature_dry": (330.0, 380.0)},
+    title="Glass transition of a moist solid (Gordon–Taylor)",
+)
 def glass_transition_temperature(
     moisture_dry_basis: MoistureDryBasis,
     glass_transition_temperature_dry: Temperature,

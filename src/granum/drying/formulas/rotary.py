@@ -16,13 +16,22 @@ SHORTEST = 0.1  # of the time without gas, where the gas would sweep the solid o
 
 
 @formula(
-    source="friedman1949; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08)},
+    source="friedman1949; perry2008, ch. 12",
+    fitted={"drum_slope": (0.0, 0.08)},
     equation=r"\tau = \frac{0.23\,L}{S\,N^{0.9}D} \pm \frac{1.97\,B\,L\,G}{F},\quad B = 5\,d_p^{-1/2}",
-    typical={"length": (3.0, 30.0), "diameter": (0.5, 3.0), "drum_slope": (0.01, 0.08), "rotation_speed": (0.1, 0.6),
-             "particle_diameter": (3e-4, 5e-3), "gas_mass_flux": (0.0, 1.0), "solid_mass_flux": (0.5, 5.0), "against_gas": (0.1, 1.0)},
+    typical={
+        "length": (3.0, 30.0),
+        "diameter": (0.5, 3.0),
+        "drum_slope": (0.01, 0.08),
+        "rotation_speed": (0.1, 0.6),
+        "particle_diameter": (3e-4, 5e-3),
+        "gas_mass_flux": (0.0, 1.0),
+        "solid_mass_flux": (0.5, 5.0),
+        "against_gas": (0.1, 1.0),
+    },
     output="residence_time",
     title="Time of passage in a rotary drum (Friedman–Marshall)",
-)  # fmt: skip
+)
 def residence_time_friedman_marshall(
     length: Length,
     diameter: Length,
@@ -33,7 +42,8 @@ def residence_time_friedman_marshall(
     solid_mass_flux: MassFlux = 1.0,
     against_gas: Number = 1.0,
 ) -> Time:
-    """Mean time of passage of solids through a flighted drum; gas against the solid (``against_gas`` = 1) holds it back, with it (−1) sweeps it on.
+    """Mean time of passage of solids through a flighted drum; gas against the solid (``against_gas`` = 1)
+    holds it back, with it (−1) sweeps it on.
 
     Printed in minutes, meters, revolutions per minute, micrometers and kg/(h m²); slope in meters a meter.
 
@@ -51,12 +61,19 @@ def residence_time_friedman_marshall(
 
 
 @formula(
-    source="saeman1954; perry2008, ch. 12", fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, pi)},
+    source="saeman1954; perry2008, ch. 12",
+    fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, pi)},
     equation=r"\tau = \frac{L}{f\,N\,D\,(S \mp m\,u)}",
-    typical={"length": (3.0, 30.0), "diameter": (0.5, 3.0), "drum_slope": (0.02, 0.08), "rotation_speed": (0.1, 0.6), "gas_velocity": (0.0, 2.0)},
+    typical={
+        "length": (3.0, 30.0),
+        "diameter": (0.5, 3.0),
+        "drum_slope": (0.02, 0.08),
+        "rotation_speed": (0.1, 0.6),
+        "gas_velocity": (0.0, 2.0),
+    },
     output="residence_time",
     title="Time of passage in a rotary drum (Saeman–Mitchell)",
-)  # fmt: skip
+)
 def residence_time_saeman_mitchell(
     length: Length,
     diameter: Length,
@@ -67,7 +84,8 @@ def residence_time_saeman_mitchell(
     cascade_factor: PositiveNumber = 2.0,
     gas_drift: GasDrift = 0.0,
 ) -> Time:
-    """Time of passage from the advance of each cascade; the cascade factor grows from 2 for a lightly loaded drum to π for a full one.
+    """Time of passage from the advance of each cascade; the cascade factor grows from 2 for a lightly loaded
+    drum to π for a full one.
 
     ``gas_drift`` (s/m) is the apparent slope per gas velocity of the material, measured.
 
@@ -86,13 +104,22 @@ def residence_time_saeman_mitchell(
     source="friedman1949part2; treybal1980, ch. 12",
     equation=r"U a = K\,\frac{G^{n}}{D}",
     fitted={"gas_mass_flux": (0.3, 7.0), "transfer_exponent": (0.46, 0.67)},
-    typical={"gas_mass_flux": (0.5, 5.0), "diameter": (0.5, 3.0), "transfer_constant": (150.0, 350.0), "transfer_exponent": (0.46, 0.67)},
+    typical={
+        "gas_mass_flux": (0.5, 5.0),
+        "diameter": (0.5, 3.0),
+        "transfer_constant": (150.0, 350.0),
+        "transfer_exponent": (0.46, 0.67),
+    },
     title="Volumetric heat transfer in a rotary drum",
 )
 def volumetric_heat_transfer_rotary(
-    gas_mass_flux: MassFlux, diameter: Length, transfer_constant: PositiveNumber = 237.0, transfer_exponent: PositiveNumber = 0.67
+    gas_mass_flux: MassFlux,
+    diameter: Length,
+    transfer_constant: PositiveNumber = 237.0,
+    transfer_exponent: PositiveNumber = 0.67,
 ) -> VolumetricHeatTransfer:
-    """Heat from gas to cascading solid per volume of drum and kelvin, W/(m³ K); the constant is that of Treybal, Coulson and Richardson print 250.
+    """Heat from gas to cascading solid per volume of drum and kelvin, W/(m³ K); the constant is that of
+    Treybal, Coulson and Richardson print 250.
 
     McCormick found exponents between 0.46 and 0.67 and constants that grow with the number of flights.
 

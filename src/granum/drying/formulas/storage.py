@@ -8,8 +8,15 @@ from granum.core import formula
 from granum.core.kinds import MoistureDryBasis, Number, Temperature, WaterActivity
 from granum.drying.formulas.moisture import POTATO, IsothermLaw
 
-# Lowest water activities of growth: Beuchat's table, but for molds the notes' (D II, table II.1), which is 0.1 lower and so on the safe side
-LIMITS = {"bacteria": 0.91, "yeasts": 0.87, "molds": 0.70, "xerophilic molds": 0.65, "osmophilic yeasts": 0.60}
+# Lowest water activities of growth: Beuchat's table, but for molds the notes' (D II, table II.1), which is
+# 0.1 lower and so on the safe side
+LIMITS = {
+    "bacteria": 0.91,
+    "yeasts": 0.87,
+    "molds": 0.70,
+    "xerophilic molds": 0.65,
+    "osmophilic yeasts": 0.60,
+}
 
 
 class GrowthMargin(NamedTuple):
@@ -22,14 +29,17 @@ class GrowthMargin(NamedTuple):
     water_activity_margin_osmophilic_yeasts: Number
 
 
-@formula(source="beuchat1981", equation=r"m = a_{w,min} - a_w", title="Margin to the growth of microorganisms")
+@formula(
+    source="beuchat1981", equation=r"m = a_{w,min} - a_w", title="Margin to the growth of microorganisms"
+)
 def water_activity_margin(water_activity: WaterActivity) -> GrowthMargin:
     """How far a product lies below the water activity that each group of microorganisms needs.
 
-    Bacteria 0.91, yeasts 0.87, xerophilic molds 0.65, osmophilic yeasts 0.60; nothing grows below 0.60. Molds 0.70, as in the notes
-    (table II.1). Differs from the print: Beuchat's table has 0.80 for most molds and 0.75 for the mycotoxigenic aspergilli. Single
-    species go lower than their group: Staphylococcus aureus to 0.86, halophilic bacteria to 0.75.
-    Oxidation of fat is slowest at 0.25 to 0.35, browning fastest at 0.5 to 0.8.
+    Bacteria 0.91, yeasts 0.87, xerophilic molds 0.65, osmophilic yeasts 0.60; nothing grows below 0.60. Molds
+    0.70, as in the notes (table II.1). Differs from the print: Beuchat's table has 0.80 for most molds and
+    0.75 for the mycotoxigenic aspergilli. Single species go lower than their group: Staphylococcus aureus to
+    0.86, halophilic bacteria to 0.75. Oxidation of fat is slowest at 0.25 to 0.35, browning fastest at 0.5 to
+    0.8.
 
     >>> round(water_activity_margin(water_activity=0.65).water_activity_margin_molds, 2)
     0.05
@@ -37,14 +47,20 @@ def water_activity_margin(water_activity: WaterActivity) -> GrowthMargin:
     return GrowthMargin(*(limit - water_activity for limit in LIMITS.values()))
 
 
-@formula(source="beuchat1981; keey1978", equation=r"X_{max} = X(a_{w,min}, T)", title="Highest moisture for keeping", output="moisture_dry_basis",
-         typical={"temperature": (283.0, 303.0)})  # fmt: skip
+@formula(
+    source="beuchat1981; keey1978",
+    equation=r"X_{max} = X(a_{w,min}, T)",
+    title="Highest moisture for keeping",
+    output="moisture_dry_basis",
+    typical={"temperature": (283.0, 303.0)},
+)
 def moisture_for_storage(
     temperature: Temperature = 298.15,
     isotherm: IsothermLaw = POTATO,
     organism: Literal["bacteria", "yeasts", "molds", "xerophilic molds", "osmophilic yeasts"] = "molds",
 ) -> MoistureDryBasis:
-    """Moisture of a product in equilibrium with the water activity below which a group of microorganisms no longer grows.
+    """Moisture of a product in equilibrium with the water activity below which a group of microorganisms no
+    longer grows.
 
     Maize at 25 °C against molds: 16.3 % dry basis, 14 % wet basis, the usual limit of trade.
 

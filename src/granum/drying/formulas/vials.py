@@ -1,4 +1,6 @@
-"""A vial in freeze drying: heat to it, resistance of its dry cake, and its sublimation from moment to moment."""
+"""A vial in freeze drying: heat to it, resistance of its dry cake, and its sublimation from moment to
+moment.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from granum.core.kinds import (
     Length,
     Pressure,
     Volume,
-)  # fmt: skip
+)
 from granum.drying.kinds import (
     HeatTransferPerPressure,
     PerLength,
@@ -37,25 +39,33 @@ RAMP_STEPS, NODES = 24, 16
 MODEL = "pikal1985; shivkumar2019"
 
 
-@formula(source=MODEL, equation=r"K_v = K_C + \frac{K_P\,P}{1 + K_D\,P}", title="Heat transfer to a vial")  # fmt: skip
+@formula(source=MODEL, equation=r"K_v = K_C + \frac{K_P\,P}{1 + K_D\,P}", title="Heat transfer to a vial")
 def vial_heat_transfer(
     pressure_chamber: Pressure,
     vial_coefficient_contact: HeatTransferCoefficient,
     vial_coefficient_gas: HeatTransferPerPressure,
     vial_coefficient_saturation: PerPressure = 0.0,
 ) -> HeatTransferCoefficient:
-    """Coefficient from shelf to vial: contact and radiation, and conduction by the gas in the gap, which grows with pressure and levels off.
+    """Coefficient from shelf to vial: contact and radiation, and conduction by the gas in the gap, which
+    grows with pressure and levels off.
 
-    Shivkumar et al., example: 2.75e-4 + 8.93e-4·0.15/(1 + 0.46·0.15) = 4.0e-4 cal/(s K cm²), that is 16.75 W/(m² K).
+    Shivkumar et al., example: 2.75e-4 + 8.93e-4·0.15/(1 + 0.46·0.15) = 4.0e-4 cal/(s K cm²), that is
+    16.75 W/(m² K).
 
-    >>> K = vial_heat_transfer("150 mtorr", "2.75e-4 cal/(s*K*cm^2)", "8.93e-4 cal/(s*K*cm^2*torr)", "0.46 1/torr")
+    >>> K = vial_heat_transfer(
+    ...     "150 mtorr", "2.75e-4 cal/(s*K*cm^2)", "8.93e-4 cal/(s*K*cm^2*torr)", "0.46 1/torr"
+    ... )
     >>> round(K, 2)
     16.75
     """
-    return vial_coefficient_contact + vial_coefficient_gas * pressure_chamber / (1.0 + vial_coefficient_saturation * pressure_chamber)
+    return vial_coefficient_contact + vial_coefficient_gas * pressure_chamber / (
+        1.0 + vial_coefficient_saturation * pressure_chamber
+    )
 
 
-@formula(source=MODEL, equation=r"R_p = R_0 + \frac{A_1 L}{1 + A_2 L}", title="Resistance of a dry cake to vapor")
+@formula(
+    source=MODEL, equation=r"R_p = R_0 + \frac{A_1 L}{1 + A_2 L}", title="Resistance of a dry cake to vapor"
+)
 def cake_vapor_resistance(
     dry_layer_thickness: Distance,
     vapor_resistance: VaporResistance,
@@ -70,12 +80,25 @@ def cake_vapor_resistance(
     >>> round(R / 1e3, 1)
     451.2
     """
-    return vapor_resistance + vapor_resistance_slope * dry_layer_thickness / (1.0 + vapor_resistance_saturation * dry_layer_thickness)
+    return vapor_resistance + vapor_resistance_slope * dry_layer_thickness / (
+        1.0 + vapor_resistance_saturation * dry_layer_thickness
+    )
 
 
-@formula(source=MODEL, equation=r"L_0 = \frac{V}{A_p\rho_i}\left[\rho_w - \frac{c\,(\rho_w-\rho_i)}{\rho_s}\right]", title="Height of a frozen fill",
-         typical={"volume_fill": (1e-6, 5e-6), "area_product": (2e-4, 4e-4), "concentration": (20.0, 150.0), "solid_density": (1400.0, 1600.0)})  # fmt: skip
-def frozen_height(volume_fill: Volume, area_product: Area, concentration: Concentration, solid_density: Density = 1500.0) -> Length:
+@formula(
+    source=MODEL,
+    equation=r"L_0 = \frac{V}{A_p\rho_i}\left[\rho_w - \frac{c\,(\rho_w-\rho_i)}{\rho_s}\right]",
+    title="Height of a frozen fill",
+    typical={
+        "volume_fill": (1e-6, 5e-6),
+        "area_product": (2e-4, 4e-4),
+        "concentration": (20.0, 150.0),
+        "solid_density": (1400.0, 1600.0),
+    },
+)
+def frozen_height(
+    volume_fill: Volume, area_product: Area, concentration: Concentration, solid_density: Density = 1500.0
+) -> Length:
     """Height of the frozen product in a vial; the solute keeps its volume, the water grows as it freezes.
 
     Shivkumar et al., example: 2 mL of a 5 % solution on 3.14 cm².
@@ -84,7 +107,11 @@ def frozen_height(volume_fill: Volume, area_product: Area, concentration: Concen
     0.6919
     """
     impossible(concentration >= solid_density, concentration, "concentration", 0.0, solid_density)
-    return volume_fill / (area_product * ICE_DENSITY) * (WATER_DENSITY - concentration * (WATER_DENSITY - ICE_DENSITY) / solid_density)
+    return (
+        volume_fill
+        / (area_product * ICE_DENSITY)
+        * (WATER_DENSITY - concentration * (WATER_DENSITY - ICE_DENSITY) / solid_density)
+    )
 
 
 class Vial(NamedTuple):
@@ -105,7 +132,8 @@ class Vial(NamedTuple):
         return self.resistance + self.resistance_slope * L / (1.0 + self.resistance_saturation * L)
 
     def sublimation(self, shelf: Any, L: Any, guess: Any = None) -> tuple[Any, Any, Any]:
-        """Mass flux and temperatures of ice front and vial bottom: heat through bottom and ice equals heat of sublimation.
+        """Mass flux and temperatures of ice front and vial bottom: heat through bottom and ice equals heat of
+        sublimation.
 
         Vapor does not freeze back onto the product: without a driving pressure the flux is zero.
         """
@@ -122,9 +150,19 @@ class Vial(NamedTuple):
 
 
 def vial_of(
-    area: Any, area_product: Any, volume: Any, concentration: Any, solid_density: Any, contact: Any, gas: Any, saturation: Any, R0: Any,
-    A1: Any, A2: Any, pressure: Any,
-) -> Vial:  # fmt: skip
+    area: Any,
+    area_product: Any,
+    volume: Any,
+    concentration: Any,
+    solid_density: Any,
+    contact: Any,
+    gas: Any,
+    saturation: Any,
+    R0: Any,
+    A1: Any,
+    A2: Any,
+    pressure: Any,
+) -> Vial:
     """The vial of named parameters."""
     height = frozen_height.function(volume, area_product, concentration, solid_density)
     ice = volume * WATER_DENSITY * (1.0 - concentration / solid_density)
@@ -144,9 +182,11 @@ class History(NamedTuple):
 
 
 def dry(vial: Vial, shelf_start: Any, shelf: Any, ramp_rate: Any) -> tuple[Any, History]:
-    """Primary drying time and history: stepped in time while the shelf warms, then integrated over the depth, which needs no steps.
+    """Primary drying time and history: stepped in time while the shelf warms, then integrated over the depth,
+    which needs no steps.
 
-    At constant shelf temperature the time is the integral of dL/(dL/dt), of which Gauss and Legendre's rule gives ten digits.
+    At constant shelf temperature the time is the integral of dL/(dL/dt), of which Gauss and Legendre's rule
+    gives ten digits.
     """
     shape = jnp.broadcast_shapes(*(jnp.shape(x) for x in (*vial, shelf_start, shelf, ramp_rate)))
     L0, zero = jnp.broadcast_to(vial.height, shape), jnp.zeros(shape)
@@ -154,7 +194,9 @@ def dry(vial: Vial, shelf_start: Any, shelf: Any, ramp_rate: Any) -> tuple[Any, 
     h = warming / RAMP_STEPS
 
     def speed(t: Any, L: Any, guess: Any) -> tuple[Any, Any, Any]:
-        at = shelf_start + (shelf - shelf_start) * jnp.where(warming > 0, t / jnp.where(warming > 0, warming, 1.0), 1.0)
+        at = shelf_start + (shelf - shelf_start) * jnp.where(
+            warming > 0, t / jnp.where(warming > 0, warming, 1.0), 1.0
+        )
         flux, front, bottom = vial.sublimation(at, jnp.minimum(L, L0), guess)
         return flux / vial.ice_per_height, front, (at, front, bottom, flux)
 
@@ -168,7 +210,11 @@ def dry(vial: Vial, shelf_start: Any, shelf: Any, ramp_rate: Any) -> tuple[Any, 
         ahead = L + h / 6 * (a + 2 * b + 2 * c + d)
         crossing = (ahead >= L0) & (L < L0)
         share = (L0 - L) / jnp.where(crossing, ahead - L, 1.0)
-        return (ahead, last, jnp.where(crossing, t + share * h, end)), (t + zero, jnp.minimum(L, L0), *(x + zero for x in state))
+        return (ahead, last, jnp.where(crossing, t + share * h, end)), (
+            t + zero,
+            jnp.minimum(L, L0),
+            *(x + zero for x in state),
+        )
 
     first = (zero, jnp.minimum(shelf_start + zero, 272.0) - 5.0, zero + jnp.nan)
     (L1, guess, early), points = jax.lax.scan(step, first, jnp.arange(RAMP_STEPS, dtype=float))

@@ -17,15 +17,24 @@ def _langmuir_like(u: Any, m: Any, C: Any) -> Any:
 
 
 def _langmuir_like_inverse(X: Any, m: Any, C: Any) -> Any:
-    """The root u of (C − 1) X u² + (m C − (C − 2) X) u − X = 0 that lies between 0 and 1, without cancellation."""
+    """The root u of (C − 1) X u² + (m C − (C − 2) X) u − X = 0 that lies between 0 and 1, without
+    cancellation.
+    """
     b = m * C - (C - 2.0) * X
     return 2.0 * X / (b + jnp.sqrt(jnp.maximum(b * b + 4.0 * (C - 1.0) * X * X, 1e-300)))
 
 
-@law("isotherm", name="isotherm_bet", source="brunauer1938; andrade2011", fitted={"water_activity": (0.05, 0.5)}, title="BET isotherm",
-     equation=r"X = \frac{m\,C\,a}{(1-a)(1-a+C\,a)}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_bet",
+    source="brunauer1938; andrade2011",
+    fitted={"water_activity": (0.05, 0.5)},
+    title="BET isotherm",
+    equation=r"X = \frac{m\,C\,a}{(1-a)(1-a+C\,a)}",
+)
 class Bet(AbstractIsotherm):
-    """Brunauer, Emmett and Teller: a monolayer of bound water and layers of free water above it. Holds up to a water activity of 0.5.
+    """Brunauer, Emmett and Teller: a monolayer of bound water and layers of free water above it. Holds up to
+    a water activity of 0.5.
 
     The lower end of 0.05 is that of the review of Andrade and others, which ends at 0.45.
 
@@ -47,10 +56,16 @@ class Bet(AbstractIsotherm):
         return _langmuir_like_inverse(X, self.monolayer_moisture, self.monolayer_constant)
 
 
-@law("isotherm", name="isotherm_bet_layers", source="brunauer1938", title="BET isotherm with a finite number of layers",
-     equation=r"X = \frac{m\,C\,a}{1-a}\,\frac{1-(n+1)a^n+n\,a^{n+1}}{1+(C-1)a-C\,a^{n+1}}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_bet_layers",
+    source="brunauer1938",
+    title="BET isotherm with a finite number of layers",
+    equation=r"X = \frac{m\,C\,a}{1-a}\,\frac{1-(n+1)a^n+n\,a^{n+1}}{1+(C-1)a-C\,a^{n+1}}",
+)
 class BetLayers(AbstractIsotherm):
-    """BET isotherm whose layers stop at a number n: one layer is Langmuir's isotherm, infinitely many the simple BET.
+    """BET isotherm whose layers stop at a number n: one layer is Langmuir's isotherm, infinitely many the
+    simple BET.
 
     >>> round(float(BetLayers(monolayer_moisture=0.05, monolayer_constant=10.0, layer_count=60.0)(0.3)), 4)
     0.0579
@@ -73,15 +88,27 @@ class BetLayers(AbstractIsotherm):
         return activity_by_search(self, X, T, highest=0.999)
 
 
-@law("isotherm", name="isotherm_gab", source="vandenberg1981", fitted={"water_activity": (0.0, 0.95)}, title="GAB isotherm",
-     equation=r"X = \frac{m\,C\,K a}{(1-Ka)(1-Ka+C\,Ka)},\quad m = m_0 e^{H_m/RT},\ C = C_0 e^{H_C/RT},\ K = K_0 e^{H_K/RT}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_gab",
+    source="vandenberg1981",
+    fitted={"water_activity": (0.0, 0.95)},
+    title="GAB isotherm",
+    equation=(
+        r"X = \frac{m\,C\,K a}{(1-Ka)(1-Ka+C\,Ka)},\quad m = m_0 e^{H_m/RT},\ C = C_0 e^{H_C/RT},\ K = K_0 "
+        r"e^{H_K/RT}"
+    ),
+)
 class Gab(AbstractIsotherm):
-    """Guggenheim, Anderson and de Boer: BET with multilayer water bound differently from free water; to a water activity of 0.95.
+    """Guggenheim, Anderson and de Boer: BET with multilayer water bound differently from free water; to a
+    water activity of 0.95.
 
-    The energies carry the temperature; zero, the default, leaves the constants as they are. Moistures beyond the pole at K a = 1
-    do not exist.
+    The energies carry the temperature; zero, the default, leaves the constants as they are. Moistures beyond
+    the pole at K a = 1 do not exist.
 
-    >>> round(float(Gab(monolayer_moisture=0.209, monolayer_constant=4.416, multilayer_constant=0.976)(0.5)), 3)
+    >>> round(
+    ...     float(Gab(monolayer_moisture=0.209, monolayer_constant=4.416, multilayer_constant=0.976)(0.5)), 3
+    ... )
     0.33
     """
 
@@ -114,10 +141,17 @@ class Gab(AbstractIsotherm):
         return jnp.minimum(_langmuir_like_inverse(X, m, C) / K, 1.0)
 
 
-@law("isotherm", name="isotherm_hailwood_horrobin", source="hailwood1946; glass2010, eq. 4-5", fitted={"water_activity": (0.05, 0.95), "temperature": (272.05, 405.35)}, title="Hailwood–Horrobin isotherm of wood",
-     equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_hailwood_horrobin",
+    source="hailwood1946; glass2010, eq. 4-5",
+    fitted={"water_activity": (0.05, 0.95), "temperature": (272.05, 405.35)},
+    title="Hailwood–Horrobin isotherm of wood",
+    equation=r"M = \frac{1800}{W}\left[\frac{Ka}{1-Ka}+\frac{K_1Ka+2K_1K_2K^2a^2}{1+K_1Ka+K_1K_2K^2a^2}\right]",  # noqa: E501
+)
 class HailwoodHorrobin(AbstractIsotherm):
-    """Equilibrium moisture of wood, two hydrates and dissolved water, with the coefficients of the Wood Handbook over temperature.
+    """Equilibrium moisture of wood, two hydrates and dissolved water, with the coefficients of the Wood
+    Handbook over temperature.
 
     The Handbook's table gives 9.2 % at 21.1 °C and 50 %, 16.0 % at 80 %.
 

@@ -15,13 +15,17 @@ from granum.numerics import find_root
 
 WATER_MOLAR_MASS = 0.018015268
 ROOM = 298.15
-SMALLEST, LARGEST = 1e-9, 1.0 - 1e-9  # water activities between which an inverse without closed form is sought
+SMALLEST, LARGEST = (
+    1e-9,
+    1.0 - 1e-9,
+)  # water activities between which an inverse without closed form is sought
 
 
 class AbstractIsotherm(eqx.Module):
     """Equilibrium moisture, dry basis, as a function of water activity and temperature.
 
-    ``curve`` names the family of curves at one temperature: models of one name draw the same curves and differ in their letters only.
+    ``curve`` names the family of curves at one temperature: models of one name draw the same curves and
+    differ in their letters only.
     """
 
     curve: eqx.AbstractClassVar[str]
@@ -43,7 +47,9 @@ class AbstractIsotherm(eqx.Module):
         return found["water_activity"]
 
     def net_isosteric_heat(self, X: Any, T: Any) -> Any:
-        """Heat of sorption beyond vaporization, J/kg of water: −(R/M_w) [∂ ln a/∂(1/T)]_X (Clausius–Clapeyron)."""
+        """Heat of sorption beyond vaporization, J/kg of water: −(R/M_w) [∂ ln a/∂(1/T)]_X
+        (Clausius–Clapeyron).
+        """
         X, T = jnp.broadcast_arrays(jnp.asarray(X, dtype=float), jnp.asarray(T, dtype=float))
         slope = jax.jvp(lambda T: jnp.log(self.activity(X, T)), (T,), (jnp.ones_like(T),))[1]
         return GAS_CONSTANT / WATER_MOLAR_MASS * T**2 * slope
@@ -54,7 +60,9 @@ def activity_by_search(isotherm: AbstractIsotherm, X: Any, T: Any, highest: floa
     X, T = jnp.broadcast_arrays(jnp.asarray(X, dtype=float), jnp.asarray(T, dtype=float))
     low, high = (isotherm.moisture(jnp.full_like(X, a), T) for a in (SMALLEST, highest))
     inside = jnp.clip(X, low, high)
-    root = find_root(lambda a, X, T: isotherm.moisture(a, T) - X, SMALLEST, highest, inside, T, start=0.5).value
+    root = find_root(
+        lambda a, X, T: isotherm.moisture(a, T) - X, SMALLEST, highest, inside, T, start=0.5
+    ).value
     return jnp.where(low >= X, SMALLEST, jnp.where(high <= X, highest, root))
 
 

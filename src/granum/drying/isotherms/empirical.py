@@ -1,4 +1,6 @@
-"""Empirical isotherms. Coefficients are those of the printed forms; moisture is a mass ratio, dry basis, unless a form says percent."""
+"""Empirical isotherms. Coefficients are those of the printed forms; moisture is a mass ratio, dry basis,
+unless a form says percent.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ class Oswin(_Called):
     isotherm_coefficient_per_celsius: Number = 0.0
 
     def _factor(self, T: Any) -> Any:
-        return self.isotherm_coefficient + self.isotherm_coefficient_per_celsius * (jnp.asarray(T) - ZERO_CELSIUS)
+        return self.isotherm_coefficient + self.isotherm_coefficient_per_celsius * (
+            jnp.asarray(T) - ZERO_CELSIUS
+        )
 
     def moisture(self, a: Any, T: Any) -> Any:
         a = bounded(a)
@@ -53,8 +57,14 @@ class Oswin(_Called):
         return ratio / (1.0 + ratio)
 
 
-@law("isotherm", name="isotherm_lewicki_two", source="lewicki1998; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Lewicki isotherm, two parameters",
-     equation=r"X = A\left(\frac1a-1\right)^{B-1}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_lewicki_two",
+    source="lewicki1998; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Lewicki isotherm, two parameters",
+    equation=r"X = A\left(\frac1a-1\right)^{B-1}",
+)
 class LewickiTwo(_Called):
     """Lewicki's two-parameter form: the curve of Oswin with exponent 1 − B.
 
@@ -72,15 +82,30 @@ class LewickiTwo(_Called):
         return self.isotherm_coefficient * (1.0 / bounded(a) - 1.0) ** (self.isotherm_exponent - 1.0)
 
     def activity(self, X: Any, T: Any) -> Any:
-        return 1.0 / (1.0 + (jnp.maximum(X, 1e-30) / self.isotherm_coefficient) ** (1.0 / (self.isotherm_exponent - 1.0)))
+        return 1.0 / (
+            1.0
+            + (jnp.maximum(X, 1e-30) / self.isotherm_coefficient) ** (1.0 / (self.isotherm_exponent - 1.0))
+        )
 
 
-@law("isotherm", name="isotherm_lewicki_three", source="lewicki1998", title="Lewicki isotherm, three parameters",
-     equation=r"X = \frac{F}{(1-a)^G} - \frac{F}{1+a^H}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_lewicki_three",
+    source="lewicki1998",
+    title="Lewicki isotherm, three parameters",
+    equation=r"X = \frac{F}{(1-a)^G} - \frac{F}{1+a^H}",
+)
 class LewickiThree(_Called):
     """Lewicki's three-parameter form for foods over the whole range.
 
-    >>> round(float(LewickiThree(isotherm_coefficient=0.1, isotherm_exponent=0.5, isotherm_exponent_second=1.0)(0.75)), 4)
+    >>> round(
+    ...     float(
+    ...         LewickiThree(isotherm_coefficient=0.1, isotherm_exponent=0.5, isotherm_exponent_second=1.0)(
+    ...             0.75
+    ...         )
+    ...     ),
+    ...     4,
+    ... )
     0.1429
     """
 
@@ -134,7 +159,14 @@ class Halsey(_Called):
 class FerroFontan(_Called):
     """Ferro-Fontán and coworkers: Halsey with a structure factor γ near 1 that widens the range to 0.95.
 
-    >>> round(float(FerroFontan(structure_factor=1.0, isotherm_coefficient=0.02, isotherm_exponent=1.5).activity(0.1, 298.15)), 4)
+    >>> round(
+    ...     float(
+    ...         FerroFontan(structure_factor=1.0, isotherm_coefficient=0.02, isotherm_exponent=1.5).activity(
+    ...             0.1, 298.15
+    ...         )
+    ...     ),
+    ...     4,
+    ... )
     0.5313
     """
 
@@ -148,7 +180,9 @@ class FerroFontan(_Called):
         return (self.isotherm_coefficient / room) ** (1.0 / self.isotherm_exponent)
 
     def activity(self, X: Any, T: Any) -> Any:
-        a = self.structure_factor * jnp.exp(-self.isotherm_coefficient * jnp.maximum(X, 1e-12) ** -self.isotherm_exponent)
+        a = self.structure_factor * jnp.exp(
+            -self.isotherm_coefficient * jnp.maximum(X, 1e-12) ** -self.isotherm_exponent
+        )
         return jnp.minimum(a, 1.0)
 
 
@@ -163,7 +197,8 @@ class FerroFontan(_Called):
 class Henderson(_Called):
     """Henderson's form with the absolute temperature; X a mass ratio, T in kelvin.
 
-    Its curve is that of ``isotherm_henderson_modified``: the data behind the standard lie between 0.2 and 0.95.
+    Its curve is that of ``isotherm_henderson_modified``: the data behind the standard lie between 0.2 and
+    0.95.
 
     >>> round(float(Henderson(isotherm_coefficient=0.2, isotherm_exponent=2.0).activity(0.1, 300.0)), 4)
     0.4512
@@ -174,10 +209,14 @@ class Henderson(_Called):
     isotherm_exponent: PositiveNumber
 
     def moisture(self, a: Any, T: Any) -> Any:
-        return (-jnp.log1p(-bounded(a)) / (self.isotherm_coefficient * jnp.asarray(T))) ** (1.0 / self.isotherm_exponent)
+        return (-jnp.log1p(-bounded(a)) / (self.isotherm_coefficient * jnp.asarray(T))) ** (
+            1.0 / self.isotherm_exponent
+        )
 
     def activity(self, X: Any, T: Any) -> Any:
-        return -jnp.expm1(-self.isotherm_coefficient * jnp.asarray(T) * jnp.maximum(X, 1e-30) ** self.isotherm_exponent)
+        return -jnp.expm1(
+            -self.isotherm_coefficient * jnp.asarray(T) * jnp.maximum(X, 1e-30) ** self.isotherm_exponent
+        )
 
 
 @law(
@@ -203,14 +242,27 @@ class Smith(_Called):
         return self.isotherm_coefficient - self.isotherm_coefficient_second * jnp.log1p(-bounded(a))
 
     def activity(self, X: Any, T: Any) -> Any:
-        return jnp.clip(-jnp.expm1(-(X - self.isotherm_coefficient) / self.isotherm_coefficient_second), 0.0, 1.0)
+        return jnp.clip(
+            -jnp.expm1(-(X - self.isotherm_coefficient) / self.isotherm_coefficient_second), 0.0, 1.0
+        )
 
 
-@law("isotherm", name="isotherm_peleg", source="peleg1993", title="Peleg isotherm", equation=r"X = k_1 a^{n_1} + k_2 a^{n_2}")
+@law(
+    "isotherm",
+    name="isotherm_peleg",
+    source="peleg1993",
+    title="Peleg isotherm",
+    equation=r"X = k_1 a^{n_1} + k_2 a^{n_2}",
+)
 class Peleg(_Called):
     """Peleg's two powers, one below and one above 1: as good as GAB and finite at a = 1.
 
-    >>> peleg = Peleg(isotherm_coefficient=0.1, isotherm_exponent=0.5, isotherm_coefficient_second=0.3, isotherm_exponent_second=6.0)
+    >>> peleg = Peleg(
+    ...     isotherm_coefficient=0.1,
+    ...     isotherm_exponent=0.5,
+    ...     isotherm_coefficient_second=0.3,
+    ...     isotherm_exponent_second=6.0,
+    ... )
     >>> round(float(peleg(0.81)), 4)
     0.1747
     """
@@ -230,8 +282,13 @@ class Peleg(_Called):
         return activity_by_search(self, X, T)
 
 
-@law("isotherm", name="isotherm_double_log", source="condon2006", title="Double-log polynomial (DLP)",
-     equation=r"X = b_0 + b_1\chi + b_2\chi^2 + b_3\chi^3,\quad \chi = \ln(-\ln a)")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_double_log",
+    source="condon2006",
+    title="Double-log polynomial (DLP)",
+    equation=r"X = b_0 + b_1\chi + b_2\chi^2 + b_3\chi^3,\quad \chi = \ln(-\ln a)",
+)
 class DoubleLog(_Called):
     """Cubic in ln(−ln a), for dense dynamic-vapor-sorption data; do not extrapolate it.
 
@@ -247,20 +304,32 @@ class DoubleLog(_Called):
 
     def moisture(self, a: Any, T: Any) -> Any:
         z = jnp.log(-jnp.log(bounded(a)))
-        b0, b1, b2, b3 = (self.isotherm_coefficient, self.isotherm_coefficient_second, self.isotherm_coefficient_third,
-                          self.isotherm_coefficient_fourth)  # fmt: skip
+        b0, b1, b2, b3 = (
+            self.isotherm_coefficient,
+            self.isotherm_coefficient_second,
+            self.isotherm_coefficient_third,
+            self.isotherm_coefficient_fourth,
+        )
         return b0 + z * (b1 + z * (b2 + z * b3))
 
     def activity(self, X: Any, T: Any) -> Any:
         return activity_by_search(self, X, T)
 
 
-@law("isotherm", name="isotherm_iglesias_chirife", source="iglesias1978", title="Iglesias–Chirife isotherm",
-     equation=r"\ln\left[X+(X^2+X_{0.5})^{1/2}\right] = B_1 a + B_2")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_iglesias_chirife",
+    source="iglesias1978",
+    title="Iglesias–Chirife isotherm",
+    equation=r"\ln\left[X+(X^2+X_{0.5})^{1/2}\right] = B_1 a + B_2",
+)
 class IglesiasChirife(_Called):
-    """Iglesias and Chirife's form for sugar-rich fruit; needs the moisture at a water activity of 0.5, as printed.
+    """Iglesias and Chirife's form for sugar-rich fruit; needs the moisture at a water activity of 0.5, as
+    printed.
 
-    >>> fruit = IglesiasChirife(isotherm_coefficient=2.0, isotherm_coefficient_second=-1.2, moisture_half=0.12)
+    >>> fruit = IglesiasChirife(
+    ...     isotherm_coefficient=2.0, isotherm_coefficient_second=-1.2, moisture_half=0.12
+    ... )
     >>> round(float(fruit.activity(fruit(0.6), 298.15)), 9)
     0.6
     """
@@ -275,7 +344,9 @@ class IglesiasChirife(_Called):
         return (E * E - self.moisture_half) / (2.0 * E)
 
     def activity(self, X: Any, T: Any) -> Any:
-        a = (jnp.log(X + jnp.sqrt(X**2 + self.moisture_half)) - self.isotherm_coefficient_second) / self.isotherm_coefficient
+        a = (
+            jnp.log(X + jnp.sqrt(X**2 + self.moisture_half)) - self.isotherm_coefficient_second
+        ) / self.isotherm_coefficient
         return jnp.clip(a, 0.0, 1.0)
 
 
@@ -302,7 +373,11 @@ class Caurie(_Called):
         return jnp.exp(self.isotherm_coefficient + self.isotherm_coefficient_second * jnp.asarray(a))
 
     def activity(self, X: Any, T: Any) -> Any:
-        return jnp.clip((jnp.log(jnp.maximum(X, 1e-30)) - self.isotherm_coefficient) / self.isotherm_coefficient_second, 0.0, 1.0)
+        return jnp.clip(
+            (jnp.log(jnp.maximum(X, 1e-30)) - self.isotherm_coefficient) / self.isotherm_coefficient_second,
+            0.0,
+            1.0,
+        )
 
 
 @law(
@@ -353,7 +428,9 @@ class Bradley(_Called):
     isotherm_coefficient: PositiveNumber
 
     def moisture(self, a: Any, T: Any) -> Any:
-        return jnp.maximum(jnp.log(-jnp.log(bounded(a)) / self.isotherm_coefficient) / jnp.log(self.isotherm_base), 0.0)
+        return jnp.maximum(
+            jnp.log(-jnp.log(bounded(a)) / self.isotherm_coefficient) / jnp.log(self.isotherm_base), 0.0
+        )
 
     def activity(self, X: Any, T: Any) -> Any:
         return jnp.exp(-self.isotherm_coefficient * self.isotherm_base ** jnp.asarray(X))
@@ -387,5 +464,9 @@ class Chen(_Called):
 
     def activity(self, X: Any, T: Any) -> Any:
         return jnp.minimum(
-            jnp.exp(self.isotherm_offset - self.isotherm_coefficient * jnp.exp(-self.isotherm_exponent * jnp.asarray(X))), 1.0
+            jnp.exp(
+                self.isotherm_offset
+                - self.isotherm_coefficient * jnp.exp(-self.isotherm_exponent * jnp.asarray(X))
+            ),
+            1.0,
         )

@@ -23,16 +23,25 @@ def _celsius(T: Any) -> Any:
     return jnp.asarray(T) - ZERO_CELSIUS
 
 
-@law("isotherm", name="isotherm_henderson_modified", source="thompson1968; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Modified Henderson isotherm",
-     equation=r"1 - a = \exp\left[-K\,(t + C)\,M^{N}\right],\quad M\ \mathrm{in\ \%}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_henderson_modified",
+    source="thompson1968; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Modified Henderson isotherm",
+    equation=r"1 - a = \exp\left[-K\,(t + C)\,M^{N}\right],\quad M\ \mathrm{in\ \%}",
+)
 class HendersonModified(_Called):
-    """Thompson's modification of Henderson for grains; the printed coefficients take moisture in percent, dry basis.
+    """Thompson's modification of Henderson for grains; the printed coefficients take moisture in percent, dry
+    basis.
 
     Shelled corn at 25 °C and 70 %, by hand: [1.204/(8.6541e-5 · 74.81)]^(1/1.8634) = 16.5 %.
 
     The data behind the standard lie between 0.2 and 0.95.
 
-    >>> corn = HendersonModified(isotherm_coefficient=8.6541e-5, isotherm_exponent=1.8634, isotherm_temperature_offset=49.810)
+    >>> corn = HendersonModified(
+    ...     isotherm_coefficient=8.6541e-5, isotherm_exponent=1.8634, isotherm_temperature_offset=49.810
+    ... )
     >>> round(float(corn(0.7, 298.15)), 3)
     0.165
     """
@@ -51,8 +60,14 @@ class HendersonModified(_Called):
         return -jnp.expm1(-heat * (100.0 * jnp.maximum(X, 1e-30)) ** self.isotherm_exponent)
 
 
-@law("isotherm", name="isotherm_chung_pfost", source="chung1967; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Modified Chung–Pfost isotherm",
-     equation=r"a = \exp\left[-\frac{A}{t+C}\,e^{-B X}\right]")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_chung_pfost",
+    source="chung1967; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Modified Chung–Pfost isotherm",
+    equation=r"a = \exp\left[-\frac{A}{t+C}\,e^{-B X}\right]",
+)
 class ChungPfost(_Called):
     """Chung and Pfost's potential theory, modified with a temperature offset; moisture as a mass ratio.
 
@@ -60,7 +75,9 @@ class ChungPfost(_Called):
 
     The data behind the standard lie between 0.2 and 0.95.
 
-    >>> corn = ChungPfost(isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205)
+    >>> corn = ChungPfost(
+    ...     isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205
+    ... )
     >>> round(float(corn(0.7, 298.15)), 3)
     0.163
     """
@@ -71,7 +88,11 @@ class ChungPfost(_Called):
     isotherm_temperature_offset: Number
 
     def moisture(self, a: Any, T: Any) -> Any:
-        scaled = -(_celsius(T) + self.isotherm_temperature_offset) * jnp.log(bounded(a)) / self.isotherm_coefficient
+        scaled = (
+            -(_celsius(T) + self.isotherm_temperature_offset)
+            * jnp.log(bounded(a))
+            / self.isotherm_coefficient
+        )
         return jnp.maximum(-jnp.log(scaled) / self.isotherm_exponent, 0.0)
 
     def activity(self, X: Any, T: Any) -> Any:
@@ -79,14 +100,23 @@ class ChungPfost(_Called):
         return jnp.exp(-heat * jnp.exp(-self.isotherm_exponent * jnp.asarray(X)))
 
 
-@law("isotherm", name="isotherm_halsey_modified", source="iglesias1976; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Modified Halsey isotherm",
-     equation=r"a = \exp\left[-e^{A + B t}\,M^{-C}\right],\quad M\ \mathrm{in\ \%}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_halsey_modified",
+    source="iglesias1976; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Modified Halsey isotherm",
+    equation=r"a = \exp\left[-e^{A + B t}\,M^{-C}\right],\quad M\ \mathrm{in\ \%}",
+)
 class HalseyModified(_Called):
-    """Halsey with an exponential temperature factor, the standard's choice for oilseeds; coefficients for moisture in percent.
+    """Halsey with an exponential temperature factor, the standard's choice for oilseeds; coefficients for
+    moisture in percent.
 
     The data behind the standard lie between 0.2 and 0.95.
 
-    >>> soybean = HalseyModified(isotherm_coefficient=2.87, isotherm_coefficient_per_celsius=-0.0054, isotherm_exponent=1.38)
+    >>> soybean = HalseyModified(
+    ...     isotherm_coefficient=2.87, isotherm_coefficient_per_celsius=-0.0054, isotherm_exponent=1.38
+    ... )
     >>> round(float(soybean(0.7, 298.15)), 3)
     0.153
     """
@@ -106,14 +136,22 @@ class HalseyModified(_Called):
         return jnp.exp(-self._factor(T) * (100.0 * jnp.maximum(X, 1e-12)) ** -self.isotherm_exponent)
 
 
-@law("isotherm", name="isotherm_oswin_modified", source="chen1989; asaed245", fitted={"water_activity": (0.2, 0.95)}, title="Modified Oswin isotherm",
-     equation=r"M = (A + B t)\left(\frac{a}{1-a}\right)^{1/C},\quad M\ \mathrm{in\ \%}")  # fmt: skip
+@law(
+    "isotherm",
+    name="isotherm_oswin_modified",
+    source="chen1989; asaed245",
+    fitted={"water_activity": (0.2, 0.95)},
+    title="Modified Oswin isotherm",
+    equation=r"M = (A + B t)\left(\frac{a}{1-a}\right)^{1/C},\quad M\ \mathrm{in\ \%}",
+)
 class OswinModified(_Called):
     """Oswin with a coefficient linear in °C, printed for moisture in percent and with the inverse exponent.
 
     The data behind the standard lie between 0.2 and 0.95.
 
-    >>> corn = OswinModified(isotherm_coefficient=15.303, isotherm_coefficient_per_celsius=-0.10164, isotherm_exponent=3.0358)
+    >>> corn = OswinModified(
+    ...     isotherm_coefficient=15.303, isotherm_coefficient_per_celsius=-0.10164, isotherm_exponent=3.0358
+    ... )
     >>> round(float(corn(0.7, 298.15)), 3)
     0.169
     """

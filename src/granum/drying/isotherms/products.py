@@ -1,4 +1,6 @@
-"""Isotherms of products by name, read from ``drying/data/isotherms.toml``: each is a law without free parameters."""
+"""Isotherms of products by name, read from ``drying/data/isotherms.toml``: each is a law without free
+parameters.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,11 @@ from granum.core.kinds import MoistureDryBasis, Temperature, WaterActivity
 from granum.drying.isotherms import adsorption, grains
 from granum.drying.isotherms.base import ROOM, AbstractIsotherm
 
-_MODELS: dict[str, Any] = {"chung_pfost": grains.ChungPfost, "halsey_modified": grains.HalseyModified, "gab": adsorption.Gab}
+_MODELS: dict[str, Any] = {
+    "chung_pfost": grains.ChungPfost,
+    "halsey_modified": grains.HalseyModified,
+    "gab": adsorption.Gab,
+}
 
 
 def _declare(name: str, row: dict[str, Any]) -> type:
@@ -21,13 +27,21 @@ def _declare(name: str, row: dict[str, Any]) -> type:
     if "celsius" in row:
         ranges["temperature"] = tuple(t + ZERO_CELSIUS for t in row["celsius"])
 
-    @law("isotherm", name=f"isotherm_{name}", source=row["source"], title=f"Isotherm of {row['en']}", fitted=ranges)
+    @law(
+        "isotherm",
+        name=f"isotherm_{name}",
+        source=row["source"],
+        title=f"Isotherm of {row['en']}",
+        fitted=ranges,
+    )
     class Product(AbstractIsotherm):
         """Sorption isotherm of a product with the constants of its source, over temperature."""
 
         curve: ClassVar[str] = model.curve
 
-        def __call__(self, water_activity: WaterActivity, temperature: Temperature = ROOM) -> MoistureDryBasis:
+        def __call__(
+            self, water_activity: WaterActivity, temperature: Temperature = ROOM
+        ) -> MoistureDryBasis:
             return self.moisture(water_activity, temperature)
 
         def moisture(self, a: Any, T: Any) -> Any:
@@ -41,6 +55,8 @@ def _declare(name: str, row: dict[str, Any]) -> type:
 
 PRODUCTS: dict[str, type] = {
     name: _declare(name, row)
-    for name, row in tomllib.loads((files("granum") / "drying" / "data" / "isotherms.toml").read_text(encoding="utf-8")).items()
+    for name, row in tomllib.loads(
+        (files("granum") / "drying" / "data" / "isotherms.toml").read_text(encoding="utf-8")
+    ).items()
 }
 """Products by name: what may be given as ``isotherm``."""

@@ -1,4 +1,6 @@
-"""Effective diffusivity of moisture from drying curves, and its activation energy when they were taken at several temperatures."""
+"""Effective diffusivity of moisture from drying curves, and its activation energy when they were taken at
+several temperatures.
+"""
 
 from __future__ import annotations
 
@@ -23,15 +25,24 @@ LEAST_APART = 1.0
 USUAL_ENERGY = 30e3
 
 
-@lab_test("effective_diffusivity", source="crank1975; erbay2010", title="Effective diffusivity of moisture",
-          equation=r"MR = f\!\left(\frac{D\,t}{L^2}\right),\quad D = D_r\,e^{-\frac{E_a}{R}\left(\frac1T-\frac1{T_r}\right)}")  # fmt: skip
+@lab_test(
+    "effective_diffusivity",
+    source="crank1975; erbay2010",
+    title="Effective diffusivity of moisture",
+    equation=(
+        r"MR = f\!\left(\frac{D\,t}{L^2}\right),\quad D = "
+        r"D_r\,e^{-\frac{E_a}{R}\left(\frac1T-\frac1{T_r}\right)}"
+    ),
+)
 class EffectiveDiffusivity(LabTest):
-    """Diffusivity in a plate, long cylinder or sphere from moisture ratios over time, by the whole series solution.
+    """Diffusivity in a plate, long cylinder or sphere from moisture ratios over time, by the whole series
+    solution.
 
-    The length is the half thickness of a plate dried from both sides (the thickness when from one) or the radius. With a column of
-    temperatures the activation energy is estimated too, and the diffusivity is that of the mean temperature of the points; the laws of
-    drying ask for the pre-exponential factor, which is given with it.
-    The surface is taken at equilibrium from the start: where outer transfer matters the diffusivity comes out too small.
+    The length is the half thickness of a plate dried from both sides (the thickness when from one) or the
+    radius. With a column of temperatures the activation energy is estimated too, and the diffusivity is that
+    of the mean temperature of the points; the laws of drying ask for the pre-exponential factor, which is
+    given with it. The surface is taken at equilibrium from the start: where outer transfer matters the
+    diffusivity comes out too small.
     """
 
     time: Annotated[Time, Series("points")]
@@ -60,31 +71,48 @@ class EffectiveDiffusivity(LabTest):
         usable = (t > 0) & (MR > 0.02) & (MR < 0.98)
         if not usable.any():
             raise InputError(
-                _("No moisture ratio lies between 0.02 and 0.98: the points say nothing about diffusion."), name="moisture_ratio"
+                _("No moisture ratio lies between 0.02 and 0.98: the points say nothing about diffusion."),
+                name="moisture_ratio",
             )
         fourier = np.interp(-MR[usable], -value, grid)
         return float(np.median(fourier / t[usable]) * self.half_thickness**2)
 
     def fit(self) -> Fit:
-        """Diffusivity, and activation energy where temperatures differ, by least squares on the moisture ratios."""
+        """Diffusivity, and activation energy where temperatures differ, by least squares on the moisture
+        ratios.
+        """
         t, MR = np.asarray(self.time, dtype=float), np.asarray(self.moisture_ratio, dtype=float)
         body, length = BODIES[self.body], self.half_thickness
         start = {"diffusivity": self._start()}
         bounds = {"diffusivity": (start["diffusivity"] * 1e-4, start["diffusivity"] * 1e4)}
         if not self._several():
-            return self.fitted(lambda p, x: body(p["diffusivity"] * x / length**2), start, t, MR, bounds=bounds)
-        inverse = (1.0 / np.asarray(self.temperature, dtype=float) - 1.0 / self.reference_temperature) / GAS_CONSTANT  # type: ignore[operator]
+            return self.fitted(
+                lambda p, x: body(p["diffusivity"] * x / length**2), start, t, MR, bounds=bounds
+            )
+        inverse = (
+            1.0 / np.asarray(self.temperature, dtype=float) - 1.0 / self.reference_temperature
+        ) / GAS_CONSTANT  # type: ignore[operator]
         start["diffusion_activation_energy"] = USUAL_ENERGY
         bounds["diffusion_activation_energy"] = (-2e5, 5e5)
 
         def model(p: dict[str, Any], x: Any) -> Any:
-            return body(p["diffusivity"] * jnp.exp(-p["diffusion_activation_energy"] * inverse) * x / length**2)
+            return body(
+                p["diffusivity"] * jnp.exp(-p["diffusion_activation_energy"] * inverse) * x / length**2
+            )
 
         mean = GAS_CONSTANT * self.reference_temperature  # type: ignore[operator]
         return self.fitted(
-            model, start, t, MR, bounds=bounds, kinds={"diffusivity_preexponential": Diffusivity},
-            derived=lambda p: {"diffusivity_preexponential": p["diffusivity"] * jnp.exp(p["diffusion_activation_energy"] / mean)},
-        )  # fmt: skip
+            model,
+            start,
+            t,
+            MR,
+            bounds=bounds,
+            kinds={"diffusivity_preexponential": Diffusivity},
+            derived=lambda p: {
+                "diffusivity_preexponential": p["diffusivity"]
+                * jnp.exp(p["diffusion_activation_energy"] / mean)
+            },
+        )
 
     def chart(self) -> go.Figure:
         """Measured and fitted moisture ratios, one color a temperature."""
@@ -96,16 +124,33 @@ class EffectiveDiffusivity(LabTest):
         values = self.fit().values
         unit = best_unit(float(np.median(t)), KINDS["Time"])
         drawing = figure(axis_title("time", unit), axis_title("moisture_ratio"), title=type(self).card.title)
-        T = np.zeros_like(t) if self.temperature is None else np.round(np.asarray(self.temperature, dtype=float), 1)
+        T = (
+            np.zeros_like(t)
+            if self.temperature is None
+            else np.round(np.asarray(self.temperature, dtype=float), 1)
+        )
         grid = np.linspace(0.0, 1.03 * t.max(), 200)
         for i, level in enumerate(np.unique(T)):
             factor = 1.0
             if self._several():
-                factor = np.exp(-values["diffusion_activation_energy"] / GAS_CONSTANT * (1.0 / level - 1.0 / self.reference_temperature))  # type: ignore[operator]
-            line = np.asarray(BODIES[self.body](jnp.asarray(values["diffusivity"] * factor * grid / self.half_thickness**2)))
+                factor = np.exp(
+                    -values["diffusion_activation_energy"]
+                    / GAS_CONSTANT
+                    * (1.0 / level - 1.0 / self.reference_temperature)
+                )  # type: ignore[operator]
+            line = np.asarray(
+                BODIES[self.body](jnp.asarray(values["diffusivity"] * factor * grid / self.half_thickness**2))
+            )
             color = LINES[i % len(LINES)]
             name = _("model") if self.temperature is None else show(float(level), KINDS["Temperature"])
             add_line(drawing, from_si(grid, unit, KINDS["Time"]), line, name, color=color)
             here = level == T
-            add_points(drawing, from_si(t[here], unit, KINDS["Time"]), MR[here], _("data"), color=color, showlegend=i == 0)
+            add_points(
+                drawing,
+                from_si(t[here], unit, KINDS["Time"]),
+                MR[here],
+                _("data"),
+                color=color,
+                showlegend=i == 0,
+            )
         return drawing

@@ -1,4 +1,6 @@
-"""Lab tests of freeze drying: heat transfer to vials by weighing, resistance of the cake from the product's temperature."""
+"""Lab tests of freeze drying: heat transfer to vials by weighing, resistance of the cake from the product's
+temperature.
+"""
 
 from __future__ import annotations
 
@@ -22,17 +24,34 @@ from granum.core.kinds import (
     Temperature,
     Time,
     Volume,
-)  # fmt: skip
-from granum.drying.formulas.vials import ICE_CONDUCTIVITY, SUBLIMATION_HEAT, cake_vapor_resistance, vial_heat_transfer, vial_of
-from granum.drying.kinds import HeatTransferPerPressure, PerLength, PerPressure, VaporResistance, VaporResistanceGradient
+)
+from granum.drying.formulas.vials import (
+    ICE_CONDUCTIVITY,
+    SUBLIMATION_HEAT,
+    cake_vapor_resistance,
+    vial_heat_transfer,
+    vial_of,
+)
+from granum.drying.kinds import (
+    HeatTransferPerPressure,
+    PerLength,
+    PerPressure,
+    VaporResistance,
+    VaporResistanceGradient,
+)
 from granum.estimation import Fit, LabTest
 from granum.humid_gas.pairs import ice_vapor_pressure
 
 
-@lab_test("vial_heat_test", source="pikal1985", title="Heat transfer to vials, by weighing",
-          equation=r"K_v = \frac{\Delta H_s\,m}{A_v\,t\,(T_{sh}-T_b)} = K_C + \frac{K_P P}{1 + K_D P}")  # fmt: skip
+@lab_test(
+    "vial_heat_test",
+    source="pikal1985",
+    title="Heat transfer to vials, by weighing",
+    equation=r"K_v = \frac{\Delta H_s\,m}{A_v\,t\,(T_{sh}-T_b)} = K_C + \frac{K_P P}{1 + K_D P}",
+)
 class VialHeatTest(LabTest):
-    """Coefficients of the heat transfer to vials from the ice that sublimes in a time at several chamber pressures.
+    """Coefficients of the heat transfer to vials from the ice that sublimes in a time at several chamber
+    pressures.
 
     ``temperature_product`` is that of the vial bottom, ``mass_sublimed`` the loss of one vial.
     """
@@ -43,8 +62,11 @@ class VialHeatTest(LabTest):
     temperature_shelf: Annotated[Temperature, Series("points")]
     temperature_product: Annotated[Temperature, Series("points")]
     area_vial: Area
-    estimates: ClassVar = {"vial_coefficient_contact": HeatTransferCoefficient, "vial_coefficient_gas": HeatTransferPerPressure,
-                           "vial_coefficient_saturation": PerPressure}  # fmt: skip
+    estimates: ClassVar = {
+        "vial_coefficient_contact": HeatTransferCoefficient,
+        "vial_coefficient_gas": HeatTransferPerPressure,
+        "vial_coefficient_saturation": PerPressure,
+    }
     holds_for: ClassVar = ("pressure_chamber",)
     axes: ClassVar = {"pressure_chamber": Pressure, "heat_transfer_coefficient": HeatTransferCoefficient}
     least_points: ClassVar[int] = 4
@@ -53,8 +75,14 @@ class VialHeatTest(LabTest):
         """Heat transfer coefficient of each point, on the area of the vial."""
         difference = np.asarray(self.temperature_shelf) - np.asarray(self.temperature_product)
         if (difference <= 0).any():
-            raise InputError(_("The shelf must be warmer than the product at every point."), name="temperature_shelf")
-        return SUBLIMATION_HEAT * np.asarray(self.mass_sublimed) / (self.area_vial * np.asarray(self.time) * difference)
+            raise InputError(
+                _("The shelf must be warmer than the product at every point."), name="temperature_shelf"
+            )
+        return (
+            SUBLIMATION_HEAT
+            * np.asarray(self.mass_sublimed)
+            / (self.area_vial * np.asarray(self.time) * difference)
+        )
 
     def fit(self) -> Fit:
         """The three coefficients with 95 % intervals."""
@@ -75,13 +103,22 @@ class VialHeatTest(LabTest):
         return self.fitted(model, start, P, K, bounds=dict.fromkeys(start, (0.0, np.inf)))
 
 
-@lab_test("product_resistance_test", source="pikal1985; shivkumar2019", title="Resistance of a cake from the product temperature",
-          equation=r"R_p(L) = \frac{p_i(T_s) - P}{g},\quad g = \frac{K_v A_v (T_{sh}-T_b)}{\Delta H_s A_p},\quad T_s = T_b - \frac{\Delta H_s g (L_0-L)}{k_i}")  # fmt: skip
+@lab_test(
+    "product_resistance_test",
+    source="pikal1985; shivkumar2019",
+    title="Resistance of a cake from the product temperature",
+    equation=(
+        r"R_p(L) = \frac{p_i(T_s) - P}{g},\quad g = \frac{K_v A_v (T_{sh}-T_b)}{\Delta H_s A_p},\quad T_s = "
+        r"T_b - \frac{\Delta H_s g (L_0-L)}{k_i}"
+    ),
+)
 class ProductResistanceTest(LabTest):
-    """Resistance of the dry cake over its depth from the temperature at the vial bottom during primary drying.
+    """Resistance of the dry cake over its depth from the temperature at the vial bottom during primary
+    drying.
 
-    The heat transfer coefficient is that of ``vial_heat_test`` at the pressure of the run. Give the readings while ice is still under the
-    thermocouple. With ``linear`` the resistance is taken to rise in proportion to the depth.
+    The heat transfer coefficient is that of ``vial_heat_test`` at the pressure of the run. Give the readings
+    while ice is still under the thermocouple. With ``linear`` the resistance is taken to rise in proportion
+    to the depth.
     """
 
     time: Annotated[Time, Series("points")]
@@ -95,21 +132,38 @@ class ProductResistanceTest(LabTest):
     concentration: Concentration
     solid_density: Density = 1500.0
     linear: bool = False
-    estimates: ClassVar = {"vapor_resistance": VaporResistance, "vapor_resistance_slope": VaporResistanceGradient,
-                           "vapor_resistance_saturation": PerLength}  # fmt: skip
+    estimates: ClassVar = {
+        "vapor_resistance": VaporResistance,
+        "vapor_resistance_slope": VaporResistanceGradient,
+        "vapor_resistance_saturation": PerLength,
+    }
     holds_for: ClassVar = ("pressure_chamber",)
     axes: ClassVar = {"dry_layer_thickness": Distance, "vapor_resistance": VaporResistance}
     least_points: ClassVar[int] = 4
 
     def points(self) -> tuple[np.ndarray, np.ndarray]:
         """Dry depth and resistance of each reading."""
-        vial = vial_of(self.area_vial, self.area_product, self.volume_fill, self.concentration, self.solid_density,
-                       self.heat_transfer_coefficient, 0.0, 0.0, 1.0, 0.0, 0.0, self.pressure_chamber)  # fmt: skip
+        vial = vial_of(
+            self.area_vial,
+            self.area_product,
+            self.volume_fill,
+            self.concentration,
+            self.solid_density,
+            self.heat_transfer_coefficient,
+            0.0,
+            0.0,
+            1.0,
+            0.0,
+            0.0,
+            self.pressure_chamber,
+        )
         t, bottom = np.asarray(self.time, dtype=float), np.asarray(self.temperature_product, dtype=float)
         heat = self.heat_transfer_coefficient * self.area_vial * (np.asarray(self.temperature_shelf) - bottom)
         flux = heat / (SUBLIMATION_HEAT * self.area_product)
         if (flux <= 0).any():
-            raise InputError(_("The shelf must be warmer than the product at every point."), name="temperature_shelf")
+            raise InputError(
+                _("The shelf must be warmer than the product at every point."), name="temperature_shelf"
+            )
         grown = np.concatenate([[flux[0] * t[0]], 0.5 * (flux[1:] + flux[:-1]) * np.diff(t)])
         height = float(vial.height)
         depth = np.cumsum(grown) / float(vial.ice_per_height)
@@ -117,7 +171,8 @@ class ProductResistanceTest(LabTest):
             at = int(np.argmax(depth > 1.02 * height)) + 1
             raise InputError(
                 _(
-                    "By reading {number} more ice would have sublimed than the vial held: check the heat transfer coefficient and the fill."
+                    "By reading {number} more ice would have sublimed than the vial held: check the "
+                    "heat transfer coefficient and the fill."
                 ).format(number=at)
             )
         front = bottom - SUBLIMATION_HEAT * flux * np.maximum(height - depth, 0.0) / ICE_CONDUCTIVITY
@@ -134,7 +189,10 @@ class ProductResistanceTest(LabTest):
 
         def model(p: dict[str, Any], L: Any) -> Any:
             return cake_vapor_resistance.function(
-                L, p["vapor_resistance"], p["vapor_resistance_slope"], p.get("vapor_resistance_saturation", 0.0)
+                L,
+                p["vapor_resistance"],
+                p["vapor_resistance_slope"],
+                p.get("vapor_resistance_saturation", 0.0),
             )
 
         return self.fitted(model, start, depth, R, bounds=dict.fromkeys(start, (0.0, np.inf)))

@@ -21,30 +21,64 @@ from granum.estimation.lines import polynomial, straight_line
 INF = float("inf")
 POSITIVE = (1e-9, INF)
 MODELS: dict[str, type] = {
-    "gab": a.Gab, "bet": a.Bet, "oswin": m.Oswin, "halsey": m.Halsey, "henderson": m.Henderson, "smith": m.Smith, "peleg": m.Peleg,
-    "ferro_fontan": m.FerroFontan, "double_log": m.DoubleLog, "caurie": m.Caurie, "kuhn": m.Kuhn, "bradley": m.Bradley, "chen": m.Chen,
-    "lewicki_two": m.LewickiTwo, "lewicki_three": m.LewickiThree, "iglesias_chirife": m.IglesiasChirife,
-}  # fmt: skip
+    "gab": a.Gab,
+    "bet": a.Bet,
+    "oswin": m.Oswin,
+    "halsey": m.Halsey,
+    "henderson": m.Henderson,
+    "smith": m.Smith,
+    "peleg": m.Peleg,
+    "ferro_fontan": m.FerroFontan,
+    "double_log": m.DoubleLog,
+    "caurie": m.Caurie,
+    "kuhn": m.Kuhn,
+    "bradley": m.Bradley,
+    "chen": m.Chen,
+    "lewicki_two": m.LewickiTwo,
+    "lewicki_three": m.LewickiThree,
+    "iglesias_chirife": m.IglesiasChirife,
+}
 BET_LIMIT = 0.5
 
 
 @lab_test("isotherm", source="vandenberg1981; burnham2002", title="Sorption isotherm", equation=r"X = X(a_w)")
 class IsothermTest(LabTest):
-    """Sorption isotherms fitted to equilibrium moistures over water activity and ranked by AICc; equal curves are known as one.
+    """Sorption isotherms fitted to equilibrium moistures over water activity and ranked by AICc; equal curves
+    are known as one.
 
-    ``model`` fits one by name; ``best``, the default, takes the best-ranked. BET uses the points up to a water activity of 0.5 only, so
-    it is fitted on request but not ranked with the others.
+    ``model`` fits one by name; ``best``, the default, takes the best-ranked. BET uses the points up to a
+    water activity of 0.5 only, so it is fitted on request but not ranked with the others.
     """
 
     water_activity: Annotated[WaterActivity, Series("points")]
     moisture_dry_basis: Annotated[MoistureDryBasis, Series("points")]
     temperature: Temperature = 298.15
-    model: Literal["best", "gab", "bet", "oswin", "halsey", "henderson", "smith", "peleg", "ferro_fontan", "double_log", "caurie", "kuhn",
-                   "bradley", "chen", "lewicki_two", "lewicki_three", "iglesias_chirife"] = "best"  # fmt: skip
+    model: Literal[
+        "best",
+        "gab",
+        "bet",
+        "oswin",
+        "halsey",
+        "henderson",
+        "smith",
+        "peleg",
+        "ferro_fontan",
+        "double_log",
+        "caurie",
+        "kuhn",
+        "bradley",
+        "chen",
+        "lewicki_two",
+        "lewicki_three",
+        "iglesias_chirife",
+    ] = "best"
     estimates: ClassVar = {
-        "monolayer_moisture": MoistureDryBasis, "monolayer_constant": PositiveNumber, "multilayer_constant": PositiveNumber,
-        "isotherm_coefficient": Number, "isotherm_exponent": Number,
-    }  # fmt: skip
+        "monolayer_moisture": MoistureDryBasis,
+        "monolayer_constant": PositiveNumber,
+        "multilayer_constant": PositiveNumber,
+        "isotherm_coefficient": Number,
+        "isotherm_exponent": Number,
+    }
     holds_for: ClassVar = ("water_activity", "temperature")
     axes: ClassVar = {"water_activity": WaterActivity, "moisture_dry_basis": MoistureDryBasis}
     least_points: ClassVar[int] = 4
@@ -52,7 +86,9 @@ class IsothermTest(LabTest):
     def _fit_one(self, cls: Any, *, judged: bool = False) -> Fit:
         aw, X = np.asarray(self.water_activity, dtype=float), np.asarray(self.moisture_dry_basis, dtype=float)
         if np.any((aw <= 0) | (aw >= 1)):
-            raise InputError(_("Every water activity must lie strictly between 0 and 1."), name="water_activity")
+            raise InputError(
+                _("Every water activity must lie strictly between 0 and 1."), name="water_activity"
+            )
         keep = aw <= BET_LIMIT if cls is a.Bet else np.ones(aw.shape, bool)
         start, bounds = starts(cls, aw[keep], X[keep], float(self.temperature))
         fixed = {"moisture_half": float(np.interp(0.5, *_sorted(aw, X)))} if cls is m.IglesiasChirife else {}
@@ -80,7 +116,9 @@ class IsothermTest(LabTest):
         found = self._fit_one(MODELS[name]) if name else self.fit()
         chosen = name or (self.model if self.model != "best" else found.flags[-1]["name"])
         aw, X = np.asarray(self.water_activity), np.asarray(self.moisture_dry_basis)
-        extra = {"moisture_half": float(np.interp(0.5, *_sorted(aw, X)))} if chosen == "iglesias_chirife" else {}
+        extra = (
+            {"moisture_half": float(np.interp(0.5, *_sorted(aw, X)))} if chosen == "iglesias_chirife" else {}
+        )
         return MODELS[chosen](**found.values, **extra)
 
 
@@ -94,7 +132,9 @@ def _line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return float(slope), float(intercept)
 
 
-def starts(cls: Any, aw: np.ndarray, X: np.ndarray, T: float) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
+def starts(
+    cls: Any, aw: np.ndarray, X: np.ndarray, T: float
+) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
     """Start values from the straight-line form of each model, and bounds."""
     X = np.maximum(X, 1e-6)
     low = -np.log(aw)
@@ -103,23 +143,43 @@ def starts(cls: Any, aw: np.ndarray, X: np.ndarray, T: float) -> tuple[dict[str,
         start = {"monolayer_moisture": m0, "monolayer_constant": 10.0}
         bounds = {"monolayer_moisture": POSITIVE, "monolayer_constant": (1e-3, 1e5)}
         if cls is a.Gab:
-            start["multilayer_constant"], bounds["multilayer_constant"] = 0.85, (0.01, 0.999 / float(aw.max()))
+            start["multilayer_constant"], bounds["multilayer_constant"] = (
+                0.85,
+                (0.01, 0.999 / float(aw.max())),
+            )
         return start, bounds
     if cls is m.Peleg:
         top = float(X.max())
         return (
-            {"isotherm_coefficient": 0.5 * top, "isotherm_exponent": 0.6, "isotherm_coefficient_second": 0.6 * top, "isotherm_exponent_second": 6.0},
-            {"isotherm_coefficient": (0.0, INF), "isotherm_exponent": (0.01, 50.0), "isotherm_coefficient_second": (0.0, INF),
-             "isotherm_exponent_second": (0.01, 100.0)},
-        )  # fmt: skip
+            {
+                "isotherm_coefficient": 0.5 * top,
+                "isotherm_exponent": 0.6,
+                "isotherm_coefficient_second": 0.6 * top,
+                "isotherm_exponent_second": 6.0,
+            },
+            {
+                "isotherm_coefficient": (0.0, INF),
+                "isotherm_exponent": (0.01, 50.0),
+                "isotherm_coefficient_second": (0.0, INF),
+                "isotherm_exponent_second": (0.01, 100.0),
+            },
+        )
     if cls is m.DoubleLog:
         c = polynomial(np.log(low), X, 3)
-        names = ("isotherm_coefficient", "isotherm_coefficient_second", "isotherm_coefficient_third", "isotherm_coefficient_fourth")
+        names = (
+            "isotherm_coefficient",
+            "isotherm_coefficient_second",
+            "isotherm_coefficient_third",
+            "isotherm_coefficient_fourth",
+        )
         return dict(zip(names, c, strict=True)), {}
     if cls is m.LewickiThree:
         scale = float(np.interp(0.5, *_sorted(aw, X)))
         return {"isotherm_coefficient": scale, "isotherm_exponent": 0.4, "isotherm_exponent_second": 5.0}, {
-            "isotherm_coefficient": POSITIVE, "isotherm_exponent": (1e-3, 5.0), "isotherm_exponent_second": (1e-3, 200.0)}  # fmt: skip
+            "isotherm_coefficient": POSITIVE,
+            "isotherm_exponent": (1e-3, 5.0),
+            "isotherm_exponent_second": (1e-3, 200.0),
+        }
     if cls in (m.Oswin, m.LewickiTwo):
         slope, intercept = _line(np.log(aw / (1 - aw)), np.log(X))
         exponent = slope if cls is m.Oswin else 1.0 - slope
@@ -137,7 +197,9 @@ def starts(cls: Any, aw: np.ndarray, X: np.ndarray, T: float) -> tuple[dict[str,
     if cls is m.Henderson:
         slope, intercept = _line(np.log(X), np.log(-np.log1p(-aw)))
         return {"isotherm_coefficient": float(np.exp(intercept) / T), "isotherm_exponent": max(slope, 0.1)}, {
-            "isotherm_coefficient": (1e-30, INF), "isotherm_exponent": (0.05, 20.0)}  # fmt: skip
+            "isotherm_coefficient": (1e-30, INF),
+            "isotherm_exponent": (0.05, 20.0),
+        }
     if cls in (m.Smith, m.Kuhn):
         slope, intercept = _line(-np.log1p(-aw) if cls is m.Smith else 1.0 / low, X)
         names = ("isotherm_coefficient", "isotherm_coefficient_second")
@@ -155,6 +217,15 @@ def starts(cls: Any, aw: np.ndarray, X: np.ndarray, T: float) -> tuple[dict[str,
     slope, intercept = _line(X, np.log(low))  # Bradley and Chen: ln(−ln a) falls with X
     if cls is m.Bradley:
         return {"isotherm_base": float(np.exp(slope)), "isotherm_coefficient": float(np.exp(intercept))}, {
-            "isotherm_base": (1e-30, 0.9999), "isotherm_coefficient": POSITIVE}  # fmt: skip
-    return {"isotherm_coefficient": float(np.exp(intercept)), "isotherm_exponent": max(-slope, 0.1), "isotherm_offset": -1e-3}, {
-        "isotherm_coefficient": POSITIVE, "isotherm_exponent": (1e-3, INF), "isotherm_offset": (float(np.log(aw.max())), 1.0)}  # fmt: skip
+            "isotherm_base": (1e-30, 0.9999),
+            "isotherm_coefficient": POSITIVE,
+        }
+    return {
+        "isotherm_coefficient": float(np.exp(intercept)),
+        "isotherm_exponent": max(-slope, 0.1),
+        "isotherm_offset": -1e-3,
+    }, {
+        "isotherm_coefficient": POSITIVE,
+        "isotherm_exponent": (1e-3, INF),
+        "isotherm_offset": (float(np.log(aw.max())), 1.0),
+    }

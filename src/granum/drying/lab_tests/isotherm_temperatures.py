@@ -1,4 +1,6 @@
-"""Isotherms measured at several temperatures: one law for all of them, and the isosteric heat that follows."""
+"""Isotherms measured at several temperatures: one law for all of them, and the isosteric heat that
+follows.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,16 @@ from granum.core import lab_test
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import MoistureDryBasis, MolarEnergy, Number, PositiveNumber, Series, SpecificEnergy, Temperature, WaterActivity
+from granum.core.kinds import (
+    MoistureDryBasis,
+    MolarEnergy,
+    Number,
+    PositiveNumber,
+    Series,
+    SpecificEnergy,
+    Temperature,
+    WaterActivity,
+)
 from granum.drying.isotherms import grains as g
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.isotherms.base import WATER_MOLAR_MASS
@@ -25,60 +36,96 @@ if TYPE_CHECKING:
 
 INF = float("inf")
 MODELS: dict[str, type] = {
-    "gab": Gab, "henderson_modified": g.HendersonModified, "chung_pfost": g.ChungPfost, "halsey_modified": g.HalseyModified,
+    "gab": Gab,
+    "henderson_modified": g.HendersonModified,
+    "chung_pfost": g.ChungPfost,
+    "halsey_modified": g.HalseyModified,
     "oswin_modified": g.OswinModified,
-}  # fmt: skip
+}
 LEAST_APART = 1.0  # K between the coldest and the warmest isotherm
 SAME = 0.5  # K, points of one isotherm
 
 
-@lab_test("isotherm_temperatures", source="iglesias1976; asaed245; vandenberg1981; keey1978", title="Sorption isotherms at several temperatures",
-          equation=r"X = X(a_w, T),\quad q_n = -\frac{R}{M_w}\left[\frac{\partial\ln a_w}{\partial(1/T)}\right]_X")  # fmt: skip
+@lab_test(
+    "isotherm_temperatures",
+    source="iglesias1976; asaed245; vandenberg1981; keey1978",
+    title="Sorption isotherms at several temperatures",
+    equation=r"X = X(a_w, T),\quad q_n = -\frac{R}{M_w}\left[\frac{\partial\ln a_w}{\partial(1/T)}\right]_X",
+)
 class IsothermTemperatures(LabTest):
-    """One isotherm law with temperature fitted to equilibrium moistures of all temperatures at once, with the net isosteric heat and its interval.
+    """One isotherm law with temperature fitted to equilibrium moistures of all temperatures at once, with the
+    net isosteric heat and its interval.
 
-    Modified Henderson, Chung–Pfost, Halsey and Oswin as in the grain standard, or GAB with energies of monolayer and multilayer; ``best``
-    takes the best-ranked. The isosteric heat belongs to the reference moisture (by default the median of the data) at the mean temperature.
+    Modified Henderson, Chung–Pfost, Halsey and Oswin as in the grain standard, or GAB with energies of
+    monolayer and multilayer; ``best`` takes the best-ranked. The isosteric heat belongs to the reference
+    moisture (by default the median of the data) at the mean temperature.
     """
 
     temperature: Annotated[Temperature, Series("points")]
     water_activity: Annotated[WaterActivity, Series("points")]
     moisture_dry_basis: Annotated[MoistureDryBasis, Series("points")]
     moisture_reference: MoistureDryBasis | None = None
-    model: Literal["best", "gab", "henderson_modified", "chung_pfost", "halsey_modified", "oswin_modified"] = "best"
+    model: Literal[
+        "best", "gab", "henderson_modified", "chung_pfost", "halsey_modified", "oswin_modified"
+    ] = "best"
     estimates: ClassVar = {
-        "monolayer_moisture": MoistureDryBasis, "monolayer_constant": PositiveNumber, "multilayer_constant": PositiveNumber,
-        "monolayer_energy": MolarEnergy, "multilayer_energy": MolarEnergy, "isotherm_coefficient": Number, "isotherm_exponent": Number,
-        "isotherm_temperature_offset": Number, "isotherm_coefficient_per_celsius": Number, "isosteric_heat_net": SpecificEnergy,
-    }  # fmt: skip
+        "monolayer_moisture": MoistureDryBasis,
+        "monolayer_constant": PositiveNumber,
+        "multilayer_constant": PositiveNumber,
+        "monolayer_energy": MolarEnergy,
+        "multilayer_energy": MolarEnergy,
+        "isotherm_coefficient": Number,
+        "isotherm_exponent": Number,
+        "isotherm_temperature_offset": Number,
+        "isotherm_coefficient_per_celsius": Number,
+        "isosteric_heat_net": SpecificEnergy,
+    }
     holds_for: ClassVar = ("water_activity", "temperature")
     axes: ClassVar = {"water_activity": WaterActivity, "moisture_dry_basis": MoistureDryBasis}
     least_points: ClassVar[int] = 6
 
     def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Temperature, water activity and moisture, checked."""
-        T, aw, X = (np.asarray(c, dtype=float) for c in (self.temperature, self.water_activity, self.moisture_dry_basis))
+        T, aw, X = (
+            np.asarray(c, dtype=float)
+            for c in (self.temperature, self.water_activity, self.moisture_dry_basis)
+        )
         if np.any((aw <= 0) | (aw >= 1)):
-            raise InputError(_("Every water activity must lie strictly between 0 and 1."), name="water_activity")
+            raise InputError(
+                _("Every water activity must lie strictly between 0 and 1."), name="water_activity"
+            )
         if np.ptp(T) < LEAST_APART:
             raise InputError(
-                _("All points have nearly one temperature: give isotherms of at least two, or use drying.isotherm."), name="temperature"
+                _(
+                    "All points have nearly one temperature: give isotherms of at least two, or use "
+                    "drying.isotherm."
+                ),
+                name="temperature",
             )
         return T, aw, np.maximum(X, 1e-6)
 
     @property
     def reference(self) -> tuple[float, float]:
         """Moisture and temperature to which the isosteric heat belongs."""
-        moisture = float(np.median(self.moisture_dry_basis)) if self.moisture_reference is None else float(self.moisture_reference)
+        moisture = (
+            float(np.median(self.moisture_dry_basis))
+            if self.moisture_reference is None
+            else float(self.moisture_reference)
+        )
         return moisture, float(np.mean(self.temperature))
 
     def law_of(self, cls: Any, values: dict[str, Any]) -> Any:
-        """The law of some estimates; GAB's constants are estimated at the mean temperature, where they are well determined."""
+        """The law of some estimates; GAB's constants are estimated at the mean temperature, where they are
+        well determined.
+        """
         if cls is not Gab:
             return cls(**values)
         r = 1.0 / (GAS_CONSTANT * self.reference[1])
         values = dict(values)
-        for constant, energy in (("monolayer_constant", "monolayer_energy"), ("multilayer_constant", "multilayer_energy")):
+        for constant, energy in (
+            ("monolayer_constant", "monolayer_energy"),
+            ("multilayer_constant", "multilayer_energy"),
+        ):
             values[constant] = values[constant] * jnp.exp(-values[energy] * r)
         return cls(**values)
 
@@ -117,7 +164,9 @@ class IsothermTemperatures(LabTest):
         return self.law_of(MODELS[name], found.values)
 
     def clausius_clapeyron(self, count: int = 9) -> tuple[np.ndarray, np.ndarray]:
-        """Moistures that every isotherm reaches, and the net isosteric heat there from the data alone: the slope of ln a over 1/T."""
+        """Moistures that every isotherm reaches, and the net isosteric heat there from the data alone: the
+        slope of ln a over 1/T.
+        """
         T, aw, X = self.columns()
         sets = [np.abs(T - level) < SAME for level in _levels(T)]
         levels = np.array([T[s].mean() for s in sets])
@@ -141,12 +190,22 @@ class IsothermTemperatures(LabTest):
 
         T, aw, X = self.columns()
         law = self.law()
-        drawing = figure(axis_title("water_activity"), axis_title("moisture_dry_basis", "kg/kg"), title=type(self).card.title)
+        drawing = figure(
+            axis_title("water_activity"),
+            axis_title("moisture_dry_basis", "kg/kg"),
+            title=type(self).card.title,
+        )
         grid = np.linspace(max(0.5 * aw.min(), 1e-3), min(1.02 * aw.max(), 0.98), 150)
         for i, level in enumerate(_levels(T)):
             here = np.abs(T - level) < SAME
             color = LINES[i % len(LINES)]
-            add_line(drawing, grid, np.asarray(law.moisture(jnp.asarray(grid), level)), show(level, KINDS["Temperature"]), color=color)
+            add_line(
+                drawing,
+                grid,
+                np.asarray(law.moisture(jnp.asarray(grid), level)),
+                show(level, KINDS["Temperature"]),
+                color=color,
+            )
             add_points(drawing, aw[here], X[here], _("data"), color=color, showlegend=i == 0)
         return drawing
 
@@ -165,30 +224,56 @@ def _line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return float(slope), float(intercept)
 
 
-def starts(cls: Any, T: np.ndarray, aw: np.ndarray, X: np.ndarray) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
+def starts(
+    cls: Any, T: np.ndarray, aw: np.ndarray, X: np.ndarray
+) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
     """Start values from the straight-line form of each model without temperature, and bounds."""
     t = float(np.mean(T)) - ZERO_CELSIUS
     percent = 100.0 * X
     if cls is Gab:
-        start = {"monolayer_moisture": float(np.interp(0.25, *_by_activity(aw, X))), "monolayer_constant": 10.0, "multilayer_constant": 0.8,
-                 "monolayer_energy": 5e3, "multilayer_energy": 0.0}  # fmt: skip
+        start = {
+            "monolayer_moisture": float(np.interp(0.25, *_by_activity(aw, X))),
+            "monolayer_constant": 10.0,
+            "multilayer_constant": 0.8,
+            "monolayer_energy": 5e3,
+            "multilayer_energy": 0.0,
+        }
         return start, {
-            "monolayer_moisture": (1e-6, INF), "monolayer_constant": (1e-3, 1e5), "multilayer_constant": (0.01, 0.999 / float(aw.max())),
-            "monolayer_energy": (-1e5, 1e5), "multilayer_energy": (-2e4, 2e4),
-        }  # fmt: skip
+            "monolayer_moisture": (1e-6, INF),
+            "monolayer_constant": (1e-3, 1e5),
+            "multilayer_constant": (0.01, 0.999 / float(aw.max())),
+            "monolayer_energy": (-1e5, 1e5),
+            "multilayer_energy": (-2e4, 2e4),
+        }
     exponents = {"isotherm_exponent": (1e-2, 60.0)}
     if cls is g.HendersonModified:
         slope, intercept = _line(np.log(percent), np.log(-np.log1p(-aw)))
         return (
-            {"isotherm_coefficient": float(np.exp(intercept)) / (t + 50.0), "isotherm_exponent": max(slope, 0.2), "isotherm_temperature_offset": 50.0},
-            {**exponents, "isotherm_coefficient": (1e-12, INF), "isotherm_temperature_offset": (1.0 - float(T.min()) + ZERO_CELSIUS, 5e3)},
-        )  # fmt: skip
+            {
+                "isotherm_coefficient": float(np.exp(intercept)) / (t + 50.0),
+                "isotherm_exponent": max(slope, 0.2),
+                "isotherm_temperature_offset": 50.0,
+            },
+            {
+                **exponents,
+                "isotherm_coefficient": (1e-12, INF),
+                "isotherm_temperature_offset": (1.0 - float(T.min()) + ZERO_CELSIUS, 5e3),
+            },
+        )
     if cls is g.ChungPfost:
         slope, intercept = _line(X, np.log(-np.log(aw)))
         return (
-            {"isotherm_coefficient": float(np.exp(intercept)) * (t + 50.0), "isotherm_exponent": max(-slope, 0.5), "isotherm_temperature_offset": 50.0},
-            {"isotherm_exponent": (1e-2, 1e3), "isotherm_coefficient": (1e-6, INF), "isotherm_temperature_offset": (1.0 - float(T.min()) + ZERO_CELSIUS, 5e3)},
-        )  # fmt: skip
+            {
+                "isotherm_coefficient": float(np.exp(intercept)) * (t + 50.0),
+                "isotherm_exponent": max(-slope, 0.5),
+                "isotherm_temperature_offset": 50.0,
+            },
+            {
+                "isotherm_exponent": (1e-2, 1e3),
+                "isotherm_coefficient": (1e-6, INF),
+                "isotherm_temperature_offset": (1.0 - float(T.min()) + ZERO_CELSIUS, 5e3),
+            },
+        )
     if cls is g.HalseyModified:
         slope, intercept = _line(np.log(percent), np.log(-np.log(aw)))
         return {
@@ -199,9 +284,13 @@ def starts(cls: Any, T: np.ndarray, aw: np.ndarray, X: np.ndarray) -> tuple[dict
     slope, intercept = _line(np.log(aw / (1.0 - aw)), np.log(percent))
     top = float(np.exp(intercept))
     return (
-        {"isotherm_coefficient": 1.1 * top, "isotherm_coefficient_per_celsius": -0.1 * top / max(t, 5.0), "isotherm_exponent": 1.0 / max(slope, 0.05)},
+        {
+            "isotherm_coefficient": 1.1 * top,
+            "isotherm_coefficient_per_celsius": -0.1 * top / max(t, 5.0),
+            "isotherm_exponent": 1.0 / max(slope, 0.05),
+        },
         {**exponents, "isotherm_coefficient": (1e-6, INF)},
-    )  # fmt: skip
+    )
 
 
 def _by_activity(aw: np.ndarray, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

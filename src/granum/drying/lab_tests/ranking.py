@@ -1,4 +1,6 @@
-"""Fitting many models to one data set and ranking them by the corrected Akaike criterion, equal curves counted once."""
+"""Fitting many models to one data set and ranking them by the corrected Akaike criterion, equal curves
+counted once.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,8 @@ class Ranked:
     delta: AICc above the best; beyond 10 the model has no support (Burnham and Anderson).
     weight: Akaike weight among different curves.
     same_curve_as: better-placed model that draws the same curve, if any: it is no independent support.
-    residual_runs: probability of so few sign changes of the residuals by chance; small means a systematic misfit.
+    residual_runs: probability of so few sign changes of the residuals by chance; small means a systematic
+        misfit.
     """
 
     name: str
@@ -37,10 +40,15 @@ class Ranked:
     def as_json(self) -> dict[str, Any]:
         """Plain data for tables."""
         return {
-            "model": self.name, "aicc": self.fit.statistics["aicc"], "delta": self.delta, "weight": self.weight,
-            "same_curve_as": self.same_curve_as, "residual_runs": self.residual_runs, "rmse": self.fit.statistics["rmse"],
+            "model": self.name,
+            "aicc": self.fit.statistics["aicc"],
+            "delta": self.delta,
+            "weight": self.weight,
+            "same_curve_as": self.same_curve_as,
+            "residual_runs": self.residual_runs,
+            "rmse": self.fit.statistics["rmse"],
             "parameters": {n: e.value for n, e in self.fit.parameters.items()},
-        }  # fmt: skip
+        }
 
 
 def rank(models: Mapping[str, type], fit_one: Callable[[type], Fit]) -> tuple[list[Ranked], dict[str, str]]:
@@ -61,7 +69,9 @@ def rank(models: Mapping[str, type], fit_one: Callable[[type], Fit]) -> tuple[li
             )
     if not fits:
         reasons = "; ".join(f"{name}: {reason}" for name, reason in list(failed.items())[:2])
-        raise InputError(_("None of the models can be fitted to these points ({reasons}).").format(reasons=reasons))
+        raise InputError(
+            _("None of the models can be fitted to these points ({reasons}).").format(reasons=reasons)
+        )
     order = sorted(fits, key=lambda n: (fits[n].statistics["aicc"], n))
     leaders: dict[str, str] = {}
     best = fits[order[0]].statistics["aicc"]
@@ -74,14 +84,23 @@ def rank(models: Mapping[str, type], fit_one: Callable[[type], Fit]) -> tuple[li
         rows.append((name, float(delta), None if same == name else same))
     total = sum(np.exp(-0.5 * delta) for _name, delta, same in rows if same is None)
     ranked = [
-        Ranked(name, fits[name], delta, 0.0 if same else float(np.exp(-0.5 * delta) / total), same, residual_runs(fits[name].residuals))
+        Ranked(
+            name,
+            fits[name],
+            delta,
+            0.0 if same else float(np.exp(-0.5 * delta) / total),
+            same,
+            residual_runs(fits[name].residuals),
+        )
         for name, delta, same in rows
     ]
     return ranked, failed
 
 
 def residual_runs(residuals: np.ndarray) -> float:
-    """Probability of at most so many runs of equal sign if the residuals were independent (Wald–Wolfowitz, normal approximation)."""
+    """Probability of at most so many runs of equal sign if the residuals were independent (Wald–Wolfowitz,
+    normal approximation).
+    """
     from scipy.stats import norm
 
     signs = residuals[residuals != 0] > 0

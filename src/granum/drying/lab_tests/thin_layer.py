@@ -17,29 +17,75 @@ from granum.drying.thin_layers import other as o
 from granum.estimation import Fit, LabTest
 
 MODELS: dict[str, type] = {
-    "lewis": e.Lewis, "page": e.Page, "page_modified": e.PageModified, "weibull": e.Weibull, "henderson_pabis": e.HendersonPabis,
-    "logarithmic": e.Logarithmic, "two_term": e.TwoTerm, "two_term_exponential": e.TwoTermExponential, "verma": e.Verma,
-    "diffusion_approach": e.DiffusionApproach, "henderson_pabis_modified": e.HendersonPabisModified, "midilli": o.Midilli,
-    "weibull_four": o.WeibullFour, "demir": o.Demir, "hii": o.Hii, "wang_singh": o.WangSingh, "parabolic": o.Parabolic,
-    "peleg": o.PelegRatio, "silva": o.Silva, "fick_simplified": o.FickSimplified, "thompson": o.Thompson, "aghbashlo": o.Aghbashlo,
-}  # fmt: skip
+    "lewis": e.Lewis,
+    "page": e.Page,
+    "page_modified": e.PageModified,
+    "weibull": e.Weibull,
+    "henderson_pabis": e.HendersonPabis,
+    "logarithmic": e.Logarithmic,
+    "two_term": e.TwoTerm,
+    "two_term_exponential": e.TwoTermExponential,
+    "verma": e.Verma,
+    "diffusion_approach": e.DiffusionApproach,
+    "henderson_pabis_modified": e.HendersonPabisModified,
+    "midilli": o.Midilli,
+    "weibull_four": o.WeibullFour,
+    "demir": o.Demir,
+    "hii": o.Hii,
+    "wang_singh": o.WangSingh,
+    "parabolic": o.Parabolic,
+    "peleg": o.PelegRatio,
+    "silva": o.Silva,
+    "fick_simplified": o.FickSimplified,
+    "thompson": o.Thompson,
+    "aghbashlo": o.Aghbashlo,
+}
 
 
-@lab_test("thin_layer_test", source="erbay2010; burnham2002", title="Thin-layer drying test", equation=r"MR = \frac{X - X_e}{X_0 - X_e}")
+@lab_test(
+    "thin_layer_test",
+    source="erbay2010; burnham2002",
+    title="Thin-layer drying test",
+    equation=r"MR = \frac{X - X_e}{X_0 - X_e}",
+)
 class ThinLayerTest(LabTest):
-    """Thin-layer models fitted to moisture ratios and ranked by AICc; models that draw the same curve are known as one.
+    """Thin-layer models fitted to moisture ratios and ranked by AICc; models that draw the same curve are
+    known as one.
 
-    Give the column ``moisture_ratio``, or ``moisture_dry_basis`` with the equilibrium moisture (the first point is taken as the initial
-    moisture). ``model`` fits one model by name; ``best``, the default, the best-ranked of all.
+    Give the column ``moisture_ratio``, or ``moisture_dry_basis`` with the equilibrium moisture (the first
+    point is taken as the initial moisture). ``model`` fits one model by name; ``best``, the default, the
+    best-ranked of all.
     """
 
     time: Annotated[Time, Series("points")]
     moisture_ratio: Annotated[Ratio, Series("points")] | None = None
     moisture_dry_basis: Annotated[MoistureDryBasis, Series("points")] | None = None
     equilibrium_moisture: MoistureDryBasis = 0.0
-    model: Literal["best", "lewis", "page", "page_modified", "weibull", "henderson_pabis", "logarithmic", "two_term", "two_term_exponential",
-                   "verma", "diffusion_approach", "henderson_pabis_modified", "midilli", "weibull_four", "demir", "hii", "wang_singh",
-                   "parabolic", "peleg", "silva", "fick_simplified", "thompson", "aghbashlo"] = "best"  # fmt: skip
+    model: Literal[
+        "best",
+        "lewis",
+        "page",
+        "page_modified",
+        "weibull",
+        "henderson_pabis",
+        "logarithmic",
+        "two_term",
+        "two_term_exponential",
+        "verma",
+        "diffusion_approach",
+        "henderson_pabis_modified",
+        "midilli",
+        "weibull_four",
+        "demir",
+        "hii",
+        "wang_singh",
+        "parabolic",
+        "peleg",
+        "silva",
+        "fick_simplified",
+        "thompson",
+        "aghbashlo",
+    ] = "best"
     estimates: ClassVar = {"rate_constant": Number, "time_exponent": Number}
     axes: ClassVar = {"time": Time, "moisture_ratio": Ratio}
     least_points: ClassVar[int] = 4
@@ -52,7 +98,9 @@ class ThinLayerTest(LabTest):
             return np.asarray(self.moisture_ratio, dtype=float)
         X = np.asarray(self.moisture_dry_basis, dtype=float)
         if self.equilibrium_moisture >= X[0]:
-            raise InputError(_("The equilibrium moisture lies above the first moisture."), name="equilibrium_moisture")
+            raise InputError(
+                _("The equilibrium moisture lies above the first moisture."), name="equilibrium_moisture"
+            )
         return (X - self.equilibrium_moisture) / (X[0] - self.equilibrium_moisture)
 
     def _fit_one(self, cls: Any, *, judged: bool = False) -> Fit:
@@ -76,9 +124,18 @@ class ThinLayerTest(LabTest):
     def _restated(values: dict[str, float], cls: Any, unit: float) -> dict[str, float]:
         n = values.get("time_exponent", 1.0)
         stretched = cls.curve in ("midilli", "hii") or cls in (e.Page, o.WeibullFour)
-        powers = {"rate_constant": -n if stretched else -1.0, "rate_constant_second": -n if stretched else -1.0, "rate_constant_third": -1.0,
-                  "time_scale": 1.0, "time_slope": -1.0, "time_curvature": -2.0, "root_rate": -0.5, "rate_area": -1.0,
-                  "thompson_linear": 1.0, "thompson_quadratic": 1.0}  # fmt: skip
+        powers = {
+            "rate_constant": -n if stretched else -1.0,
+            "rate_constant_second": -n if stretched else -1.0,
+            "rate_constant_third": -1.0,
+            "time_scale": 1.0,
+            "time_slope": -1.0,
+            "time_curvature": -2.0,
+            "root_rate": -0.5,
+            "rate_area": -1.0,
+            "thompson_linear": 1.0,
+            "thompson_quadratic": 1.0,
+        }
         return {name: value * unit ** powers.get(name, 0.0) for name, value in values.items()}
 
     def ranking(self) -> tuple[list[Ranked], dict[str, str]]:

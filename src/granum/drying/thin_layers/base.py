@@ -11,9 +11,11 @@ import jax.numpy as jnp
 
 
 class AbstractThinLayer(eqx.Module):
-    """Moisture ratio (X − X_e)/(X_0 − X_e) of a thin layer in constant air. Times in seconds, so rate constants are per second.
+    """Moisture ratio (X − X_e)/(X_0 − X_e) of a thin layer in constant air. Times in seconds, so rate
+    constants are per second.
 
-    ``curve`` names the family of curves: models of one name draw the same curves. ``bounds`` keep a fit where the model means something.
+    ``curve`` names the family of curves: models of one name draw the same curves. ``bounds`` keep a fit where
+    the model means something.
     """
 
     curve: eqx.AbstractClassVar[str]

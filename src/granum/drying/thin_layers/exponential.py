@@ -19,7 +19,13 @@ class _Called(AbstractThinLayer):
         return self.ratio(jnp.asarray(time, dtype=float))
 
 
-@law("thin_layer", name="thin_layer_lewis", source="lewis1921", title="Thin layer, Newton–Lewis", equation=r"MR = e^{-kt}")
+@law(
+    "thin_layer",
+    name="thin_layer_lewis",
+    source="lewis1921",
+    title="Thin layer, Newton–Lewis",
+    equation=r"MR = e^{-kt}",
+)
 class Lewis(_Called):
     """First-order drying: the rate is proportional to the moisture still to go.
 
@@ -39,7 +45,13 @@ class Lewis(_Called):
         return {"rate_constant": k}
 
 
-@law("thin_layer", name="thin_layer_page", source="page1949", title="Thin layer, Page", equation=r"MR = e^{-k t^n}")
+@law(
+    "thin_layer",
+    name="thin_layer_page",
+    source="page1949",
+    title="Thin layer, Page",
+    equation=r"MR = e^{-k t^n}",
+)
 class Page(_Called):
     """Page's stretched exponential; k is per second to the power n.
 
@@ -60,7 +72,13 @@ class Page(_Called):
         return {"rate_constant": k, "time_exponent": 1.0}
 
 
-@law("thin_layer", name="thin_layer_page_modified", source="overhults1973", title="Thin layer, modified Page", equation=r"MR = e^{-(kt)^n}")
+@law(
+    "thin_layer",
+    name="thin_layer_page_modified",
+    source="overhults1973",
+    title="Thin layer, modified Page",
+    equation=r"MR = e^{-(kt)^n}",
+)
 class PageModified(_Called):
     """Page's curve with a rate constant per second, which makes it comparable between products.
 
@@ -81,7 +99,13 @@ class PageModified(_Called):
         return {"rate_constant": k, "time_exponent": 1.0}
 
 
-@law("thin_layer", name="thin_layer_weibull", source="corzo2008", title="Thin layer, Weibull", equation=r"MR = e^{-(t/\beta)^\alpha}")
+@law(
+    "thin_layer",
+    name="thin_layer_weibull",
+    source="corzo2008",
+    title="Thin layer, Weibull",
+    equation=r"MR = e^{-(t/\beta)^\alpha}",
+)
 class Weibull(_Called):
     """Page's curve with a time scale: after it, 63 % of the moisture has gone.
 
@@ -113,7 +137,8 @@ class Weibull(_Called):
 class HendersonPabis(_Called):
     """First term of the diffusion series with a free factor; it need not start at 1.
 
-    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less than a hundredth of it.
+    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less
+    than a hundredth of it.
 
     >>> round(float(HendersonPabis(model_factor=1.0, rate_constant=1e-3)(1000.0)), 4)
     0.3679
@@ -193,11 +218,22 @@ class TwoTerm(_Called):
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
-        return {"model_factor": 0.6, "rate_constant": 0.7 * k, "model_factor_second": 0.4, "rate_constant_second": 2.5 * k}
+        return {
+            "model_factor": 0.6,
+            "rate_constant": 0.7 * k,
+            "model_factor_second": 0.4,
+            "rate_constant_second": 2.5 * k,
+        }
 
 
-@law("thin_layer", name="thin_layer_two_term_exponential", source="sharafeldeen1980; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, two-term exponential",
-     equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kat}")  # fmt: skip
+@law(
+    "thin_layer",
+    name="thin_layer_two_term_exponential",
+    source="sharafeldeen1980; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, two-term exponential",
+    equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kat}",
+)
 class TwoTermExponential(_Called):
     """Two exponentials that share one factor and start at 1.
 
@@ -253,8 +289,14 @@ class Verma(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_constant_second": 2.5 * k}
 
 
-@law("thin_layer", name="thin_layer_diffusion_approach", source="yaldiz2001; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, diffusion approach",
-     equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kbt}")  # fmt: skip
+@law(
+    "thin_layer",
+    name="thin_layer_diffusion_approach",
+    source="yaldiz2001; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, diffusion approach",
+    equation=r"MR = a\,e^{-kt} + (1-a)\,e^{-kbt}",
+)
 class DiffusionApproach(_Called):
     """Verma's curve with g written as k b.
 
@@ -279,8 +321,14 @@ class DiffusionApproach(_Called):
         return {"model_factor": 0.6, "rate_constant": 0.7 * k, "rate_ratio": 3.5}
 
 
-@law("thin_layer", name="thin_layer_henderson_pabis_modified", source="karathanos1999; brooker1992", fitted={"thin_layer": (0.0, 1.0)}, title="Thin layer, modified Henderson–Pabis",
-     equation=r"MR = a\,e^{-kt} + b\,e^{-gt} + c\,e^{-ht}")  # fmt: skip
+@law(
+    "thin_layer",
+    name="thin_layer_henderson_pabis_modified",
+    source="karathanos1999; brooker1992",
+    fitted={"thin_layer": (0.0, 1.0)},
+    title="Thin layer, modified Henderson–Pabis",
+    equation=r"MR = a\,e^{-kt} + b\,e^{-gt} + c\,e^{-ht}",
+)
 class HendersonPabisModified(_Called):
     """Three exponentials; six parameters that few data can tell apart.
 
@@ -291,7 +339,11 @@ class HendersonPabisModified(_Called):
     """
 
     curve: ClassVar[str] = "three_term"
-    bounds: ClassVar = {"rate_constant": POSITIVE, "rate_constant_second": POSITIVE, "rate_constant_third": POSITIVE}
+    bounds: ClassVar = {
+        "rate_constant": POSITIVE,
+        "rate_constant_second": POSITIVE,
+        "rate_constant_third": POSITIVE,
+    }
     model_factor: Number
     rate_constant: PositiveNumber
     model_factor_second: Number
@@ -306,5 +358,11 @@ class HendersonPabisModified(_Called):
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
-        return {"model_factor": 0.5, "rate_constant": 0.7 * k, "model_factor_second": 0.3, "rate_constant_second": 2.0 * k,
-                "model_factor_third": 0.2, "rate_constant_third": 6.0 * k}  # fmt: skip
+        return {
+            "model_factor": 0.5,
+            "rate_constant": 0.7 * k,
+            "model_factor_second": 0.3,
+            "rate_constant_second": 2.0 * k,
+            "model_factor_third": 0.2,
+            "rate_constant_third": 6.0 * k,
+        }

@@ -45,7 +45,10 @@ class Midilli(_Called):
     time_slope: Number
 
     def ratio(self, t: Any) -> Any:
-        return self.model_factor * jnp.exp(-self.rate_constant * power(t, self.time_exponent)) + self.time_slope * t
+        return (
+            self.model_factor * jnp.exp(-self.rate_constant * power(t, self.time_exponent))
+            + self.time_slope * t
+        )
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
@@ -78,7 +81,9 @@ class WeibullFour(_Called):
     time_exponent: PositiveNumber
 
     def ratio(self, t: Any) -> Any:
-        return self.model_offset - self.model_factor * jnp.exp(-self.rate_constant * power(t, self.time_exponent))
+        return self.model_offset - self.model_factor * jnp.exp(
+            -self.rate_constant * power(t, self.time_exponent)
+        )
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
@@ -110,7 +115,10 @@ class Demir(_Called):
     model_offset: Number
 
     def ratio(self, t: Any) -> Any:
-        return self.model_factor * jnp.exp(-power(self.rate_constant * t, self.time_exponent)) + self.model_offset
+        return (
+            self.model_factor * jnp.exp(-power(self.rate_constant * t, self.time_exponent))
+            + self.model_offset
+        )
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
@@ -135,7 +143,11 @@ class Hii(_Called):
     """
 
     curve: ClassVar[str] = "hii"
-    bounds: ClassVar = {"rate_constant": POSITIVE, "rate_constant_second": POSITIVE, "time_exponent": EXPONENT}
+    bounds: ClassVar = {
+        "rate_constant": POSITIVE,
+        "rate_constant_second": POSITIVE,
+        "time_exponent": EXPONENT,
+    }
     model_factor: Number
     rate_constant: PositiveNumber
     time_exponent: PositiveNumber
@@ -144,7 +156,9 @@ class Hii(_Called):
 
     def ratio(self, t: Any) -> Any:
         s = power(t, self.time_exponent)
-        return self.model_factor * jnp.exp(-self.rate_constant * s) + self.model_factor_second * jnp.exp(-self.rate_constant_second * s)
+        return self.model_factor * jnp.exp(-self.rate_constant * s) + self.model_factor_second * jnp.exp(
+            -self.rate_constant_second * s
+        )
 
     @classmethod
     def first(cls, k: float) -> dict[str, float]:
@@ -287,7 +301,8 @@ class Silva(_Called):
 class FickSimplified(_Called):
     """First term of the diffusion series on a thickness: the curve of Henderson and Pabis.
 
-    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less than a hundredth of it.
+    As the first term of the series alone it holds below a moisture ratio of 0.6, where the second is less
+    than a hundredth of it.
 
     >>> round(float(FickSimplified(1.0, 1e-9, 1e-3)(1000.0)), 4)
     0.3679
@@ -308,10 +323,15 @@ class FickSimplified(_Called):
 
 
 @law(
-    "thin_layer", name="thin_layer_thompson", source="thompson1968", title="Thin layer, Thompson", equation=r"t = a\,\ln MR + b\,(\ln MR)^2"
+    "thin_layer",
+    name="thin_layer_thompson",
+    source="thompson1968",
+    title="Thin layer, Thompson",
+    equation=r"t = a\,\ln MR + b\,(\ln MR)^2",
 )
 class Thompson(_Called):
-    """Thompson's time over moisture ratio, turned round: both constants as printed, a negative and b positive in seconds.
+    """Thompson's time over moisture ratio, turned round: both constants as printed, a negative and b positive
+    in seconds.
 
     >>> round(float(Thompson(-1000.0, 0.0)(1000.0)), 4)
     0.3679

@@ -1,4 +1,6 @@
-"""Batch cake filters: form, wash, drain, open and clean. In a line they stand for several working in turn, averaged over the cycle."""
+"""Batch cake filters: form, wash, drain, open and clean. In a line they stand for several working in turn,
+averaged over the cycle.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ from granum.streams.units import Limits
 
 
 class BatchFilter(CakeFilter):
-    """Abstract batch filter: one cake thickness, the times that follow from it, and the times that are set."""
+    """Abstract batch filter: one cake thickness, the times that follow from it, and the times that are
+    set.
+    """
 
     _: KW_ONLY
     deliquoring_time: Time = 0.0
@@ -43,9 +47,14 @@ class BatchFilter(CakeFilter):
     def formation_time(self, s: Slurry) -> Any:
         """Time to fill."""
         return filtration_time_constant_pressure(
-            self.loading(s) / s.dry_cake_per_filtrate, 1.0, self.pressure_drop, s.dynamic_viscosity, self.resistance,
-            s.dry_cake_per_filtrate, self.medium_resistance,
-        )  # fmt: skip
+            self.loading(s) / s.dry_cake_per_filtrate,
+            1.0,
+            self.pressure_drop,
+            s.dynamic_viscosity,
+            self.resistance,
+            s.dry_cake_per_filtrate,
+            self.medium_resistance,
+        )
 
     def plan(self, s: Slurry, feed: Stream, wash: Stream | None = None) -> Plan:
         loading, formation = self.loading(s), self.formation_time(s)
@@ -53,9 +62,15 @@ class BatchFilter(CakeFilter):
         wash_time = self.wash_ratio(feed, wash) * void / (self.wash_rate_ratio * self.wash_flux(loading, s))
         cycle = formation + wash_time + self.deliquoring_time + self.dead_time
         return Plan(
-            loading, jnp.asarray(self.full_thickness, dtype=float), formation, wash_time, jnp.asarray(self.deliquoring_time, dtype=float),
-            cycle, s.solid_flow * cycle / loading, jnp.zeros(()),
-        )  # fmt: skip
+            loading,
+            jnp.asarray(self.full_thickness, dtype=float),
+            formation,
+            wash_time,
+            jnp.asarray(self.deliquoring_time, dtype=float),
+            cycle,
+            s.solid_flow * cycle / loading,
+            jnp.zeros(()),
+        )
 
 
 class Press(BatchFilter):
@@ -72,13 +87,19 @@ class Press(BatchFilter):
     def full_thickness(self) -> Any:
         return 0.5 * self.chamber_depth
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "chamber": self.chamber_depth}
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "pressure": self.pressure_drop,
+            "chamber": self.chamber_depth,
+        }
 
 
 @equipment("plate_and_frame_press", source="geankoplis2003, § 14.2", title="Plate-and-frame filter press")
 class PlateAndFramePress(Press):
-    """Frames between plates; wash liquor crosses the whole frame on half of the area, at a quarter of the final filtrate rate.
+    """Frames between plates; wash liquor crosses the whole frame on half of the area, at a quarter of the
+    final filtrate rate.
 
     The area is that of both faces of all frames, the chamber depth that of a frame.
     """
@@ -98,10 +119,11 @@ class ChamberPress(Press):
 
 @equipment("membrane_press", source="wakeman2005", title="Membrane filter press")
 class MembranePress(Press):
-    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing time.
+    """Chamber press whose membranes squeeze the washed cake towards a lower void fraction in a squeezing
+    time.
 
-    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber draining on one face; without,
-    it is taken as reached.
+    With a consolidation coefficient the cake approaches that void fraction by Terzaghi's law, half a chamber
+    draining on one face; without, it is taken as reached.
     """
 
     void_fraction_squeezed: VoidFraction
@@ -109,7 +131,9 @@ class MembranePress(Press):
     consolidation_coefficient: Diffusivity | None = None
 
     limits: ClassVar[Limits] = Press.limits | {
-        "squeezed": Limit("void fraction after squeezing over before", 0.3, 1.0, "dimensionless", "wakeman2005"),
+        "squeezed": Limit(
+            "void fraction after squeezing over before", 0.3, 1.0, "dimensionless", "wakeman2005"
+        ),
         "reached": Limit("share of the possible squeezing reached", 0.8, 1.0, "dimensionless", "shirato1974"),
     }
 
@@ -119,7 +143,9 @@ class MembranePress(Press):
         if self.consolidation_coefficient is None:
             return 1.0
         solid = self.full_thickness * (1.0 - self.void_fraction)
-        return consolidation_ratio_terzaghi(consolidation_time(self.squeezing_time, self.consolidation_coefficient, solid))
+        return consolidation_ratio_terzaghi(
+            consolidation_time(self.squeezing_time, self.consolidation_coefficient, solid)
+        )
 
     def squeezed(self) -> Any:
         after, before = self.void_fraction_squeezed, self.void_fraction
@@ -131,7 +157,9 @@ class MembranePress(Press):
         longer = (plan.cycle_time + self.squeezing_time) / plan.cycle_time
         return plan._replace(cycle_time=plan.cycle_time * longer, area_required=plan.area_required * longer)
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
             "squeezed": self.void_fraction_squeezed / self.void_fraction,
             "reached": self.consolidation_ratio,
@@ -153,13 +181,20 @@ class Nutsche(BatchFilter):
     def full_thickness(self) -> Any:
         return self.full_cake_thickness
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "cake": self.full_cake_thickness}
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "pressure": self.pressure_drop,
+            "cake": self.full_cake_thickness,
+        }
 
 
 @equipment("pressure_leaf_filter", source="wakeman2005", title="Pressure leaf filter")
 class PressureLeafFilter(BatchFilter):
-    """Leaves in a pressure vessel, cake on both faces, dropped by vibration or sluicing; the area is that of all faces."""
+    """Leaves in a pressure vessel, cake on both faces, dropped by vibration or sluicing; the area is that of
+    all faces.
+    """
 
     full_cake_thickness: Length
 
@@ -172,15 +207,26 @@ class PressureLeafFilter(BatchFilter):
     def full_thickness(self) -> Any:
         return self.full_cake_thickness
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, wash) | {"pressure": self.pressure_drop, "cake": self.full_cake_thickness}
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "pressure": self.pressure_drop,
+            "cake": self.full_cake_thickness,
+        }
 
 
-@equipment("candle_filter", source="wakeman2005", title="Candle filter",
-           equation=r"t = \frac{\eta}{\Delta p\,W}\left[\alpha\,(1-\varepsilon)^2\rho_s^2\left(\frac{r^2}{2}\ln\frac{r}{r_0} - \frac{r^2 - r_0^2}{4}\right)"
-           r" + R_s M/\Omega\right]")  # fmt: skip
+@equipment(
+    "candle_filter",
+    source="wakeman2005",
+    title="Candle filter",
+    equation=r"t = \frac{\eta}{\Delta p\,W}\left[\alpha\,(1-\varepsilon)^2\rho_s^2\left(\frac{r^2}{2}\ln\frac{r}{r_0} - \frac{r^2 - r_0^2}{4}\right)"  # noqa: E501
+    r" + R_s M/\Omega\right]",
+)
 class CandleFilter(BatchFilter):
-    """Cylindrical elements in a pressure vessel: the cake grows outward and thins the flow through it; area that of the candles."""
+    """Cylindrical elements in a pressure vessel: the cake grows outward and thins the flow through it; area
+    that of the candles.
+    """
 
     full_cake_thickness: Length
     candle_radius: Length
@@ -202,9 +248,15 @@ class CandleFilter(BatchFilter):
         r0, r = self.candle_radius, self.candle_radius + self.full_cake_thickness
         packed = (1.0 - self.void_fraction) * s.solid_density
         cake = self.resistance * packed**2 * (0.5 * r**2 * jnp.log(r / r0) - 0.25 * (r**2 - r0**2))
-        return s.dynamic_viscosity / (self.pressure_drop * s.dry_cake_per_filtrate) * (cake + self.medium_resistance * self.loading(s))
+        return (
+            s.dynamic_viscosity
+            / (self.pressure_drop * s.dry_cake_per_filtrate)
+            * (cake + self.medium_resistance * self.loading(s))
+        )
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
             "pressure": self.pressure_drop,
             "curved": self.full_cake_thickness / self.candle_radius,

@@ -1,4 +1,6 @@
-"""What all cake filters share: the split of a slurry into cake, filtrate and washings, washing and deliquoring of the cake."""
+"""What all cake filters share: the split of a slurry into cake, filtrate and washings, washing and
+deliquoring of the cake.
+"""
 
 from __future__ import annotations
 
@@ -22,14 +24,19 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.core.limits import Limit
-from granum.filtration.formulas.deliquoring import capillary_number_cake, irreducible_saturation, saturation_after_deliquoring
+from granum.filtration.formulas.deliquoring import (
+    capillary_number_cake,
+    irreducible_saturation,
+    saturation_after_deliquoring,
+)
 from granum.filtration.formulas.resistance import cake_permeability, cake_resistance_power_law
 from granum.streams.cake_maker import CakeMaker
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-# so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it, resistance 1/m of nothing
+# so that a feed without solid or without liquid gives numbers: m³/s of filtrate, kg of cake per m³ of it,
+# resistance 1/m of nothing
 TRICKLE, THIN, OPEN = 1e-15, 1e-9, 1e3
 
 
@@ -79,7 +86,9 @@ class Slurry(NamedTuple):
 
 
 class Caked(NamedTuple):
-    """The cake of a filter: its slurry and cycle, wash liquor per void volume, mother liquor that washing leaves in it, saturation at discharge."""
+    """The cake of a filter: its slurry and cycle, wash liquor per void volume, mother liquor that washing
+    leaves in it, saturation at discharge.
+    """
 
     slurry: Slurry
     plan: Plan
@@ -89,10 +98,11 @@ class Caked(NamedTuple):
 
 
 class CakeFilter(CakeMaker):
-    """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle goes.
+    """Abstract cake filter: area, driving pressure and cake properties; the kind of filter says how its cycle
+    goes.
 
-    The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power ``compressibility`` of the
-    pressure drop.
+    The resistance of the cake is ``cake_resistance`` at ``reference_pressure`` and grows with the power
+    ``compressibility`` of the pressure drop.
     """
 
     area: Area
@@ -105,8 +115,12 @@ class CakeFilter(CakeMaker):
 
     limits: ClassVar[Limits] = {
         "capacity": Limit("share of the filtration capacity in use", 0.0, 1.0, "dimensionless", "ruth1935"),
-        "wash": Limit("share of the washing capacity in use", 0.0, 1.0, "dimensionless", "mccabe2005, ch. 29"),
-        "packed": Limit("solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"),
+        "wash": Limit(
+            "share of the washing capacity in use", 0.0, 1.0, "dimensionless", "mccabe2005, ch. 29"
+        ),
+        "packed": Limit(
+            "solids in the feed over those of a packed cake", 0.0, 0.9, "dimensionless", "mccabe2005, ch. 29"
+        ),
     }
 
     @abc.abstractmethod
@@ -116,7 +130,9 @@ class CakeFilter(CakeMaker):
     @property
     def resistance(self) -> Any:
         """Specific resistance of the cake at the driving pressure."""
-        return cake_resistance_power_law(self.pressure_drop, self.cake_resistance, self.compressibility, self.reference_pressure)
+        return cake_resistance_power_law(
+            self.pressure_drop, self.cake_resistance, self.compressibility, self.reference_pressure
+        )
 
     def media_resistance(self) -> Any:
         """Resistance of what carries the cake."""
@@ -129,18 +145,30 @@ class CakeFilter(CakeMaker):
         filtrate = jnp.maximum(liquid - jnp.minimum(void, liquid), 1e-12 * liquid + TRICKLE)
         cake = jnp.maximum(solid / filtrate, THIN)
         own = feed.liquid_viscosity
-        return Slurry(solid, feed.solid_density, feed.liquid_density, own, cake, void, own if wash is None else wash.liquid_viscosity)
+        return Slurry(
+            solid,
+            feed.solid_density,
+            feed.liquid_density,
+            own,
+            cake,
+            void,
+            own if wash is None else wash.liquid_viscosity,
+        )
 
     def wash_flux(self, loading: Any, s: Slurry) -> Any:
         """Superficial velocity of wash liquor through a cake of that dry mass per area."""
-        return self.pressure_drop / (s.wash_viscosity * jnp.maximum(self.resistance * loading + self.media_resistance(), OPEN))
+        return self.pressure_drop / (
+            s.wash_viscosity * jnp.maximum(self.resistance * loading + self.media_resistance(), OPEN)
+        )
 
     def thickness(self, loading: Any, solid_density: Any) -> Any:
         """Cake thickness of a dry mass per area."""
         return loading / ((1.0 - self.void_fraction) * solid_density)
 
     def squeezed(self) -> Any:
-        """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not squeeze."""
+        """Void volume per solid after mechanical squeezing over that before; 1 where the filter does not
+        squeeze.
+        """
         return 1.0
 
     def solute_left(self, s: Slurry, feed: Stream, wash: Stream | None, plan: Plan) -> Any:
@@ -154,7 +182,12 @@ class CakeFilter(CakeMaker):
         """Saturation of the cake at discharge."""
         thick = jnp.maximum(plan.cake_thickness, 1e-9)
         capillary = capillary_number_cake(
-            self.diameter(feed), self.void_fraction, thick, self.pressure_drop, s.liquid_density, self.surface_tension
+            self.diameter(feed),
+            self.void_fraction,
+            thick,
+            self.pressure_drop,
+            s.liquid_density,
+            self.surface_tension,
         )
         return saturation_after_deliquoring(
             plan.deliquoring_time,
@@ -169,12 +202,20 @@ class CakeFilter(CakeMaker):
     def inside(self, feed: Stream, wash: Stream | None = None) -> Caked:
         s = self.slurry(feed, wash)
         plan = self.plan(s, feed, wash)
-        return Caked(s, plan, self.wash_ratio(feed, wash), self.solute_left(s, feed, wash, plan), self.saturation(s, feed, plan))
+        return Caked(
+            s,
+            plan,
+            self.wash_ratio(feed, wash),
+            self.solute_left(s, feed, wash, plan),
+            self.saturation(s, feed, plan),
+        )
 
     def outlets(self, inside: Caked, feed: Stream, wash: Stream | None = None) -> Filtered:
         return self.parted(feed, wash, saturation=inside.saturation * self.squeezed(), left=inside.left)
 
-    def figures(self, inside: Caked, outlets: Filtered, feed: Stream, wash: Stream | None = None) -> CakeFigures:
+    def figures(
+        self, inside: Caked, outlets: Filtered, feed: Stream, wash: Stream | None = None
+    ) -> CakeFigures:
         plan, cake = inside.plan, outlets.cake
         return CakeFigures(
             area_required=plan.area_required,
@@ -194,12 +235,18 @@ class CakeFilter(CakeMaker):
             dissolved_share=self.dissolved(feed, cake),
         )
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         packed = feed.solids_volume_fraction / (1.0 - self.void_fraction)
         return {"capacity": figures.capacity_use, "wash": inside.plan.wash_use, "packed": packed}
 
     @classmethod
-    def size(cls, feed: Stream, wash: Stream | None = None, *, capacity_use: float = 1.0, **fields: Any) -> Any:
+    def size(
+        cls, feed: Stream, wash: Stream | None = None, *, capacity_use: float = 1.0, **fields: Any
+    ) -> Any:
         """The filter whose area this feed just fills to the share ``capacity_use``, everything else given."""
         trial = cls(area=1.0, **fields)
-        return cls(area=trial.plan(trial.slurry(feed, wash), feed, wash).area_required / capacity_use, **fields)
+        return cls(
+            area=trial.plan(trial.slurry(feed, wash), feed, wash).area_required / capacity_use, **fields
+        )

@@ -18,7 +18,9 @@ from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-NO_WASH = 1e-12  # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
+NO_WASH = (
+    1e-12  # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
+)
 
 
 class ContinuousFilter(CakeFilter):
@@ -38,13 +40,28 @@ class ContinuousFilter(CakeFilter):
         turn = self.turn_time
         form, washed, drained = (share * turn for share in self.shares)
         filtrate = filtrate_volume_constant_pressure(
-            form, 1.0, self.pressure_drop, s.dynamic_viscosity, self.resistance, s.dry_cake_per_filtrate, self.media_resistance()
+            form,
+            1.0,
+            self.pressure_drop,
+            s.dynamic_viscosity,
+            self.resistance,
+            s.dry_cake_per_filtrate,
+            self.media_resistance(),
         )
         most = s.dry_cake_per_filtrate * filtrate
         loading = s.solid_flow * turn / self.area
         wash_volume = 0.0 if wash is None else wash.liquid_volume_flow * turn / self.area
         use = wash_volume / jnp.maximum(self.wash_flux(loading, s) * washed, NO_WASH)
-        return Plan(loading, self.thickness(loading, s.solid_density), form, washed, drained, turn, s.solid_flow * turn / most, use)
+        return Plan(
+            loading,
+            self.thickness(loading, s.solid_density),
+            form,
+            washed,
+            drained,
+            turn,
+            s.solid_flow * turn / most,
+            use,
+        )
 
 
 class VacuumFilter(ContinuousFilter):
@@ -54,12 +71,16 @@ class VacuumFilter(ContinuousFilter):
         discharge_thickness: Any
 
     limits: ClassVar[Limits] = ContinuousFilter.limits | {
-        "thin": Limit("cake thickness for discharge", "discharge_thickness", math.inf, "m", "perry2008, § 18"),
+        "thin": Limit(
+            "cake thickness for discharge", "discharge_thickness", math.inf, "m", "perry2008, § 18"
+        ),
         "sectors": Limit("sum of the shares of the cycle", 0.0, 1.0, "dimensionless", "perry2008, § 18"),
         "vacuum": Limit("pressure drop under vacuum", 1e4, 8.5e4, "Pa", "perry2008, § 18"),
     }
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
             "thin": inside.plan.cake_thickness,
             "sectors": sum(self.shares),
@@ -67,12 +88,21 @@ class VacuumFilter(ContinuousFilter):
         }
 
 
-@equipment("rotary_vacuum_drum", source="geankoplis2003, § 14.2; mccabe2005, ch. 29", title="Rotary vacuum drum filter",
-           equation=r"\frac{V}{\Omega\,t_c} = \sqrt{\frac{2 f \Delta p}{t_c\,\eta\,\alpha\,W} + \left(\frac{R_s}{\alpha W t_c}\right)^2} - \frac{R_s}{\alpha W t_c}")  # fmt: skip
+@equipment(
+    "rotary_vacuum_drum",
+    source="geankoplis2003, § 14.2; mccabe2005, ch. 29",
+    title="Rotary vacuum drum filter",
+    equation=(
+        r"\frac{V}{\Omega\,t_c} = \sqrt{\frac{2 f \Delta p}{t_c\,\eta\,\alpha\,W} + \left(\frac{R_s}{\alpha "
+        r"W t_c}\right)^2} - \frac{R_s}{\alpha W t_c}"
+    ),
+)
 class RotaryVacuumDrum(VacuumFilter):
-    """Drum that dips into the slurry, sucks its cake on, washes it with sprays, sucks it dry and scrapes it off.
+    """Drum that dips into the slurry, sucks its cake on, washes it with sprays, sucks it dry and scrapes it
+    off.
 
-    The cake carries all solids of the feed; ``capacity_use`` says whether the submerged share has time enough to form it.
+    The cake carries all solids of the feed; ``capacity_use`` says whether the submerged share has time enough
+    to form it.
     """
 
     rotation_speed: RotationSpeed
@@ -94,8 +124,13 @@ class RotaryVacuumDrum(VacuumFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.submergence, self.wash_share, self.deliquoring_share
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed, wash) | {"turn": self.rotation_speed, "submerged": self.submergence}
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        return super().measured(inside, outlets, figures, feed, wash) | {
+            "turn": self.rotation_speed,
+            "submerged": self.submergence,
+        }
 
 
 @equipment("rotary_disc_filter", source="wakeman2005", title="Rotary vacuum disc filter")
@@ -123,13 +158,17 @@ class RotaryDiscFilter(VacuumFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.submergence, self.wash_share, self.deliquoring_share
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {"submerged": self.submergence}
 
 
 @equipment("horizontal_belt_filter", source="wakeman2005", title="Horizontal belt filter")
 class HorizontalBeltFilter(VacuumFilter):
-    """Vacuum belt fed on top: quick-settling, coarse crystals and thorough washing; the cake forms with gravity, not against it."""
+    """Vacuum belt fed on top: quick-settling, coarse crystals and thorough washing; the cake forms with
+    gravity, not against it.
+    """
 
     belt_length: Length
     belt_speed: Speed
@@ -138,7 +177,9 @@ class HorizontalBeltFilter(VacuumFilter):
     deliquoring_share: Fraction = 0.3
     discharge_thickness: Length = 0.004
 
-    limits: ClassVar[Limits] = VacuumFilter.limits | {"belt": Limit("belt speed", 0.01, 0.8, "m/s", "wakeman2005")}
+    limits: ClassVar[Limits] = VacuumFilter.limits | {
+        "belt": Limit("belt speed", 0.01, 0.8, "m/s", "wakeman2005")
+    }
 
     @property
     def turn_time(self) -> Any:
@@ -148,14 +189,21 @@ class HorizontalBeltFilter(VacuumFilter):
     def shares(self) -> tuple[Any, Any, Any]:
         return self.formation_share, self.wash_share, self.deliquoring_share
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {"belt": self.belt_speed}
 
 
-@equipment("precoat_drum", source="perry2008, § 18; wakeman2005", title="Rotary precoat drum filter",
-           equation=r"R = R_s + \frac{e}{2B_p},\qquad t_{life} = \frac{2\pi\,e}{a\,\omega}")  # fmt: skip
+@equipment(
+    "precoat_drum",
+    source="perry2008, § 18; wakeman2005",
+    title="Rotary precoat drum filter",
+    equation=r"R = R_s + \frac{e}{2B_p},\qquad t_{life} = \frac{2\pi\,e}{a\,\omega}",
+)
 class PrecoatDrum(ContinuousFilter):
-    """Drum with a thick layer of filter aid, of which a knife takes a little off each turn together with the thin cake: for clarifying.
+    """Drum with a thick layer of filter aid, of which a knife takes a little off each turn together with the
+    thin cake: for clarifying.
 
     The precoat resists with half its first thickness, its mean over its life. No wash, little draining.
     """
@@ -168,7 +216,9 @@ class PrecoatDrum(ContinuousFilter):
     deliquoring_share: Fraction = 0.3
 
     limits: ClassVar[Limits] = ContinuousFilter.limits | {
-        "knife": Limit("knife advance over cake thickness", 1.0, math.inf, "dimensionless", "perry2008, § 18"),
+        "knife": Limit(
+            "knife advance over cake thickness", 1.0, math.inf, "dimensionless", "perry2008, § 18"
+        ),
         "life": Limit("life of the precoat", 8 * 3600.0, math.inf, "s", "perry2008, § 18"),
     }
 
@@ -183,7 +233,9 @@ class PrecoatDrum(ContinuousFilter):
     def media_resistance(self) -> Any:
         return self.medium_resistance + 0.5 * self.precoat_thickness / self.precoat_permeability
 
-    def measured(self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None) -> dict[str, Any]:
+    def measured(
+        self, inside: Caked, outlets: Filtered, figures: CakeFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed, wash) | {
             "knife": self.knife_advance / jnp.maximum(inside.plan.cake_thickness, 1e-12),
             "life": self.precoat_thickness / self.knife_advance * self.turn_time,

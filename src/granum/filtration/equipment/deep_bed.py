@@ -25,7 +25,11 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.filtration.formulas.backwash import backwash_velocity
-from granum.filtration.formulas.depth import collector_efficiency_tufenkji, filter_coefficient, head_loss_clean_bed
+from granum.filtration.formulas.depth import (
+    collector_efficiency_tufenkji,
+    filter_coefficient,
+    head_loss_clean_bed,
+)
 from granum.filtration.kinds import HeadLossPerDeposit
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
@@ -51,7 +55,9 @@ class DeepBedFigures(NamedTuple):
 
 
 class Cycle(NamedTuple):
-    """Share caught of each species and class, clean head loss, run time, backwash velocity, share of the filtrate that the backwash takes."""
+    """Share caught of each species and class, clean head loss, run time, backwash velocity, share of the
+    filtrate that the backwash takes.
+    """
 
     caught: Any
     clean: Any
@@ -60,13 +66,20 @@ class Cycle(NamedTuple):
     water: Any
 
 
-@equipment("deep_bed_filter", source="iwasaki1937; ives1970; tufenkji2004; fair1933", title="Deep bed filter",
-           typical={"particle_density": (2500.0, 2700.0)})  # fmt: skip
+@equipment(
+    "deep_bed_filter",
+    source="iwasaki1937; ives1970; tufenkji2004; fair1933",
+    title="Deep bed filter",
+    typical={"particle_density": (2500.0, 2700.0)},
+)
 class DeepBedFilter(Unit):
-    """Bed of sand that catches thin suspensions by depth, and is expanded by its own filtrate when the head is used up.
+    """Bed of sand that catches thin suspensions by depth, and is expanded by its own filtrate when the head
+    is used up.
 
-    Every size class is caught by its own coefficient (Tufenkji and Elimelech) times the attachment efficiency, or all by a given one. The
-    grains of the bed are no part of the streams; their sphericity counts for the head loss of the settled bed. Several beds take turns, so that flows are averaged over run and backwash.
+    Every size class is caught by its own coefficient (Tufenkji and Elimelech) times the attachment
+    efficiency, or all by a given one. The grains of the bed are no part of the streams; their sphericity
+    counts for the head loss of the settled bed. Several beds take turns, so that flows are averaged over run
+    and backwash.
     """
 
     area: Area
@@ -100,36 +113,62 @@ class DeepBedFilter(Unit):
         if self.filter_coefficient is not None:
             return -jnp.expm1(-self.filter_coefficient * self.bed_depth) + 0.0 * density
         one = collector_efficiency_tufenkji(
-            jnp.asarray(m.sizes) + 0.0 * density, self.collector_diameter, self._velocity(feed), self.void_fraction, density, feed.liquid_density,
-            feed.liquid_viscosity, feed.temperature,
-        )  # fmt: skip
-        coefficient = filter_coefficient(jnp.minimum(one, 1.0), self.collector_diameter, self.void_fraction, self.attachment_efficiency)
+            jnp.asarray(m.sizes) + 0.0 * density,
+            self.collector_diameter,
+            self._velocity(feed),
+            self.void_fraction,
+            density,
+            feed.liquid_density,
+            feed.liquid_viscosity,
+            feed.temperature,
+        )
+        coefficient = filter_coefficient(
+            jnp.minimum(one, 1.0), self.collector_diameter, self.void_fraction, self.attachment_efficiency
+        )
         return -jnp.expm1(-coefficient * self.bed_depth)
 
     def inside(self, feed: Stream) -> Cycle:
         U = self._velocity(feed)
         clean = head_loss_clean_bed(
-            self.bed_depth, self.sphericity * self.collector_diameter, U, self.void_fraction, feed.liquid_viscosity, feed.liquid_density
+            self.bed_depth,
+            self.sphericity * self.collector_diameter,
+            U,
+            self.void_fraction,
+            feed.liquid_viscosity,
+            feed.liquid_density,
         )
         share = self.caught(feed)
         share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
         kept = jnp.sum(feed.solid * share) / self.area
-        run = safe_divide(jnp.maximum(self.head_loss_allowed - clean, 0.0), self.head_loss_per_deposit * kept, otherwise=1e9)
+        run = safe_divide(
+            jnp.maximum(self.head_loss_allowed - clean, 0.0), self.head_loss_per_deposit * kept, otherwise=1e9
+        )
         wash = backwash_velocity(
-            self.bed_expansion, jnp.reshape(self.collector_diameter, (1,)), jnp.ones(1), self.particle_density, feed.liquid_density,
-            feed.liquid_viscosity, self.void_fraction,
-        )  # fmt: skip
+            self.bed_expansion,
+            jnp.reshape(self.collector_diameter, (1,)),
+            jnp.ones(1),
+            self.particle_density,
+            feed.liquid_density,
+            feed.liquid_viscosity,
+            self.void_fraction,
+        )
         water = jnp.minimum(safe_divide(wash * self.backwash_time, U * (run + self.backwash_time)), 0.999)
         return Cycle(share, clean, run, wash, water)
 
     def outlets(self, inside: Cycle, feed: Stream) -> DeepBedOutlets:
         washings = feed.part(solid=inside.caught, liquid=inside.water)
-        return DeepBedOutlets(feed.replace(solid=feed.solid - washings.solid, liquid=feed.liquid - washings.liquid), washings)
+        return DeepBedOutlets(
+            feed.replace(solid=feed.solid - washings.solid, liquid=feed.liquid - washings.liquid), washings
+        )
 
     def figures(self, inside: Cycle, outlets: DeepBedOutlets, feed: Stream) -> DeepBedFigures:
         removed = safe_divide(outlets.washings.solid_flow, feed.solid_flow)
-        return DeepBedFigures(self._velocity(feed), removed, inside.clean, inside.run, inside.wash, inside.water)
+        return DeepBedFigures(
+            self._velocity(feed), removed, inside.clean, inside.run, inside.wash, inside.water
+        )
 
-    def measured(self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Cycle, outlets: DeepBedOutlets, figures: DeepBedFigures, feed: Stream
+    ) -> dict[str, Any]:
         rate, run = HOUR * figures.superficial_velocity, inside.run / HOUR
         return {"rate": rate, "run": run, "wash": inside.water, "thin": feed.solids_volume_fraction}

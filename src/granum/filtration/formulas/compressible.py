@@ -1,4 +1,6 @@
-"""Compressible cakes: mean resistance and void fraction from local laws, and the profiles through the cake."""
+"""Compressible cakes: mean resistance and void fraction from local laws, and the profiles through the
+cake.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,17 @@ from typing import Annotated, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import CakeResistance, Fraction, Number, PressureDifference, PressureDrop, Ratio, Series, VoidFraction, Within
+from granum.core.kinds import (
+    CakeResistance,
+    Fraction,
+    Number,
+    PressureDifference,
+    PressureDrop,
+    Ratio,
+    Series,
+    VoidFraction,
+    Within,
+)
 
 _NEAR = 1e-9
 _TILLER = {
@@ -31,13 +43,17 @@ def _integral(m, load):
 
 @formula(
     source="tiller1987",
-    equation=r"\bar\alpha = \frac{\Delta p}{\int_0^{\Delta p} dp_g/\alpha_z} = \frac{\alpha_0\,(1-n)\,\Delta p/p_a}{(1 + \Delta p/p_a)^{1-n} - 1}",
+    equation=r"\bar\alpha = \frac{\Delta p}{\int_0^{\Delta p} dp_g/\alpha_z} = \frac{\alpha_0\,(1-n)\,\Delta p/p_a}{(1 + \Delta p/p_a)^{1-n} - 1}",  # noqa: E501
     typical=_TILLER,
 )
 def cake_resistance_tiller(
-    pressure_drop: PressureDrop, cake_resistance_unloaded: CakeResistance, compressibility: Ratio, characteristic_pressure: PressureDrop
+    pressure_drop: PressureDrop,
+    cake_resistance_unloaded: CakeResistance,
+    compressibility: Ratio,
+    characteristic_pressure: PressureDrop,
 ) -> CakeResistance:
-    """Mean specific resistance of a cake whose local resistance grows as a power of one plus the pressure on its solid.
+    """Mean specific resistance of a cake whose local resistance grows as a power of one plus the pressure on
+    its solid.
 
     Local law α₀ (1 + p_g/p_a)ⁿ, the medium resistance neglected.
 
@@ -45,12 +61,17 @@ def cake_resistance_tiller(
     1.5
     """
     load = jnp.log1p(pressure_drop / characteristic_pressure)
-    return cake_resistance_unloaded * pressure_drop / characteristic_pressure / _integral(1.0 - compressibility, load)
+    return (
+        cake_resistance_unloaded
+        * pressure_drop
+        / characteristic_pressure
+        / _integral(1.0 - compressibility, load)
+    )
 
 
 @formula(
     source="tiller1953",
-    equation=r"\alpha_z = \alpha_1\left(\frac{p_g}{p_0}\right)^n \Rightarrow \bar\alpha = (1-n)\,\alpha_1\left(\frac{\Delta p}{p_0}\right)^n",
+    equation=r"\alpha_z = \alpha_1\left(\frac{p_g}{p_0}\right)^n \Rightarrow \bar\alpha = (1-n)\,\alpha_1\left(\frac{\Delta p}{p_0}\right)^n",  # noqa: E501
     typical={"compressibility": (0.05, 0.9)},
 )
 def cake_resistance_local_power(
@@ -59,17 +80,22 @@ def cake_resistance_local_power(
     compressibility: Annotated[Ratio, Within(0.0, 0.99)],
     reference_pressure: PressureDrop = 1e5,
 ) -> CakeResistance:
-    """Mean specific resistance of a cake whose local resistance is a plain power of the pressure on its solid.
+    """Mean specific resistance of a cake whose local resistance is a plain power of the pressure on its
+    solid.
 
     >>> round(cake_resistance_local_power(4e5, 1e10, compressibility=0.5) / 1e10, 6)
     1.0
     """
-    return (1.0 - compressibility) * cake_resistance_local * (pressure_drop / reference_pressure) ** compressibility
+    return (
+        (1.0 - compressibility)
+        * cake_resistance_local
+        * (pressure_drop / reference_pressure) ** compressibility
+    )
 
 
 @formula(
     source="tiller1987",
-    equation=r"1 - \bar\varepsilon = \frac{\int_0^{\Delta p} dp_g/\alpha_z}{\int_0^{\Delta p} dp_g/[\alpha_z(1-\varepsilon_z)]}",
+    equation=r"1 - \bar\varepsilon = \frac{\int_0^{\Delta p} dp_g/\alpha_z}{\int_0^{\Delta p} dp_g/[\alpha_z(1-\varepsilon_z)]}",  # noqa: E501
     typical=_TILLER,
     output="void_fraction",
 )
@@ -82,7 +108,16 @@ def void_fraction_mean_tiller(
 ) -> Number:
     """Mean void fraction of a compressible cake with local solid fraction (1 − ε₀)(1 + p_g/p_a)^β.
 
-    >>> round(void_fraction_mean_tiller(1e5, void_fraction_unloaded=0.7, compressibility=0.5, compaction_exponent=0.0, characteristic_pressure=1e4), 6)
+    >>> round(
+    ...     void_fraction_mean_tiller(
+    ...         1e5,
+    ...         void_fraction_unloaded=0.7,
+    ...         compressibility=0.5,
+    ...         compaction_exponent=0.0,
+    ...         characteristic_pressure=1e4,
+    ...     ),
+    ...     6,
+    ... )
     0.7
     """
     load = jnp.log1p(pressure_drop / characteristic_pressure)
@@ -101,7 +136,7 @@ class CakeProfile(NamedTuple):
 
 @formula(
     source="tiller1987",
-    equation=r"p_g(z) = p_a\left\{\left[1 + \left(1-\frac zZ\right)\left(\left(1+\tfrac{\Delta p}{p_a}\right)^m - 1\right)\right]^{1/m} - 1\right\},\;"
+    equation=r"p_g(z) = p_a\left\{\left[1 + \left(1-\frac zZ\right)\left(\left(1+\tfrac{\Delta p}{p_a}\right)^m - 1\right)\right]^{1/m} - 1\right\},\;"  # noqa: E501
     r" m = 1 - n - \beta,\quad p + p_g = p_1",
     title="Profiles through a compressible cake",
 )
@@ -114,7 +149,8 @@ def cake_profile(
     compaction_exponent: Ratio,
     characteristic_pressure: PressureDrop,
 ) -> CakeProfile:
-    """Liquid pressure, pressure on the solid, local resistance and void fraction at heights above the medium (0 there, 1 at the slurry).
+    """Liquid pressure, pressure on the solid, local resistance and void fraction at heights above the medium
+    (0 there, 1 at the slurry).
 
     Liquid pressure is counted from that behind the medium, whose own resistance is neglected.
 
@@ -127,5 +163,8 @@ def cake_profile(
     local = jnp.log1p((1.0 - jnp.asarray(relative_height)) * jnp.expm1(m * load)) / m
     pg = pa * jnp.expm1(local)
     return CakeProfile(
-        pressure_drop - pg, pg, cake_resistance_unloaded * jnp.exp(n * local), 1.0 - (1.0 - void_fraction_unloaded) * jnp.exp(b * local)
+        pressure_drop - pg,
+        pg,
+        cake_resistance_unloaded * jnp.exp(n * local),
+        1.0 - (1.0 - void_fraction_unloaded) * jnp.exp(b * local),
     )

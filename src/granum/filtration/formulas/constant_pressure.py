@@ -41,19 +41,38 @@ def filtration_time_constant_pressure(
 ) -> Time:
     """Time to collect a volume of filtrate at constant pressure.
 
-    >>> round(filtration_time_constant_pressure(filtrate_volume=3.37, area=17.46, pressure_drop="338 kPa", dynamic_viscosity=8.937e-4,
-    ...     cake_resistance=1.863e11, dry_cake_per_filtrate=23.47, medium_resistance=10.63e10), 0)
+    >>> round(
+    ...     filtration_time_constant_pressure(
+    ...         filtrate_volume=3.37,
+    ...         area=17.46,
+    ...         pressure_drop="338 kPa",
+    ...         dynamic_viscosity=8.937e-4,
+    ...         cake_resistance=1.863e11,
+    ...         dry_cake_per_filtrate=23.47,
+    ...         medium_resistance=10.63e10,
+    ...     ),
+    ...     0,
+    ... )
     270.0
     """
     V, A, dp, eta, alpha, W, Rm = (
-        filtrate_volume, area, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance,
-    )  # fmt: skip
+        filtrate_volume,
+        area,
+        pressure_drop,
+        dynamic_viscosity,
+        cake_resistance,
+        dry_cake_per_filtrate,
+        medium_resistance,
+    )
     return eta / dp * (alpha * W / 2.0 * (V / A) ** 2 + Rm * V / A)
 
 
 @formula(
     source="ruth1935",
-    equation=r"V = \Omega\left(\sqrt{\left(\frac{R_s}{\alpha W}\right)^2 + \frac{2\,\Delta p\,t}{\eta\,\alpha\,W}} - \frac{R_s}{\alpha W}\right)",
+    equation=(
+        r"V = \Omega\left(\sqrt{\left(\frac{R_s}{\alpha W}\right)^2 + \frac{2\,\Delta "
+        r"p\,t}{\eta\,\alpha\,W}} - \frac{R_s}{\alpha W}\right)"
+    ),
     typical={**_SMALL, "time": (10.0, 3600.0)},
 )
 def filtrate_volume_constant_pressure(
@@ -67,11 +86,27 @@ def filtrate_volume_constant_pressure(
 ) -> Volume:
     """Filtrate collected in a time at constant pressure.
 
-    >>> round(filtrate_volume_constant_pressure(time=300, area=0.5, pressure_drop="0.8 bar", dynamic_viscosity=1.2e-3,
-    ...     cake_resistance=1.07e8, dry_cake_per_filtrate=15.3), 1)
+    >>> round(
+    ...     filtrate_volume_constant_pressure(
+    ...         time=300,
+    ...         area=0.5,
+    ...         pressure_drop="0.8 bar",
+    ...         dynamic_viscosity=1.2e-3,
+    ...         cake_resistance=1.07e8,
+    ...         dry_cake_per_filtrate=15.3,
+    ...     ),
+    ...     1,
+    ... )
     2.5
     """
-    t, dp, eta, alpha, W, Rm = time, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance
+    t, dp, eta, alpha, W, Rm = (
+        time,
+        pressure_drop,
+        dynamic_viscosity,
+        cake_resistance,
+        dry_cake_per_filtrate,
+        medium_resistance,
+    )
     drive = 2.0 * dp * t / eta
     # (√(R² + x) − R)/(αW) written without cancellation
     root = jnp.sqrt(jnp.where(drive > 0, Rm**2 + alpha * W * drive, 1.0))
@@ -88,7 +123,10 @@ class Ruth(NamedTuple):
 
 @formula(
     source="ruth1935",
-    equation=r"a = \frac{2\,\Delta p\,\Omega^2}{\eta\,\alpha\,W},\quad V_0 = \frac{\Omega R_s}{\alpha W},\quad t_0 = \frac{\eta R_s^2}{2\,\Delta p\,\alpha\,W}",
+    equation=(
+        r"a = \frac{2\,\Delta p\,\Omega^2}{\eta\,\alpha\,W},\quad V_0 = \frac{\Omega R_s}{\alpha W},\quad "
+        r"t_0 = \frac{\eta R_s^2}{2\,\Delta p\,\alpha\,W}"
+    ),
     title="Ruth's constants",
 )
 def ruth_constants(
@@ -99,7 +137,8 @@ def ruth_constants(
     dry_cake_per_filtrate: Concentration,
     medium_resistance: MediumResistance = 0.0,
 ) -> Ruth:
-    """Constants of Ruth's equation (V + V₀)² = a (t + t₀), the medium being replaced by the cake that would resist as much.
+    """Constants of Ruth's equation (V + V₀)² = a (t + t₀), the medium being replaced by the cake that would
+    resist as much.
 
     Differs from the print in the notes, which have t − t₀.
 
@@ -131,8 +170,18 @@ def filtrate_flux(
 ) -> Speed:
     """Filtrate flux through cake and medium at a moment, by Darcy's law.
 
-    >>> round(filtrate_flux(filtrate_volume=0.01, area=1, pressure_drop=1e5, dynamic_viscosity=1e-3, cake_resistance=1e10,
-    ...     dry_cake_per_filtrate=100) * 1e3, 6)
+    >>> round(
+    ...     filtrate_flux(
+    ...         filtrate_volume=0.01,
+    ...         area=1,
+    ...         pressure_drop=1e5,
+    ...         dynamic_viscosity=1e-3,
+    ...         cake_resistance=1e10,
+    ...         dry_cake_per_filtrate=100,
+    ...     )
+    ...     * 1e3,
+    ...     6,
+    ... )
     10.0
     """
     through = cake_resistance * dry_cake_per_filtrate * filtrate_volume / area + medium_resistance
@@ -156,11 +205,24 @@ def filtrate_flow_washing(
 ) -> VolumeFlow:
     """Flow of wash liquor through a finished cake, against the final filtrate flow.
 
-    The ratio is 1 where wash liquor takes the way of the filtrate (leaf, belt, drum), 1/4 in a plate-and-frame press, where it
-    crosses two half cakes on half the area. The viscosity is that of the wash liquor.
+    The ratio is 1 where wash liquor takes the way of the filtrate (leaf, belt, drum), 1/4 in a
+    plate-and-frame press, where it crosses two half cakes on half the area. The viscosity is that of the wash
+    liquor.
 
-    >>> round(filtrate_flow_washing(filtrate_volume=3.37, area=17.46, pressure_drop="338 kPa", dynamic_viscosity=8.937e-4,
-    ...     cake_resistance=1.863e11, dry_cake_per_filtrate=23.47, medium_resistance=10.63e10, wash_rate_ratio=0.25) * 1e3, 2)
+    >>> round(
+    ...     filtrate_flow_washing(
+    ...         filtrate_volume=3.37,
+    ...         area=17.46,
+    ...         pressure_drop="338 kPa",
+    ...         dynamic_viscosity=8.937e-4,
+    ...         cake_resistance=1.863e11,
+    ...         dry_cake_per_filtrate=23.47,
+    ...         medium_resistance=10.63e10,
+    ...         wash_rate_ratio=0.25,
+    ...     )
+    ...     * 1e3,
+    ...     2,
+    ... )
     1.74
     """
     through = cake_resistance * dry_cake_per_filtrate * filtrate_volume / area + medium_resistance

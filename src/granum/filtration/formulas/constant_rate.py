@@ -24,7 +24,12 @@ from granum.core.kinds import (
     Within,
 )
 
-_SMALL = {"area": (0.5, 2.0), "filtrate_flow": (1e-5, 1e-4), "cake_resistance": (1e9, 1e10), "time": (10.0, 600.0)}
+_SMALL = {
+    "area": (0.5, 2.0),
+    "filtrate_flow": (1e-5, 1e-4),
+    "cake_resistance": (1e9, 1e10),
+    "time": (10.0, 600.0),
+}
 
 
 @formula(
@@ -43,8 +48,18 @@ def pressure_drop_constant_rate(
 ) -> PressureDrop:
     """Pressure drop after a time of filtration at constant rate, rigid cake.
 
-    >>> round(pressure_drop_constant_rate(time=100, filtrate_flow=1e-3, area=1, dynamic_viscosity=1e-3, cake_resistance=1e10,
-    ...     dry_cake_per_filtrate=10, medium_resistance=1e10), 6)
+    >>> round(
+    ...     pressure_drop_constant_rate(
+    ...         time=100,
+    ...         filtrate_flow=1e-3,
+    ...         area=1,
+    ...         dynamic_viscosity=1e-3,
+    ...         cake_resistance=1e10,
+    ...         dry_cake_per_filtrate=10,
+    ...         medium_resistance=1e10,
+    ...     ),
+    ...     6,
+    ... )
     20000.0
     """
     u = filtrate_flow / area
@@ -53,7 +68,7 @@ def pressure_drop_constant_rate(
 
 @formula(
     source="tiller1955",
-    equation=r"\Delta p - \frac{\eta R_s q}{\Omega} = \left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{\Omega^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}",
+    equation=r"\Delta p - \frac{\eta R_s q}{\Omega} = \left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{\Omega^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}",  # noqa: E501
     typical={**_SMALL, "compressibility": (0.0, 0.7), "cake_resistance_reference": (1e6, 1e8)},
 )
 def pressure_drop_constant_rate_compressible(
@@ -67,20 +82,33 @@ def pressure_drop_constant_rate_compressible(
     medium_resistance: MediumResistance = 0.0,
     reference_pressure: PressureDrop = 1.0,
 ) -> PressureDrop:
-    """Pressure drop after a time at constant rate, mean resistance of the cake a power of the pressure drop across it.
+    """Pressure drop after a time at constant rate, mean resistance of the cake a power of the pressure drop
+    across it.
 
-    >>> round(pressure_drop_constant_rate_compressible(time=100, filtrate_flow=1e-3, area=1, dynamic_viscosity=1e-3,
-    ...     cake_resistance_reference=1e8, compressibility=0.5, dry_cake_per_filtrate=10), 6)
+    >>> round(
+    ...     pressure_drop_constant_rate_compressible(
+    ...         time=100,
+    ...         filtrate_flow=1e-3,
+    ...         area=1,
+    ...         dynamic_viscosity=1e-3,
+    ...         cake_resistance_reference=1e8,
+    ...         compressibility=0.5,
+    ...         dry_cake_per_filtrate=10,
+    ...     ),
+    ...     6,
+    ... )
     10000.0
     """
     u, n = filtrate_flow / area, compressibility
     rigid = dynamic_viscosity * cake_resistance_reference * dry_cake_per_filtrate * u**2 * time
-    return (jnp.maximum(rigid, 1e-300) / reference_pressure**n) ** (1.0 / (1.0 - n)) + dynamic_viscosity * u * medium_resistance
+    return (jnp.maximum(rigid, 1e-300) / reference_pressure**n) ** (
+        1.0 / (1.0 - n)
+    ) + dynamic_viscosity * u * medium_resistance
 
 
 @formula(
     source="carman1938",
-    equation=r"Z = \frac{1}{(1-\varepsilon)\rho_s}\left(\sqrt{\left(\frac{R_s}{2\alpha}\right)^2 + \frac{\Delta p\,W\,t}{\eta\,\alpha}} - \frac{R_s}{2\alpha}\right)",
+    equation=r"Z = \frac{1}{(1-\varepsilon)\rho_s}\left(\sqrt{\left(\frac{R_s}{2\alpha}\right)^2 + \frac{\Delta p\,W\,t}{\eta\,\alpha}} - \frac{R_s}{2\alpha}\right)",  # noqa: E501
     typical=_SMALL,
 )
 def cake_thickness_constant_rate(
@@ -106,7 +134,7 @@ def cake_thickness_constant_rate(
 
 @formula(
     source="geankoplis2003, § 14.2",
-    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta p\,\Omega}V,\quad "
+    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta p\,\Omega}V,\quad "  # noqa: E501
     r"V_r = \frac{\Omega}{\alpha W}\left(\frac{\Delta p\,\Omega}{\eta\,q} - R_s\right)",
     typical={**_SMALL, "filtrate_volume": (0.1, 1.0), "filtrate_flow": (1e-3, 1e-2)},
 )
@@ -130,5 +158,9 @@ def filtration_time_rate_then_pressure(
     V, q, A, dp = filtrate_volume, filtrate_flow, area, pressure_drop
     alpha_W = cake_resistance * dry_cake_per_filtrate
     at_pressure = jnp.maximum(A / alpha_W * (dp * A / (dynamic_viscosity * q) - medium_resistance), 0.0)
-    rest = dynamic_viscosity / (dp * A) * (alpha_W * (V**2 - at_pressure**2) / (2.0 * A) + medium_resistance * (V - at_pressure))
+    rest = (
+        dynamic_viscosity
+        / (dp * A)
+        * (alpha_W * (V**2 - at_pressure**2) / (2.0 * A) + medium_resistance * (V - at_pressure))
+    )
     return jnp.where(at_pressure >= V, V / q, at_pressure / q + rest)

@@ -1,4 +1,6 @@
-"""Cycles: the best moment to stop and clean a batch filter, for production or for cost, and the flow of a drum."""
+"""Cycles: the best moment to stop and clean a batch filter, for production or for cost, and the flow of a
+drum.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +34,13 @@ from granum.filtration.kinds import RuthConstant
     output="filtrate_volume",
     title="Filtrate volume of the most productive cycle",
 )
-def filtrate_volume_optimum(ruth_constant: RuthConstant, dead_time: Time, dead_cost_ratio: PositiveNumber = 1.0) -> Volume:
+def filtrate_volume_optimum(
+    ruth_constant: RuthConstant, dead_time: Time, dead_cost_ratio: PositiveNumber = 1.0
+) -> Volume:
     """Filtrate volume at which to stop: most filtrate per time, or least cost per filtrate.
 
-    Independent of the medium resistance. The cost ratio is (cost of the dead time + other costs per cycle) over what filtering costs in
-    a time as long as the dead time; 1 gives the optimum of production.
+    Independent of the medium resistance. The cost ratio is (cost of the dead time + other costs per cycle)
+    over what filtering costs in a time as long as the dead time; 1 gives the optimum of production.
 
     >>> round(filtrate_volume_optimum(ruth_constant=4e-4, dead_time=900), 6)
     0.6
@@ -72,16 +76,19 @@ def filtration_cycle(
     wash_time_ratio: Ratio = 0.0,
     dead_cost_ratio: PositiveNumber = 1.0,
 ) -> Cycle:
-    """Best cycle of a batch filter at constant pressure: volume, times, mean flow and cake, for production or cost.
+    """Best cycle of a batch filter at constant pressure: volume, times, mean flow and cake, for production or
+    cost.
 
-    Known as optimum cycle too. The wash time is ``wash_time_ratio`` times the part of the filtration time that the cake takes,
-    which holds for a fixed wash ratio.
+    Known as optimum cycle too. The wash time is ``wash_time_ratio`` times the part of the filtration time
+    that the cake takes, which holds for a fixed wash ratio.
 
     >>> best = filtration_cycle(10, "3 bar", "1 cP", 1e11, 20, dead_time="20 min")
     >>> round(best.filtration_time, 6), round(best.filtrate_volume, 4)
     (1200.0, 6.0)
     """
-    a, V0, _t0 = ruth_constants(area, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance)
+    a, V0, _t0 = ruth_constants(
+        area, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance
+    )
     V = jnp.sqrt(a * dead_time * dead_cost_ratio / (1.0 + wash_time_ratio))
     filtering = V**2 / a + 2.0 * V * V0 / a
     washing = wash_time_ratio * V**2 / a
@@ -94,7 +101,12 @@ def filtration_cycle(
     equation=r"\Delta p = p_m\left(1 - \frac{q^2}{q_m^2}\right),\quad t = \int_0^V \frac{dV}{q}",
     title="Filtration time with a centrifugal pump",
     output="filtration_time",
-    typical={"filtrate_volume": (0.1, 2.0), "area": (1.0, 10.0), "cake_resistance": (1e10, 1e11), "volume_flow_largest": (1e-3, 1e-2)},
+    typical={
+        "filtrate_volume": (0.1, 2.0),
+        "area": (1.0, 10.0),
+        "cake_resistance": (1e10, 1e11),
+        "volume_flow_largest": (1e-3, 1e-2),
+    },
 )
 def filtration_time_pump(
     filtrate_volume: Volume,
@@ -110,7 +122,9 @@ def filtration_time_pump(
 
     At each moment pump and cake agree on a flow; the integral over the volume is closed.
 
-    >>> round(filtration_time_pump(1.0, 5.0, 3e5, 1e3, 1e-3, 1e11, 20), 3) == round(1e-3 / 3e5 * 1e11 * 20 / 2 / 25, 3)
+    >>> round(filtration_time_pump(1.0, 5.0, 3e5, 1e3, 1e-3, 1e11, 20), 3) == round(
+    ...     1e-3 / 3e5 * 1e11 * 20 / 2 / 25, 3
+    ... )
     True
     """
     pm, A = pressure_shutoff, area
@@ -127,7 +141,10 @@ def filtration_time_pump(
 
 @formula(
     source="geankoplis2003, § 14.2; mccabe2005, ch. 29",
-    equation=r"q = \frac{V(f\,t_c)}{t_c} \rightarrow \Omega\sqrt{\frac{2\,f\,\Delta p}{t_c\,\eta\,\alpha\,W}}\ (R_s = 0)",
+    equation=(
+        r"q = \frac{V(f\,t_c)}{t_c} \rightarrow \Omega\sqrt{\frac{2\,f\,\Delta "
+        r"p}{t_c\,\eta\,\alpha\,W}}\ (R_s = 0)"
+    ),
     typical={"area": (1.0, 50.0), "cycle_time": (60.0, 600.0), "cake_resistance": (1e10, 1e12)},
 )
 def filtrate_flow_drum(
@@ -140,15 +157,33 @@ def filtrate_flow_drum(
     dry_cake_per_filtrate: Concentration,
     medium_resistance: MediumResistance = 0.0,
 ) -> VolumeFlow:
-    """Filtrate flow of a rotary drum or disc filter: cake forms on the submerged share of its whole area once in each turn.
+    """Filtrate flow of a rotary drum or disc filter: cake forms on the submerged share of its whole area once
+    in each turn.
 
     McCabe's drum of 81.7 ft² turning once in 5 min, 30 % submerged: 0.133 m³ of filtrate in a turn.
 
-    >>> round(300 * filtrate_flow_drum(area="81.7 ft^2", cycle_time="5 min", submergence=0.3, pressure_drop="1414 lbf/ft^2",
-    ...     dynamic_viscosity="6.72e-4 lb/ft/s", cake_resistance=1.2849e11, dry_cake_per_filtrate="19.24 lb/ft^3"), 3)
+    >>> round(
+    ...     300
+    ...     * filtrate_flow_drum(
+    ...         area="81.7 ft^2",
+    ...         cycle_time="5 min",
+    ...         submergence=0.3,
+    ...         pressure_drop="1414 lbf/ft^2",
+    ...         dynamic_viscosity="6.72e-4 lb/ft/s",
+    ...         cake_resistance=1.2849e11,
+    ...         dry_cake_per_filtrate="19.24 lb/ft^3",
+    ...     ),
+    ...     3,
+    ... )
     0.133
     """
     volume = filtrate_volume_constant_pressure(
-        submergence * cycle_time, area, pressure_drop, dynamic_viscosity, cake_resistance, dry_cake_per_filtrate, medium_resistance
+        submergence * cycle_time,
+        area,
+        pressure_drop,
+        dynamic_viscosity,
+        cake_resistance,
+        dry_cake_per_filtrate,
+        medium_resistance,
     )
     return volume / cycle_time

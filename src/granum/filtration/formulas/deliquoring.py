@@ -1,4 +1,6 @@
-"""Blowing liquid out of a cake with gas: threshold, irreducible saturation, saturation after a time, cake moisture."""
+"""Blowing liquid out of a cake with gas: threshold, irreducible saturation, saturation after a time, cake
+moisture.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ _CAKE = {"cake_thickness": (5e-3, 5e-2), "particle_diameter": (1e-5, 2e-4), "pre
 
 
 @formula(source="wakeman2005", equation=r"p_b = \frac{4.6\,\sigma\,(1-\varepsilon)}{\varepsilon\,d_p}")
-def threshold_pressure_cake(particle_diameter: Length, void_fraction: VoidFraction, surface_tension: SurfaceTension) -> PressureDrop:
+def threshold_pressure_cake(
+    particle_diameter: Length, void_fraction: VoidFraction, surface_tension: SurfaceTension
+) -> PressureDrop:
     """Threshold pressure: the pressure difference that first drives gas into a saturated cake.
 
     >>> round(threshold_pressure_cake(particle_diameter="50 um", void_fraction=0.46, surface_tension=0.05))
@@ -73,10 +77,15 @@ def irreducible_saturation(capillary_number: PositiveNumber) -> Fraction:
 
 @formula(
     source="wakeman2005",
-    equation=r"S_R = \frac{S - S_\infty}{1 - S_\infty} = \frac{1}{1 + 1.08\,(\theta p^*)^{0.88}} \;(\theta p^* \le 1.915),\quad "
-    r"\frac{1}{1 + 1.46\,(\theta p^*)^{0.48}} \;(\theta p^* > 1.915),\quad \theta p^* = \frac{B\,\Delta p\,t}{\eta\,\varepsilon\,(1-S_\infty)Z^2}",
+    equation=r"S_R = \frac{S - S_\infty}{1 - S_\infty} = \frac{1}{1 + 1.08\,(\theta p^*)^{0.88}} \;(\theta p^* \le 1.915),\quad "  # noqa: E501
+    r"\frac{1}{1 + 1.46\,(\theta p^*)^{0.48}} \;(\theta p^* > 1.915),\quad \theta p^* = \frac{B\,\Delta p\,t}{\eta\,\varepsilon\,(1-S_\infty)Z^2}",  # noqa: E501
     fitted={"dimensionless_time": (0.096, 204.0)},
-    typical={**_CAKE, "time": (10.0, 300.0), "cake_permeability": (1e-13, 1e-12), "irreducible_saturation": (0.16, 0.3)},
+    typical={
+        **_CAKE,
+        "time": (10.0, 300.0),
+        "cake_permeability": (1e-13, 1e-12),
+        "irreducible_saturation": (0.16, 0.3),
+    },
 )
 def saturation_after_deliquoring(
     time: Time,
@@ -87,19 +96,35 @@ def saturation_after_deliquoring(
     cake_thickness: Length,
     irreducible_saturation: Fraction,
 ) -> Fraction:
-    """Saturation of a cake after a time of blowing or sucking gas through it, by Wakeman's charts as correlated.
+    """Saturation of a cake after a time of blowing or sucking gas through it, by Wakeman's charts as
+    correlated.
 
     Holds well above the threshold pressure. The two branches meet within 0.01.
 
-    >>> round(saturation_after_deliquoring(time=60, pressure_drop=5e4, cake_permeability=2e-13, dynamic_viscosity=1e-3,
-    ...     void_fraction=0.45, cake_thickness=0.02, irreducible_saturation=0.2), 3)
+    >>> round(
+    ...     saturation_after_deliquoring(
+    ...         time=60,
+    ...         pressure_drop=5e4,
+    ...         cake_permeability=2e-13,
+    ...         dynamic_viscosity=1e-3,
+    ...         void_fraction=0.45,
+    ...         cake_thickness=0.02,
+    ...         irreducible_saturation=0.2,
+    ...     ),
+    ...     3,
+    ... )
     0.405
     """
     theta = (
         cake_permeability
         * pressure_drop
         * time
-        / (dynamic_viscosity * void_fraction * jnp.maximum(1.0 - irreducible_saturation, 1e-9) * cake_thickness**2)
+        / (
+            dynamic_viscosity
+            * void_fraction
+            * jnp.maximum(1.0 - irreducible_saturation, 1e-9)
+            * cake_thickness**2
+        )
     )
     some = theta > 0
     x = jnp.where(some, theta, 1.0)
@@ -114,7 +139,12 @@ def moisture_dry_basis_cake(
 ) -> MoistureDryBasis:
     """Cake moisture, dry basis, from its saturation.
 
-    >>> round(moisture_dry_basis_cake(cake_saturation=0.5, void_fraction=0.4, liquid_density=1000, solid_density=2000), 4)
+    >>> round(
+    ...     moisture_dry_basis_cake(
+    ...         cake_saturation=0.5, void_fraction=0.4, liquid_density=1000, solid_density=2000
+    ...     ),
+    ...     4,
+    ... )
     0.1667
     """
     return cake_saturation * void_fraction * liquid_density / ((1.0 - void_fraction) * solid_density)
@@ -122,10 +152,16 @@ def moisture_dry_basis_cake(
 
 @formula(
     source="wakeman2005; brooks1964",
-    equation=r"u_g = \frac{B\,k_{rg}}{\eta_g}\,\frac{p_1^2 - p_2^2}{2\,p_2\,Z},\quad k_{rg} = (1-S_R)^2\left(1 - S_R^{(2+\lambda)/\lambda}\right)",
-    typical={"cake_permeability": (1e-13, 1e-11), "cake_thickness": (5e-3, 5e-2), "pressure": (1e5, 5e5), "pressure_outlet": (2e4, 9e4),
-             "dynamic_viscosity": (1.5e-5, 2.5e-5), "reduced_saturation": (0.05, 0.8)},
-)  # fmt: skip
+    equation=r"u_g = \frac{B\,k_{rg}}{\eta_g}\,\frac{p_1^2 - p_2^2}{2\,p_2\,Z},\quad k_{rg} = (1-S_R)^2\left(1 - S_R^{(2+\lambda)/\lambda}\right)",  # noqa: E501
+    typical={
+        "cake_permeability": (1e-13, 1e-11),
+        "cake_thickness": (5e-3, 5e-2),
+        "pressure": (1e5, 5e5),
+        "pressure_outlet": (2e4, 9e4),
+        "dynamic_viscosity": (1.5e-5, 2.5e-5),
+        "reduced_saturation": (0.05, 0.8),
+    },
+)
 def gas_velocity_deliquoring(
     cake_permeability: Permeability,
     cake_thickness: Length,
@@ -135,9 +171,11 @@ def gas_velocity_deliquoring(
     reduced_saturation: Fraction,
     pore_size_index: PositiveNumber = 5.0,
 ) -> Speed:
-    """Superficial gas velocity at the outlet pressure through a cake that is partly saturated: the duty of the vacuum pump.
+    """Superficial gas velocity at the outlet pressure through a cake that is partly saturated: the duty of
+    the vacuum pump.
 
-    The viscosity is that of the gas. Relative permeability after Brooks and Corey with the pore size index of unconsolidated cakes.
+    The viscosity is that of the gas. Relative permeability after Brooks and Corey with the pore size index of
+    unconsolidated cakes.
 
     >>> round(gas_velocity_deliquoring(1e-12, 0.01, 2e5, 1e5, 2e-5, 0.0), 4)
     0.75

@@ -23,12 +23,19 @@ from granum.core.kinds import (
 )
 from granum.filtration.kinds import HeadLossPerDeposit
 
-_BED = {"bed_depth": (0.3, 1.5), "filter_coefficient": (1.0, 10.0), "concentration_inlet": (0.005, 0.1), "superficial_velocity": (1e-3, 5e-3),
-        "time": (3600.0, 1e5)}  # fmt: skip
+_BED = {
+    "bed_depth": (0.3, 1.5),
+    "filter_coefficient": (1.0, 10.0),
+    "concentration_inlet": (0.005, 0.1),
+    "superficial_velocity": (1e-3, 5e-3),
+    "time": (3600.0, 1e5),
+}
 
 
 @formula(source="iwasaki1937", equation=r"c = c_0\,e^{-\lambda z}", output="concentration", typical=_BED)
-def concentration_iwasaki(concentration_inlet: Concentration, filter_coefficient: SpecificSurface, bed_depth: Distance) -> Concentration:
+def concentration_iwasaki(
+    concentration_inlet: Concentration, filter_coefficient: SpecificSurface, bed_depth: Distance
+) -> Concentration:
     """Concentration of suspended matter after a depth of clean filter bed.
 
     >>> round(concentration_iwasaki(concentration_inlet=0.02, filter_coefficient=3.0, bed_depth=1.0), 6)
@@ -37,16 +44,31 @@ def concentration_iwasaki(concentration_inlet: Concentration, filter_coefficient
     return concentration_inlet * jnp.exp(-filter_coefficient * bed_depth)
 
 
-@formula(source="iwasaki1937; ives1970", equation=r"\sigma = \lambda\,u\,c_0\,t\,e^{-\lambda z}", typical=_BED, output="specific_deposit")
+@formula(
+    source="iwasaki1937; ives1970",
+    equation=r"\sigma = \lambda\,u\,c_0\,t\,e^{-\lambda z}",
+    typical=_BED,
+    output="specific_deposit",
+)
 def specific_deposit_iwasaki(
-    concentration_inlet: Concentration, filter_coefficient: SpecificSurface, bed_depth: Distance, superficial_velocity: Speed, time: Time
+    concentration_inlet: Concentration,
+    filter_coefficient: SpecificSurface,
+    bed_depth: Distance,
+    superficial_velocity: Speed,
+    time: Time,
 ) -> Concentration:
     """Mass retained per bed volume at a depth after a time, the filter coefficient taken as constant.
 
     >>> round(specific_deposit_iwasaki(0.02, 3.0, 0.0, 1e-3, 1e5), 6)
     6.0
     """
-    return filter_coefficient * superficial_velocity * concentration_inlet * time * jnp.exp(-filter_coefficient * bed_depth)
+    return (
+        filter_coefficient
+        * superficial_velocity
+        * concentration_inlet
+        * time
+        * jnp.exp(-filter_coefficient * bed_depth)
+    )
 
 
 @formula(
@@ -73,8 +95,12 @@ def head_loss_deep_bed(
     return head_loss_clean + head_loss_per_deposit * caught
 
 
-@formula(source="ives1970", equation=r"t = \frac{H_{max} - H_0}{K\,u\,c_0\,(1 - e^{-\lambda L})}", typical={**_BED, "head_loss_clean": (0.2, 0.5), "head_loss_allowed": (1.5, 3.0)},
-         output="run_time")  # fmt: skip
+@formula(
+    source="ives1970",
+    equation=r"t = \frac{H_{max} - H_0}{K\,u\,c_0\,(1 - e^{-\lambda L})}",
+    typical={**_BED, "head_loss_clean": (0.2, 0.5), "head_loss_allowed": (1.5, 3.0)},
+    output="run_time",
+)
 def run_time_deep_bed(
     head_loss_allowed: Distance,
     head_loss_clean: Distance,
@@ -89,32 +115,55 @@ def run_time_deep_bed(
     >>> round(run_time_deep_bed(1.4, 0.4, 0.5, 0.02, 50.0, 1.0, 1e-3))
     100000
     """
-    rate = head_loss_per_deposit * superficial_velocity * concentration_inlet * -jnp.expm1(-filter_coefficient * bed_depth)
+    rate = (
+        head_loss_per_deposit
+        * superficial_velocity
+        * concentration_inlet
+        * -jnp.expm1(-filter_coefficient * bed_depth)
+    )
     return jnp.maximum(head_loss_allowed - head_loss_clean, 0.0) / rate
 
 
 @formula(
-    source="yao1971", equation=r"\lambda = \frac{3\,(1-\varepsilon)\,\alpha\,\eta}{2\,d_c}", typical={"collector_efficiency": (1e-4, 1e-1)}
+    source="yao1971",
+    equation=r"\lambda = \frac{3\,(1-\varepsilon)\,\alpha\,\eta}{2\,d_c}",
+    typical={"collector_efficiency": (1e-4, 1e-1)},
 )
 def filter_coefficient(
-    collector_efficiency: Ratio, collector_diameter: Length, void_fraction: VoidFraction, attachment_efficiency: Ratio = 1.0
+    collector_efficiency: Ratio,
+    collector_diameter: Length,
+    void_fraction: VoidFraction,
+    attachment_efficiency: Ratio = 1.0,
 ) -> SpecificSurface:
     """Filter coefficient of a bed of grains from what one grain catches.
 
-    >>> round(filter_coefficient(collector_efficiency=0.004, collector_diameter="0.6 mm", void_fraction=0.4), 6)
+    >>> round(
+    ...     filter_coefficient(collector_efficiency=0.004, collector_diameter="0.6 mm", void_fraction=0.4), 6
+    ... )
     6.0
     """
     return 1.5 * (1.0 - void_fraction) * attachment_efficiency * collector_efficiency / collector_diameter
 
 
 @formula(
-    source="tufenkji2004", fitted={"particle_diameter": (1e-8, 1e-5)},
-    equation=r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + 0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}",
+    source="tufenkji2004",
+    fitted={"particle_diameter": (1e-8, 1e-5)},
+    equation=(
+        r"\eta = 2.4A_S^{1/3}N_R^{-0.081}N_{Pe}^{-0.715}N_{vdW}^{0.052} + 0.55A_S N_R^{1.675}N_A^{0.125} + "
+        r"0.22N_R^{-0.24}N_G^{1.11}N_{vdW}^{0.053}"
+    ),
     output="collector_efficiency",
-    typical={"particle_diameter": (1e-7, 5e-6), "collector_diameter": (2e-4, 1e-3), "superficial_velocity": (1e-4, 3e-3),
-             "particle_density": (1030.0, 2600.0), "fluid_density": (990.0, 1000.0), "void_fraction": (0.35, 0.45), "temperature": (280.0, 310.0),
-             "hamaker_constant": (3e-21, 3e-20)},
-)  # fmt: skip
+    typical={
+        "particle_diameter": (1e-7, 5e-6),
+        "collector_diameter": (2e-4, 1e-3),
+        "superficial_velocity": (1e-4, 3e-3),
+        "particle_density": (1030.0, 2600.0),
+        "fluid_density": (990.0, 1000.0),
+        "void_fraction": (0.35, 0.45),
+        "temperature": (280.0, 310.0),
+        "hamaker_constant": (3e-21, 3e-20),
+    },
+)
 def collector_efficiency_tufenkji(
     particle_diameter: Length,
     collector_diameter: Length,
@@ -126,7 +175,8 @@ def collector_efficiency_tufenkji(
     temperature: Temperature = 293.15,
     hamaker_constant: Energy = 1e-20,
 ) -> PositiveNumber:
-    """Single-collector contact efficiency in a granular bed: diffusion, interception and gravity with van der Waals attraction.
+    """Single-collector contact efficiency in a granular bed: diffusion, interception and gravity with van der
+    Waals attraction.
 
     A buoyant particle gets no gravity term.
 
@@ -150,7 +200,10 @@ def collector_efficiency_tufenkji(
 @formula(
     source="carman1938; carman1937",
     fitted={"reynolds_bed": (0.0, 10.0)},
-    equation=r"\frac{H}{L} = \frac{36\,h_K\,\eta\,u\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 d_c^2\,\varepsilon^3}",
+    equation=(
+        r"\frac{H}{L} = \frac{36\,h_K\,\eta\,u\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 "
+        r"d_c^2\,\varepsilon^3}"
+    ),
     output="head_loss",
     typical={
         "bed_depth": (0.3, 1.5),
@@ -176,8 +229,18 @@ def head_loss_clean_bed(
     0.574
     """
     e = void_fraction
-    watch(reynolds_bed=liquid_density * superficial_velocity * collector_diameter / (dynamic_viscosity * (1.0 - e)))
+    watch(
+        reynolds_bed=liquid_density
+        * superficial_velocity
+        * collector_diameter
+        / (dynamic_viscosity * (1.0 - e))
+    )
     return (
-        36.0 * kozeny_coefficient * dynamic_viscosity * superficial_velocity * (1.0 - e) ** 2 * bed_depth
+        36.0
+        * kozeny_coefficient
+        * dynamic_viscosity
+        * superficial_velocity
+        * (1.0 - e) ** 2
+        * bed_depth
         / (liquid_density * STANDARD_GRAVITY * collector_diameter**2 * e**3)
-    )  # fmt: skip
+    )

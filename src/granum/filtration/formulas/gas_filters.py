@@ -5,11 +5,27 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula
-from granum.core.kinds import Concentration, DynamicViscosity, Fraction, Length, OpenFraction, PressureDrop, Ratio, Speed, Time
+from granum.core.kinds import (
+    Concentration,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    OpenFraction,
+    PressureDrop,
+    Ratio,
+    Speed,
+    Time,
+)
 from granum.filtration.kinds import DustResistance, ResidualDrag
 
-_MAT = {"fiber_diameter": (1e-6, 3e-5), "fiber_fraction": (0.01, 0.15), "mat_thickness": (5e-4, 2e-2), "superficial_velocity": (0.01, 0.5),
-        "dynamic_viscosity": (1.7e-5, 2e-5), "fiber_efficiency": (1e-3, 0.3)}  # fmt: skip
+_MAT = {
+    "fiber_diameter": (1e-6, 3e-5),
+    "fiber_fraction": (0.01, 0.15),
+    "mat_thickness": (5e-4, 2e-2),
+    "superficial_velocity": (0.01, 0.5),
+    "dynamic_viscosity": (1.7e-5, 2e-5),
+    "fiber_efficiency": (1e-3, 0.3),
+}
 
 
 @formula(
@@ -31,7 +47,15 @@ def pressure_drop_fibers(
     162.1
     """
     b = fiber_fraction
-    return 64.0 * dynamic_viscosity * superficial_velocity * mat_thickness * b**1.5 * (1.0 + 56.0 * b**3) / fiber_diameter**2
+    return (
+        64.0
+        * dynamic_viscosity
+        * superficial_velocity
+        * mat_thickness
+        * b**1.5
+        * (1.0 + 56.0 * b**3)
+        / fiber_diameter**2
+    )
 
 
 @formula(
@@ -40,7 +64,9 @@ def pressure_drop_fibers(
     typical=_MAT,
     output="penetration",
 )
-def penetration_fibers(mat_thickness: Length, fiber_diameter: Length, fiber_fraction: OpenFraction, fiber_efficiency: Ratio) -> Fraction:
+def penetration_fibers(
+    mat_thickness: Length, fiber_diameter: Length, fiber_fraction: OpenFraction, fiber_efficiency: Ratio
+) -> Fraction:
     """Fraction of particles that passes a fibrous layer, from what a single fiber catches.
 
     >>> round(penetration_fibers("1 mm", "2 um", 0.05, fiber_efficiency=0.1), 5)
@@ -53,7 +79,11 @@ def penetration_fibers(mat_thickness: Length, fiber_diameter: Length, fiber_frac
 @formula(
     source="cooper2011",
     equation=r"\Delta p = K_1 v + K_2\,c\,v^2\,t",
-    typical={"superficial_velocity": (0.005, 0.03), "concentration_inlet": (1e-3, 2e-2), "time": (60.0, 3600.0)},
+    typical={
+        "superficial_velocity": (0.005, 0.03),
+        "concentration_inlet": (1e-3, 2e-2),
+        "time": (60.0, 3600.0),
+    },
 )
 def pressure_drop_dust_cake(
     superficial_velocity: Speed,
@@ -62,9 +92,13 @@ def pressure_drop_dust_cake(
     residual_drag: ResidualDrag,
     dust_resistance: DustResistance,
 ) -> PressureDrop:
-    """Pressure drop of a bag filter some time after cleaning: residual drag of the cloth and the dust laid on it since.
+    """Pressure drop of a bag filter some time after cleaning: residual drag of the cloth and the dust laid on
+    it since.
 
-    >>> round(pressure_drop_dust_cake("1 m/min", "10 g/m^3", "10 min", residual_drag=2e4, dust_resistance=6e4), 1)
+    >>> round(
+    ...     pressure_drop_dust_cake("1 m/min", "10 g/m^3", "10 min", residual_drag=2e4, dust_resistance=6e4),
+    ...     1,
+    ... )
     433.3
     """
     v = superficial_velocity

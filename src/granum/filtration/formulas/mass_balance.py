@@ -5,7 +5,17 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import Area, Concentration, Density, Distance, Mass, MassFraction, Ratio, VoidFraction, Volume
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Density,
+    Distance,
+    Mass,
+    MassFraction,
+    Ratio,
+    VoidFraction,
+    Volume,
+)
 
 NO_FILTRATE = "The cake would hold all the liquid of the slurry: no filtrate is left."
 TOO_HEAVY = "The dry solid alone would take more room than that."
@@ -27,10 +37,17 @@ def solids_mass_fraction_weighed(solid_mass: Mass, slurry_mass: Mass) -> MassFra
     equation=r"s = \frac{M_s}{V_p\,\rho_l + M_s\,(1 - \rho_l/\rho_s)}",
     typical={"slurry_volume": (2e-3, 1e-2)},
 )
-def solids_mass_fraction_sampled(solid_mass: Mass, slurry_volume: Volume, liquid_density: Density, solid_density: Density) -> MassFraction:
+def solids_mass_fraction_sampled(
+    solid_mass: Mass, slurry_volume: Volume, liquid_density: Density, solid_density: Density
+) -> MassFraction:
     """Mass fraction of solids of a slurry from a sample of known volume and its dry solid.
 
-    >>> round(solids_mass_fraction_sampled(solid_mass=0.2, slurry_volume="1 L", liquid_density=1000, solid_density=2000), 6)
+    >>> round(
+    ...     solids_mass_fraction_sampled(
+    ...         solid_mass=0.2, slurry_volume="1 L", liquid_density=1000, solid_density=2000
+    ...     ),
+    ...     6,
+    ... )
     0.181818
     """
     most = slurry_volume * solid_density
@@ -65,7 +82,9 @@ def void_fraction_cake(dry_cake_mass: Mass, cake_volume: Volume, solid_density: 
 
 
 @formula(source="carman1938", equation=r"m = 1 + \frac{\varepsilon\,\rho_l}{(1 - \varepsilon)\,\rho_s}")
-def wet_to_dry_mass_ratio(void_fraction: VoidFraction, liquid_density: Density, solid_density: Density) -> Ratio:
+def wet_to_dry_mass_ratio(
+    void_fraction: VoidFraction, liquid_density: Density, solid_density: Density
+) -> Ratio:
     """Mass of saturated wet cake per mass of dry cake.
 
     Differs from the print in the notes, which have 1 + ε for 1 − ε.
@@ -81,12 +100,21 @@ def wet_to_dry_mass_ratio(void_fraction: VoidFraction, liquid_density: Density, 
     equation=r"W = \frac{\rho_l\,s}{1 - m\,s}",
     typical={"solids_mass_fraction": (0.01, 0.3), "wet_to_dry_mass_ratio": (1.1, 2.5)},
 )
-def dry_cake_per_filtrate(solids_mass_fraction: MassFraction, liquid_density: Density, wet_to_dry_mass_ratio: Ratio = 0.0) -> Concentration:
-    """Dry cake deposited per volume of filtrate, from the solids of the slurry and the moisture of the cake.
+def dry_cake_per_filtrate(
+    solids_mass_fraction: MassFraction, liquid_density: Density, wet_to_dry_mass_ratio: Ratio = 0.0
+) -> Concentration:
+    """Dry cake deposited per volume of filtrate, from the solids of the slurry and the moisture of the
+    cake.
 
-    With the default ratio of zero the liquid left in the cake is neglected (W = ρ s), which a dilute slurry allows.
+    With the default ratio of zero the liquid left in the cake is neglected (W = ρ s), which a dilute slurry
+    allows.
 
-    >>> round(dry_cake_per_filtrate(solids_mass_fraction=0.191, liquid_density=996.9, wet_to_dry_mass_ratio=2.0), 1)
+    >>> round(
+    ...     dry_cake_per_filtrate(
+    ...         solids_mass_fraction=0.191, liquid_density=996.9, wet_to_dry_mass_ratio=2.0
+    ...     ),
+    ...     1,
+    ... )
     308.1
     """
     left = 1.0 - wet_to_dry_mass_ratio * solids_mass_fraction
@@ -101,11 +129,24 @@ def dry_cake_per_filtrate(solids_mass_fraction: MassFraction, liquid_density: De
     typical={"filtrate_volume": (0.01, 1.0), "area": (0.5, 10.0)},
 )
 def cake_thickness(
-    filtrate_volume: Volume, area: Area, dry_cake_per_filtrate: Concentration, void_fraction: VoidFraction, solid_density: Density
+    filtrate_volume: Volume,
+    area: Area,
+    dry_cake_per_filtrate: Concentration,
+    void_fraction: VoidFraction,
+    solid_density: Density,
 ) -> Distance:
     """Thickness of the cake after a volume of filtrate.
 
-    >>> round(cake_thickness(filtrate_volume=2.4, area=0.5, dry_cake_per_filtrate=15.3, void_fraction=0.38, solid_density=2630), 3)
+    >>> round(
+    ...     cake_thickness(
+    ...         filtrate_volume=2.4,
+    ...         area=0.5,
+    ...         dry_cake_per_filtrate=15.3,
+    ...         void_fraction=0.38,
+    ...         solid_density=2630,
+    ...     ),
+    ...     3,
+    ... )
     0.045
     """
     return dry_cake_per_filtrate * filtrate_volume / (area * (1.0 - void_fraction) * solid_density)

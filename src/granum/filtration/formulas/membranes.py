@@ -1,4 +1,6 @@
-"""Membrane filtration: flux by resistances or permeance, osmotic pressure, rejection, concentration polarization, a batch."""
+"""Membrane filtration: flux by resistances or permeance, osmotic pressure, rejection, concentration
+polarization, a batch.
+"""
 
 from __future__ import annotations
 
@@ -51,15 +53,25 @@ def filtrate_flux_membrane(
 ) -> Speed:
     """Permeate flux of a membrane: transmembrane pressure less osmotic pressure over resistances in series.
 
-    >>> round(filtrate_flux_membrane("1 bar", "1 cP", medium_resistance=1e12, fouling_resistance=1e12) * 3.6e6, 6)
+    >>> round(
+    ...     filtrate_flux_membrane("1 bar", "1 cP", medium_resistance=1e12, fouling_resistance=1e12) * 3.6e6,
+    ...     6,
+    ... )
     180.0
     """
     total = medium_resistance + cake_layer_resistance + fouling_resistance
     return _driving(pressure_drop, osmotic_pressure) / (dynamic_viscosity * total)
 
 
-@formula(source="wijmans1995", equation=r"J = A\,(\Delta p - \Delta\pi)", output="filtrate_flux", typical={"pressure_drop": (1e6, 6e6)})
-def filtrate_flux_permeance(pressure_drop: PressureDrop, membrane_permeance: Permeance, osmotic_pressure: Pressure = 0.0) -> Speed:
+@formula(
+    source="wijmans1995",
+    equation=r"J = A\,(\Delta p - \Delta\pi)",
+    output="filtrate_flux",
+    typical={"pressure_drop": (1e6, 6e6)},
+)
+def filtrate_flux_permeance(
+    pressure_drop: PressureDrop, membrane_permeance: Permeance, osmotic_pressure: Pressure = 0.0
+) -> Speed:
     """Permeate flux of a reverse osmosis or nanofiltration membrane of known permeance.
 
     A permeance by mass of water is divided by the density of water.
@@ -72,11 +84,14 @@ def filtrate_flux_permeance(pressure_drop: PressureDrop, membrane_permeance: Per
 
 @formula(source="vanthoff1887", equation=r"\pi = i\,c\,R\,T", output="osmotic_pressure")
 def osmotic_pressure(
-    solute_molar_concentration: MolarConcentration, dissociation_number: PositiveNumber = 1.0, temperature: Temperature = 298.15
+    solute_molar_concentration: MolarConcentration,
+    dissociation_number: PositiveNumber = 1.0,
+    temperature: Temperature = 298.15,
 ) -> Pressure:
     """Osmotic pressure of a dilute solution against its solvent (van 't Hoff).
 
-    The dissociation number counts the ions or molecules that a dissolved formula gives: 1 for sugar, 2 for NaCl.
+    The dissociation number counts the ions or molecules that a dissolved formula gives: 1 for sugar, 2 for
+    NaCl.
 
     >>> round(osmotic_pressure("0.1 mol/L", dissociation_number=2.0) / 1e5, 3)
     4.958
@@ -91,7 +106,8 @@ def osmotic_pressure(
     typical={"filtrate_flux": (2e-6, 3e-5)},
 )
 def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Speed) -> Fraction:
-    """Rejection of a dense membrane: solute passes at its own rate whatever the pressure, so that more flux dilutes it.
+    """Rejection of a dense membrane: solute passes at its own rate whatever the pressure, so that more flux
+    dilutes it.
 
     >>> round(rejection_solution_diffusion(filtrate_flux=1.9e-5, solute_permeability=1e-6), 6)
     0.95
@@ -104,9 +120,13 @@ def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Spee
     source="cheryan1998",
     equation=r"J = k\,\ln\frac{c_g - c_p}{c_b - c_p}",
     output="filtrate_flux",
-    typical={"concentration_gel": (200.0, 400.0), "concentration_bulk": (5.0, 100.0), "concentration_permeate": (0.0, 1.0),
-             "mass_transfer_coefficient": (1e-6, 1e-5)},
-)  # fmt: skip
+    typical={
+        "concentration_gel": (200.0, 400.0),
+        "concentration_bulk": (5.0, 100.0),
+        "concentration_permeate": (0.0, 1.0),
+        "mass_transfer_coefficient": (1e-6, 1e-5),
+    },
+)
 def filtrate_flux_limiting(
     mass_transfer_coefficient: MassTransferCoefficient,
     concentration_gel: Concentration,
@@ -118,8 +138,16 @@ def filtrate_flux_limiting(
     >>> round(filtrate_flux_limiting(1e-5, concentration_gel=300, concentration_bulk=30) * 1e5, 4)
     2.3026
     """
-    impossible(~(concentration_permeate < concentration_bulk), concentration_permeate, "concentration_permeate", 0.0, concentration_bulk)
-    ratio = (concentration_gel - concentration_permeate) / jnp.maximum(concentration_bulk - concentration_permeate, 1e-300)
+    impossible(
+        ~(concentration_permeate < concentration_bulk),
+        concentration_permeate,
+        "concentration_permeate",
+        0.0,
+        concentration_bulk,
+    )
+    ratio = (concentration_gel - concentration_permeate) / jnp.maximum(
+        concentration_bulk - concentration_permeate, 1e-300
+    )
     return mass_transfer_coefficient * jnp.log(jnp.maximum(ratio, 1.0))
 
 
@@ -127,20 +155,34 @@ def filtrate_flux_limiting(
     source="cheryan1998",
     equation=r"c = c_0\,\mathrm{VCF}^{R}",
     output="concentration",
-    typical={"concentration_inlet": (1.0, 50.0), "rejection": (0.5, 1.0), "volume_concentration_factor": (1.5, 20.0)},
+    typical={
+        "concentration_inlet": (1.0, 50.0),
+        "rejection": (0.5, 1.0),
+        "volume_concentration_factor": (1.5, 20.0),
+    },
 )
 def concentration_retentate_batch(
     concentration_inlet: Concentration, volume_concentration_factor: PositiveNumber, rejection: Fraction
 ) -> Concentration:
     """Retentate concentration of a batch reduced in volume by a factor, at constant rejection.
 
-    >>> round(concentration_retentate_batch(concentration_inlet=10, volume_concentration_factor=10, rejection=1.0), 6)
+    >>> round(
+    ...     concentration_retentate_batch(
+    ...         concentration_inlet=10, volume_concentration_factor=10, rejection=1.0
+    ...     ),
+    ...     6,
+    ... )
     100.0
     """
     return concentration_inlet * volume_concentration_factor**rejection
 
 
-@formula(source="cheryan1998", equation=r"\Omega = \frac{Q_p}{J}", typical={"filtrate_flux": (5e-6, 5e-5)}, output="filtration_area")
+@formula(
+    source="cheryan1998",
+    equation=r"\Omega = \frac{Q_p}{J}",
+    typical={"filtrate_flux": (5e-6, 5e-5)},
+    output="filtration_area",
+)
 def filtration_area_membrane(filtrate_flow: VolumeFlow, filtrate_flux: Speed) -> Area:
     """Membrane area for a permeate flow at a mean flux.
 

@@ -12,8 +12,14 @@ from granum.filtration.kinds import ResidualDrag
 from granum.numerics import find_root
 
 WIDEST = 100.0  # pitches in multiples of the thinnest channel's width and of the height
-_PLEAT = {"superficial_velocity": (0.5, 3.0), "pleat_height": (0.02, 0.1), "pleat_pitch": (3e-3, 8e-3), "mat_thickness": (3e-4, 8e-4),
-          "dynamic_viscosity": (1.7e-5, 2e-5), "medium_drag": (200.0, 4000.0)}  # fmt: skip
+_PLEAT = {
+    "superficial_velocity": (0.5, 3.0),
+    "pleat_height": (0.02, 0.1),
+    "pleat_pitch": (3e-3, 8e-3),
+    "mat_thickness": (3e-4, 8e-4),
+    "dynamic_viscosity": (1.7e-5, 2e-5),
+    "medium_drag": (200.0, 4000.0),
+}
 
 
 def _parts(v: Any, h: Any, p: Any, t: Any, eta: Any, k: Any) -> tuple[Any, Any]:
@@ -23,8 +29,12 @@ def _parts(v: Any, h: Any, p: Any, t: Any, eta: Any, k: Any) -> tuple[Any, Any]:
     return k * v * p / (2.0 * h), 8.0 * eta * v * p * h / safe**3
 
 
-@formula(source="chen1995",
-         equation=r"\Delta p = K_1\frac{v p}{2h} + \frac{8\,\eta\,v\,p\,h}{(p/2 - L)^3}", output="pressure_drop", typical=_PLEAT)  # fmt: skip
+@formula(
+    source="chen1995",
+    equation=r"\Delta p = K_1\frac{v p}{2h} + \frac{8\,\eta\,v\,p\,h}{(p/2 - L)^3}",
+    output="pressure_drop",
+    typical=_PLEAT,
+)
 def pressure_drop_pleated(
     superficial_velocity: Speed,
     pleat_height: Length,
@@ -33,23 +43,36 @@ def pressure_drop_pleated(
     dynamic_viscosity: DynamicViscosity,
     medium_drag: ResidualDrag,
 ) -> PressureDrop:
-    """Pressure drop of a pleated filter: the medium at the velocity through its own area, and laminar flow in the channels between folds.
+    """Pressure drop of a pleated filter: the medium at the velocity through its own area, and laminar flow in
+    the channels between folds.
 
-    Rectangular folds, even flow through the medium; the velocity is that in front of the filter, the drag of the medium its pressure drop
-    over the velocity through it (see ``pressure_drop_fibers``). No value where the folds touch.
+    Rectangular folds, even flow through the medium; the velocity is that in front of the filter, the drag of
+    the medium its pressure drop over the velocity through it (see ``pressure_drop_fibers``). No value where
+    the folds touch.
 
     >>> round(pressure_drop_pleated(1.0, "5 cm", "5 mm", "0.5 mm", 1.8e-5, medium_drag=2000.0), 1)
     104.5
     """
-    medium, channel = _parts(superficial_velocity, pleat_height, pleat_pitch, mat_thickness, dynamic_viscosity, medium_drag)
+    medium, channel = _parts(
+        superficial_velocity, pleat_height, pleat_pitch, mat_thickness, dynamic_viscosity, medium_drag
+    )
     return medium + channel
 
 
-@formula(source="chen1995", equation=r"\frac{\partial\Delta p}{\partial p} = 0", output="pleat_pitch", typical=_PLEAT)
+@formula(
+    source="chen1995",
+    equation=r"\frac{\partial\Delta p}{\partial p} = 0",
+    output="pleat_pitch",
+    typical=_PLEAT,
+)
 def pleat_pitch_best(
-    pleat_height: Length, mat_thickness: Distance, dynamic_viscosity: DynamicViscosity, medium_drag: ResidualDrag
+    pleat_height: Length,
+    mat_thickness: Distance,
+    dynamic_viscosity: DynamicViscosity,
+    medium_drag: ResidualDrag,
 ) -> Length:
-    """Pitch of the folds at which a pleated filter of given height costs the least pressure, whatever the velocity.
+    """Pitch of the folds at which a pleated filter of given height costs the least pressure, whatever the
+    velocity.
 
     For a thin medium (256 η h²/K)^⅓:
 

@@ -21,11 +21,21 @@ from granum.core.kinds import (
 from granum.filtration.formulas.constant_pressure import Ruth
 from granum.filtration.kinds import FittedMediumResistance, RuthConstant
 
-_SMALL = {"time": (60.0, 600.0), "filtrate_volume": (1e-3, 1e-2), "area": (0.01, 0.1), "pressure_drop": (1e4, 1e5)}
+_SMALL = {
+    "time": (60.0, 600.0),
+    "filtrate_volume": (1e-3, 1e-2),
+    "area": (0.01, 0.1),
+    "pressure_drop": (1e4, 1e5),
+}
 
 
-NO_CAKE = "The readings do not lie on a rising line: at least two different ones are needed, of a cake that grows."
-BELOW_ZERO = "The line through the readings meets the axis below zero, as if the medium had a negative resistance: scatter, or settling beside filtration."
+NO_CAKE = (
+    "The readings do not lie on a rising line: at least two different ones are needed, of a cake that grows."
+)
+BELOW_ZERO = (
+    "The line through the readings meets the axis below zero, as if the medium had a negative resistance: "
+    "scatter, or settling beside filtration."
+)
 
 
 def _line(x: Any, y: Any) -> tuple[Any, Any]:
@@ -48,10 +58,17 @@ class Resistances(NamedTuple):
     medium_resistance: FittedMediumResistance
 
 
-@formula(source="ruth1935; geankoplis2003, § 14.2", typical=_SMALL, title="Ruth's constants from readings",
-         equation=r"\frac{t}{V} = \frac{V}{a} + \frac{2V_0}{a},\quad t_0 = \frac{V_0^2}{a}")  # fmt: skip
-def ruth_constants_readings(time: Annotated[Time, Series("points")], filtrate_volume: Annotated[Volume, Series("points")]) -> Ruth:
-    """Constants of Ruth's equation (V + V₀)² = a (t + t₀) from readings at constant pressure: exact from two, fitted from more.
+@formula(
+    source="ruth1935; geankoplis2003, § 14.2",
+    typical=_SMALL,
+    title="Ruth's constants from readings",
+    equation=r"\frac{t}{V} = \frac{V}{a} + \frac{2V_0}{a},\quad t_0 = \frac{V_0^2}{a}",
+)
+def ruth_constants_readings(
+    time: Annotated[Time, Series("points")], filtrate_volume: Annotated[Volume, Series("points")]
+) -> Ruth:
+    """Constants of Ruth's equation (V + V₀)² = a (t + t₀) from readings at constant pressure: exact from two,
+    fitted from more.
 
     >>> a, V0, t0 = ruth_constants_readings("3 12 min", "5.21 17.84 L")
     >>> [round(V * (V + 2 * V0) / a) for V in (5.21e-3, 17.84e-3)]
@@ -62,8 +79,14 @@ def ruth_constants_readings(time: Annotated[Time, Series("points")], filtrate_vo
     return Ruth(1.0 / slope, level / (2.0 * slope), level**2 / (4.0 * slope))
 
 
-@formula(source="ruth1935", typical={"filtrate_volume": (0.01, 0.1), "ruth_constant": (1e-6, 1e-4)}, equation=r"t = \frac{V^2 + 2VV_0}{a}")
-def filtration_time_ruth(filtrate_volume: Volume, ruth_constant: RuthConstant, ruth_volume: Volume = 0.0) -> Time:
+@formula(
+    source="ruth1935",
+    typical={"filtrate_volume": (0.01, 0.1), "ruth_constant": (1e-6, 1e-4)},
+    equation=r"t = \frac{V^2 + 2VV_0}{a}",
+)
+def filtration_time_ruth(
+    filtrate_volume: Volume, ruth_constant: RuthConstant, ruth_volume: Volume = 0.0
+) -> Time:
     """Time to collect a volume of filtrate at constant pressure, from the constants of Ruth's equation.
 
     >>> round(filtration_time_ruth(filtrate_volume="10 L", ruth_constant=1e-6, ruth_volume="2 L"), 9)
@@ -72,8 +95,15 @@ def filtration_time_ruth(filtrate_volume: Volume, ruth_constant: RuthConstant, r
     return filtrate_volume * (filtrate_volume + 2.0 * ruth_volume) / ruth_constant
 
 
-@formula(source="ruth1935; geankoplis2003, § 14.2", typical=_SMALL, title="Resistances from readings at constant pressure",
-         equation=r"\frac{t}{V} = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}V + \frac{\eta\,R_s}{\Delta p\,\Omega}")  # fmt: skip
+@formula(
+    source="ruth1935; geankoplis2003, § 14.2",
+    typical=_SMALL,
+    title="Resistances from readings at constant pressure",
+    equation=(
+        r"\frac{t}{V} = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}V + \frac{\eta\,R_s}{\Delta "
+        r"p\,\Omega}"
+    ),
+)
 def resistances_constant_pressure(
     time: Annotated[Time, Series("points")],
     filtrate_volume: Annotated[Volume, Series("points")],
@@ -82,10 +112,17 @@ def resistances_constant_pressure(
     dynamic_viscosity: DynamicViscosity,
     dry_cake_per_filtrate: Concentration,
 ) -> Resistances:
-    """Cake and medium resistance from readings of time and filtrate at constant pressure: exact from two, fitted from more.
+    """Cake and medium resistance from readings of time and filtrate at constant pressure: exact from two,
+    fitted from more.
 
-    >>> alpha, medium = resistances_constant_pressure(time="200 1000 s", filtrate_volume="10 30 L", area=0.1, pressure_drop="1 bar",
-    ...                                               dynamic_viscosity=1e-3, dry_cake_per_filtrate=20)
+    >>> alpha, medium = resistances_constant_pressure(
+    ...     time="200 1000 s",
+    ...     filtrate_volume="10 30 L",
+    ...     area=0.1,
+    ...     pressure_drop="1 bar",
+    ...     dynamic_viscosity=1e-3,
+    ...     dry_cake_per_filtrate=20,
+    ... )
     >>> round(float(alpha) / 1e10, 6), round(float(medium) / 1e11, 6)
     (6.666667, 1.333333)
     """
@@ -95,9 +132,17 @@ def resistances_constant_pressure(
     return Resistances(2.0 * slope * drive * area**2 / dry_cake_per_filtrate, level * drive * area)
 
 
-@formula(source="carman1938; tiller1955", title="Resistances from readings at constant rate",
-         typical={"time": (60.0, 600.0), "pressure_drop": (1e4, 1e5), "filtrate_flow": (1e-5, 1e-4), "area": (0.5, 2.0)},
-         equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q")  # fmt: skip
+@formula(
+    source="carman1938; tiller1955",
+    title="Resistances from readings at constant rate",
+    typical={
+        "time": (60.0, 600.0),
+        "pressure_drop": (1e4, 1e5),
+        "filtrate_flow": (1e-5, 1e-4),
+        "area": (0.5, 2.0),
+    },
+    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q",
+)
 def resistances_constant_rate(
     time: Annotated[Time, Series("points")],
     pressure_drop: Annotated[PressureDrop, Series("points")],
@@ -106,13 +151,22 @@ def resistances_constant_rate(
     dynamic_viscosity: DynamicViscosity,
     dry_cake_per_filtrate: Concentration,
 ) -> Resistances:
-    """Cake and medium resistance from readings of time and pressure drop at constant rate: exact from two, fitted from more.
+    """Cake and medium resistance from readings of time and pressure drop at constant rate: exact from two,
+    fitted from more.
 
-    >>> alpha, medium = resistances_constant_rate("3 8 min", "5340 9310 Pa", filtrate_flow="240 mL/s", area=1, dynamic_viscosity="1 cP",
-    ...                                           dry_cake_per_filtrate=10)
+    >>> alpha, medium = resistances_constant_rate(
+    ...     "3 8 min",
+    ...     "5340 9310 Pa",
+    ...     filtrate_flow="240 mL/s",
+    ...     area=1,
+    ...     dynamic_viscosity="1 cP",
+    ...     dry_cake_per_filtrate=10,
+    ... )
     >>> round(float(alpha) / 1e10, 4), round(float(medium) / 1e10, 4)
     (2.2975, 1.2325)
     """
     slope, level = _line(time, pressure_drop)
     u = filtrate_flow / area
-    return Resistances(slope / (dynamic_viscosity * dry_cake_per_filtrate * u**2), level / (dynamic_viscosity * u))
+    return Resistances(
+        slope / (dynamic_viscosity * dry_cake_per_filtrate * u**2), level / (dynamic_viscosity * u)
+    )

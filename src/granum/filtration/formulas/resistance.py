@@ -5,7 +5,16 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, limit_active
-from granum.core.kinds import CakeResistance, Density, Length, Permeability, PositiveNumber, PressureDrop, Ratio, VoidFraction
+from granum.core.kinds import (
+    CakeResistance,
+    Density,
+    Length,
+    Permeability,
+    PositiveNumber,
+    PressureDrop,
+    Ratio,
+    VoidFraction,
+)
 from granum.filtration.kinds import OVER_COMPRESSIBLE
 
 
@@ -15,15 +24,22 @@ from granum.filtration.kinds import OVER_COMPRESSIBLE
     fitted={"void_fraction": (0.3, 0.6)},
 )
 def cake_resistance_kozeny_carman(
-    particle_diameter: Length, void_fraction: VoidFraction, solid_density: Density, kozeny_coefficient: PositiveNumber = 5.0
+    particle_diameter: Length,
+    void_fraction: VoidFraction,
+    solid_density: Density,
+    kozeny_coefficient: PositiveNumber = 5.0,
 ) -> CakeResistance:
     """Specific cake resistance from the surface–volume diameter of the particles and the void fraction.
 
-    The coefficient is 4 to 5 for isometric grains, several times more for fibers; real cakes of fine or flocculated particles
-    resist up to ten times more. Differs from the print in the notes, which have the specific surface where the diameter belongs.
+    The coefficient is 4 to 5 for isometric grains, several times more for fibers; real cakes of fine or
+    flocculated particles resist up to ten times more. Differs from the print in the notes, which have the
+    specific surface where the diameter belongs.
 
     >>> from granum.core.units import format_number
-    >>> format_number(cake_resistance_kozeny_carman(particle_diameter="85 um", void_fraction=0.38, solid_density=2630), 3)
+    >>> format_number(
+    ...     cake_resistance_kozeny_carman(particle_diameter="85 um", void_fraction=0.38, solid_density=2630),
+    ...     3,
+    ... )
     '1.07 × 10⁸'
     """
     e, d = void_fraction, particle_diameter
@@ -31,7 +47,9 @@ def cake_resistance_kozeny_carman(
 
 
 @formula(source="carman1938", equation=r"B = \frac{1}{\alpha\,(1 - \varepsilon)\,\rho_s}")
-def cake_permeability(cake_resistance: CakeResistance, void_fraction: VoidFraction, solid_density: Density) -> Permeability:
+def cake_permeability(
+    cake_resistance: CakeResistance, void_fraction: VoidFraction, solid_density: Density
+) -> Permeability:
     """Permeability of a cake from its specific resistance.
 
     Differs from the print in the notes, which have 1 + ε for 1 − ε.
@@ -49,15 +67,24 @@ def cake_permeability(cake_resistance: CakeResistance, void_fraction: VoidFracti
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
 )
 def cake_resistance_power_law(
-    pressure_drop: PressureDrop, cake_resistance_reference: CakeResistance, compressibility: Ratio, reference_pressure: PressureDrop = 1.0
+    pressure_drop: PressureDrop,
+    cake_resistance_reference: CakeResistance,
+    compressibility: Ratio,
+    reference_pressure: PressureDrop = 1.0,
 ) -> CakeResistance:
     """Mean specific resistance of a compressible cake as a power of the filtration pressure.
 
-    The reference pressure of 1 Pa is the custom of handbooks (α₀ in m/kg at Δp in Pa). A compressibility of 0 is a rigid cake, 0.2 to
-    0.8 is common; above 1 more pressure gives less filtrate, which tests seldom bear out.
+    The reference pressure of 1 Pa is the custom of handbooks (α₀ in m/kg at Δp in Pa). A compressibility of
+    0 is a rigid cake, 0.2 to 0.8 is common; above 1 more pressure gives less filtrate, which tests seldom
+    bear out.
 
     >>> from granum.core.units import format_number
-    >>> format_number(cake_resistance_power_law(pressure_drop=67e3, cake_resistance_reference=4.37e9, compressibility=0.3), 4)
+    >>> format_number(
+    ...     cake_resistance_power_law(
+    ...         pressure_drop=67e3, cake_resistance_reference=4.37e9, compressibility=0.3
+    ...     ),
+    ...     4,
+    ... )
     '1.225 × 10¹¹'
     """
     limit_active(compressibility > 1.0, compressibility, "compressibility", OVER_COMPRESSIBLE)
@@ -72,9 +99,13 @@ def cake_resistance_power_law(
     family="cake_resistance",
 )
 def cake_resistance_threshold(
-    pressure_drop: PressureDrop, cake_resistance_reference: CakeResistance, compressibility: Ratio, threshold_pressure: PressureDrop
+    pressure_drop: PressureDrop,
+    cake_resistance_reference: CakeResistance,
+    compressibility: Ratio,
+    threshold_pressure: PressureDrop,
 ) -> CakeResistance:
-    """Mean specific resistance of a cake that yields only above a threshold pressure: constant below, a power above.
+    """Mean specific resistance of a cake that yields only above a threshold pressure: constant below, a power
+    above.
 
     The range is that of ``cake_resistance_power_law``.
 

@@ -16,10 +16,11 @@ from granum.porous import displacement
     fitted={"dispersion_number": (1e-2, 1e3)},
 )
 def wash_effluent_concentration(wash_ratio: Ratio, dispersion_number: PositiveNumber) -> Fraction:
-    """Solute concentration leaving a cake that is being washed, over that of the mother liquor, by the dispersion model.
+    """Solute concentration leaving a cake that is being washed, over that of the mother liquor, by the
+    dispersion model.
 
-    The cake is saturated at the start, the wash liquor clean, the solute not adsorbed. At large dispersion numbers the liquor is
-    displaced as a plug, at small ones the cake acts as a stirred vessel.
+    The cake is saturated at the start, the wash liquor clean, the solute not adsorbed. At large dispersion
+    numbers the liquor is displaced as a plug, at small ones the cake acts as a stirred vessel.
 
     >>> round(wash_effluent_concentration(wash_ratio=1.0, dispersion_number=1e3), 2)
     0.49
@@ -51,7 +52,8 @@ def solute_remaining_dispersion(wash_ratio: Ratio, dispersion_number: PositiveNu
     fitted={"displacement_efficiency": (0.35, 0.86)},
 )
 def solute_remaining_dahlstrom(wash_ratio: Ratio, displacement_efficiency: Fraction = 0.7) -> Fraction:
-    """Fraction of the solute still in a cake after washing on a drum, by the displacement efficiency of one void volume.
+    """Fraction of the solute still in a cake after washing on a drum, by the displacement efficiency of one
+    void volume.
 
     >>> round(solute_remaining_dahlstrom(wash_ratio=2.0, displacement_efficiency=0.7), 6)
     0.09
@@ -64,7 +66,9 @@ def solute_remaining_dahlstrom(wash_ratio: Ratio, displacement_efficiency: Fract
     equation=r"D_L = D\left(\frac{1}{\sqrt2} + 1.75\,\frac{v d_p}{D}\right)",
     typical={"velocity": (1e-5, 1e-3), "particle_diameter": (1e-5, 2e-4)},
 )
-def axial_dispersion_cake(velocity: Speed, particle_diameter: Length, diffusivity: Diffusivity) -> Diffusivity:
+def axial_dispersion_cake(
+    velocity: Speed, particle_diameter: Length, diffusivity: Diffusivity
+) -> Diffusivity:
     """Axial dispersion of a solute in the pores of a thin cake (up to about 10 cm) at a pore velocity.
 
     >>> round(axial_dispersion_cake(velocity=1e-4, particle_diameter="50 um", diffusivity=1e-9) * 1e9, 3)
@@ -73,8 +77,14 @@ def axial_dispersion_cake(velocity: Speed, particle_diameter: Length, diffusivit
     return displacement.axial_dispersion(velocity, particle_diameter, diffusivity)
 
 
-@formula(source="sherman1964", equation=r"D_n = \frac{v Z}{D_L}", typical={"velocity": (1e-5, 1e-3), "axial_dispersion": (1e-9, 1e-7)})
-def dispersion_number(velocity: Speed, cake_thickness: Length, axial_dispersion: Diffusivity) -> PositiveNumber:
+@formula(
+    source="sherman1964",
+    equation=r"D_n = \frac{v Z}{D_L}",
+    typical={"velocity": (1e-5, 1e-3), "axial_dispersion": (1e-9, 1e-7)},
+)
+def dispersion_number(
+    velocity: Speed, cake_thickness: Length, axial_dispersion: Diffusivity
+) -> PositiveNumber:
     """Dispersion number of cake washing: pore velocity and cake thickness over axial dispersion.
 
     >>> round(dispersion_number(velocity=1e-4, cake_thickness="2 cm", axial_dispersion=1e-7), 6)
@@ -90,7 +100,8 @@ def dispersion_number(velocity: Speed, cake_thickness: Length, axial_dispersion:
     output="solute_remaining",
 )
 def solute_remaining_reslurry(reslurry_ratio: Ratio, wash_stages: PositiveNumber = 1.0) -> Fraction:
-    """Fraction of the solute left when a cake is stirred up in wash liquor and filtered again, stage after stage.
+    """Fraction of the solute left when a cake is stirred up in wash liquor and filtered again, stage after
+    stage.
 
     The ratio is fresh wash liquor per liquor held by the cake, in each stage.
 

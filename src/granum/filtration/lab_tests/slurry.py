@@ -9,7 +9,18 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Density, Fraction, Mass, MassFraction, PressureDrop, Ratio, Series, Volume, VolumeFlow
+from granum.core.kinds import (
+    Concentration,
+    Density,
+    Fraction,
+    Mass,
+    MassFraction,
+    PressureDrop,
+    Ratio,
+    Series,
+    Volume,
+    VolumeFlow,
+)
 from granum.estimation import Fit, LabTest
 from granum.estimation.lines import straight_line
 
@@ -18,12 +29,17 @@ from granum.estimation.lines import straight_line
     "slurry_jar",
     source="ruth1935; wakeman2005",
     title="Jars of slurry, filtered and dried",
-    equation=r"M_s = s\,M_p,\quad m = \frac{\sum M_{wet}}{\sum M_s},\quad W = \frac{\rho_l s}{1 - m s},\quad \varepsilon = 1 - \frac{\sum M_s}{\rho_s\sum V_g}",
+    equation=(
+        r"M_s = s\,M_p,\quad m = \frac{\sum M_{wet}}{\sum M_s},\quad W = \frac{\rho_l s}{1 - m s},\quad "
+        r"\varepsilon = 1 - \frac{\sum M_s}{\rho_s\sum V_g}"
+    ),
 )
 class SlurryJar(LabTest):
-    """Mass fraction of solids with its interval, and wet to dry ratio, dry cake per filtrate and void fraction of the cake beside it.
+    """Mass fraction of solids with its interval, and wet to dry ratio, dry cake per filtrate and void
+    fraction of the cake beside it.
 
-    Each row is one jar: its slurry, the wet cake filtered from it, that cake dried, and the volume of the wet cake.
+    Each row is one jar: its slurry, the wet cake filtered from it, that cake dried, and the volume of the wet
+    cake.
     """
 
     slurry_mass: Annotated[Mass, Series("points")]
@@ -41,30 +57,47 @@ class SlurryJar(LabTest):
         """Solids, with what the filtration equations need besides."""
         self.above_zero("cake_volume")
         slurry, wet, dry, volume = (
-            np.asarray(x, dtype=float) for x in (self.slurry_mass, self.wet_cake_mass, self.dry_cake_mass, self.cake_volume)
+            np.asarray(x, dtype=float)
+            for x in (self.slurry_mass, self.wet_cake_mass, self.dry_cake_mass, self.cake_volume)
         )
         if not (np.all(dry > 0) and np.all(wet >= dry) and np.all(slurry >= wet)):
-            raise InputError(_("Each jar needs slurry, wet cake and dry cake of falling mass, none of them zero."), name="dry_cake_mass")
+            raise InputError(
+                _("Each jar needs slurry, wet cake and dry cake of falling mass, none of them zero."),
+                name="dry_cake_mass",
+            )
         ratio = float(wet.sum() / dry.sum())
         void = float(1.0 - dry.sum() / (self.solid_density * volume.sum()))
         flags = []
         full = void * self.liquid_density * volume.sum()  # of liquid in a saturated cake
         if not 0.95 < (wet.sum() - dry.sum()) / full < 1.05:
             sentence = _(
-                "The liquid in the wet cakes does not fill their voids to within 5 %: drained cakes, wrong volumes or a wrong density."
+                "The liquid in the wet cakes does not fill their voids to within 5 %: drained cakes, "
+                "wrong volumes or a wrong density."
             )
             flags.append(self.note("saturation", sentence, "wet_cake_mass"))
 
         def derived(p: dict[str, Any]) -> dict[str, Any]:
             s = p["solids_mass_fraction"]
-            return {"wet_to_dry_mass_ratio": ratio + 0.0 * s, "dry_cake_per_filtrate": self.liquid_density * s / (1.0 - ratio * s),
-                    "void_fraction": void + 0.0 * s}  # fmt: skip
+            return {
+                "wet_to_dry_mass_ratio": ratio + 0.0 * s,
+                "dry_cake_per_filtrate": self.liquid_density * s / (1.0 - ratio * s),
+                "void_fraction": void + 0.0 * s,
+            }
 
         return self.fitted(
-            lambda p, M: p["solids_mass_fraction"] * M, {"solids_mass_fraction": float(dry.sum() / slurry.sum())}, slurry, dry, derived=derived,
-            flags=flags, bounds={"solids_mass_fraction": (0.0, 1.0)},
-            kinds={"wet_to_dry_mass_ratio": Ratio, "dry_cake_per_filtrate": Concentration, "void_fraction": Fraction},
-        )  # fmt: skip
+            lambda p, M: p["solids_mass_fraction"] * M,
+            {"solids_mass_fraction": float(dry.sum() / slurry.sum())},
+            slurry,
+            dry,
+            derived=derived,
+            flags=flags,
+            bounds={"solids_mass_fraction": (0.0, 1.0)},
+            kinds={
+                "wet_to_dry_mass_ratio": Ratio,
+                "dry_cake_per_filtrate": Concentration,
+                "void_fraction": Fraction,
+            },
+        )
 
 
 @lab_test(
@@ -90,10 +123,17 @@ class PumpCurve(LabTest):
         slope, top = straight_line(q**2, dp)
         if slope >= 0 or top <= 0:
             raise InputError(
-                _("The pressure of the pump does not fall with the flow: not a centrifugal pump, or swapped columns."), name="pressure_drop"
+                _(
+                    "The pressure of the pump does not fall with the flow: not a centrifugal pump, or "
+                    "swapped columns."
+                ),
+                name="pressure_drop",
             )
         start = {"pressure_shutoff": float(top), "volume_flow_largest": float((-top / slope) ** 0.5)}
         return self.fitted(
-            lambda p, q: p["pressure_shutoff"] * (1.0 - (q / p["volume_flow_largest"]) ** 2), start, q, dp,
+            lambda p, q: p["pressure_shutoff"] * (1.0 - (q / p["volume_flow_largest"]) ** 2),
+            start,
+            q,
+            dp,
             bounds={"pressure_shutoff": (0.0, np.inf), "volume_flow_largest": (0.0, np.inf)},
-        )  # fmt: skip
+        )

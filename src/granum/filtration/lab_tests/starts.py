@@ -1,4 +1,6 @@
-"""Finding the first points of a test that do not belong to its line: late clock, pressure not yet steady, first layer unlike the rest."""
+"""Finding the first points of a test that do not belong to its line: late clock, pressure not yet steady,
+first layer unlike the rest.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +15,9 @@ LEAST_LEFT = 4
 def bad_start(x: np.ndarray, y: np.ndarray) -> int:
     """How many leading points to leave out of a straight line.
 
-    At most the first third is in question. The line through the rest is carried back one point at a time; the first point that
-    lies outside its 99 % prediction interval and more than 5 % off ends the walk: it and all before it are left out. Walking
-    backwards, several bad points cannot hide each other.
+    At most the first third is in question. The line through the rest is carried back one point at a time; the
+    first point that lies outside its 99 % prediction interval and more than 5 % off ends the walk: it and all
+    before it are left out. Walking backwards, several bad points cannot hide each other.
     """
     most = min(len(x) // 3, len(x) - LEAST_LEFT)
     if most < 1 or not np.ptp(x[most:]) > 0.0:
@@ -33,12 +35,16 @@ def bad_start(x: np.ndarray, y: np.ndarray) -> int:
     squares = np.maximum(svv - sv**2 / left - slope**2 * across, 1e-24)  # round-off is no scatter
     spread = np.sqrt(squares / (left - 2) * (1.0 + 1.0 / left + (u[first - 1] - su / left) ** 2 / across))
     miss = np.abs(v[first - 1] - expected)
-    bad = (miss > stats.t.isf(SIGNIFICANCE / 2.0, left - 2) * spread) & (miss * height > NOTICEABLE * np.abs(level + height * expected))
+    bad = (miss > stats.t.isf(SIGNIFICANCE / 2.0, left - 2) * spread) & (
+        miss * height > NOTICEABLE * np.abs(level + height * expected)
+    )
     return int(first[bad][-1]) if bad.any() else 0
 
 
 def bend(x: np.ndarray, y: np.ndarray) -> float:
-    """Change of slope from one end of the points to the other over the mean slope; 0 where it is not significant at 1 %."""
+    """Change of slope from one end of the points to the other over the mean slope; 0 where it is not
+    significant at 1 %.
+    """
     if len(x) < 6:
         return 0.0
     u = (x - x.mean()) / (x.max() - x.min())

@@ -34,14 +34,19 @@ SAME_STEP, LEAST_RATIO, LEAST_INTERVALS = 1.05, 1.5, 6
     "stepped_pressure_test",
     source="ruth1935; tiller1953; murase1989",
     title="Filtration test with steps of pressure",
-    equation=r"\frac{\Delta t}{\Delta V} = \frac{\eta}{\Omega\,\Delta p}\left[\alpha_0\left(\frac{\Delta p}{p_0}\right)^n\frac{W\,V}{\Omega} + R_s\right]",
+    equation=(
+        r"\frac{\Delta t}{\Delta V} = \frac{\eta}{\Omega\,\Delta p}\left[\alpha_0\left(\frac{\Delta "
+        r"p}{p_0}\right)^n\frac{W\,V}{\Omega} + R_s\right]"
+    ),
 )
 class SteppedPressureTest(LabTest):
-    """Cake resistance at a reference pressure, compressibility and medium resistance from one test whose pressure goes up in steps.
+    """Cake resistance at a reference pressure, compressibility and medium resistance from one test whose
+    pressure goes up in steps.
 
-    Each interval between readings gives a mean slowness, exact at constant pressure; the cake is taken to follow the pressure at
-    once. Intervals in which the pressure changes by more than 5 % are left out, as are first intervals of the first step that do not
-    lie on its line. Steps up to half again the first pressure at least are needed to see the compressibility.
+    Each interval between readings gives a mean slowness, exact at constant pressure; the cake is taken to
+    follow the pressure at once. Intervals in which the pressure changes by more than 5 % are left out, as are
+    first intervals of the first step that do not lie on its line. Steps up to half again the first pressure
+    at least are needed to see the compressibility.
     """
 
     time: Annotated[Time, Series("points")]
@@ -52,7 +57,11 @@ class SteppedPressureTest(LabTest):
     dry_cake_per_filtrate: Concentration
     reference_pressure: PressureDrop = 1e5
 
-    estimates: ClassVar = {"cake_resistance_reference": CakeResistance, "compressibility": Ratio, "medium_resistance": MediumResistance}
+    estimates: ClassVar = {
+        "cake_resistance_reference": CakeResistance,
+        "compressibility": Ratio,
+        "medium_resistance": MediumResistance,
+    }
     holds_for: ClassVar = ("pressure_drop",)
     axes: ClassVar = {"filtrate_volume": Volume, "time_per_filtrate_volume": TimePerVolume}
 
@@ -68,16 +77,32 @@ class SteppedPressureTest(LabTest):
         p = 0.5 * (low + high)
         steady = high < SAME_STEP * low
         if steady.sum() < LEAST_INTERVALS:
-            raise InputError(_("The test needs at least {least} intervals at steady pressure.").format(least=LEAST_INTERVALS))
+            raise InputError(
+                _("The test needs at least {least} intervals at steady pressure.").format(
+                    least=LEAST_INTERVALS
+                )
+            )
         if p[steady].max() < LEAST_RATIO * p[steady].min():
-            raise InputError(_("The pressure hardly changes: fit the test as one at constant pressure (leaf_test)."), name="pressure_drop")
+            raise InputError(
+                _("The pressure hardly changes: fit the test as one at constant pressure (leaf_test)."),
+                name="pressure_drop",
+            )
         first = np.cumprod(p < SAME_STEP * p[0]).astype(bool)
         skip = bad_start(middle[first], (slow * p)[first])
         keep = steady & (np.arange(len(p)) >= skip)
         flags = []
         if skip:
-            flags.append(self.note("points excluded", _("First points left out: {count}.").format(count=skip), "filtrate_volume"))
-        per_cake, per_medium = self.dynamic_viscosity * self.dry_cake_per_filtrate / self.area**2, self.dynamic_viscosity / self.area
+            flags.append(
+                self.note(
+                    "points excluded",
+                    _("First points left out: {count}.").format(count=skip),
+                    "filtrate_volume",
+                )
+            )
+        per_cake, per_medium = (
+            self.dynamic_viscosity * self.dry_cake_per_filtrate / self.area**2,
+            self.dynamic_viscosity / self.area,
+        )
         p0 = self.reference_pressure
 
         def model(q: dict[str, Any], volume: Any) -> Any:
@@ -86,7 +111,16 @@ class SteppedPressureTest(LabTest):
             return (cake + q["medium_resistance"] * per_medium) / now
 
         slope, intercept = straight_line(middle[keep], (slow * p)[keep])
-        start = {"cake_resistance_reference": abs(slope) / per_cake, "compressibility": 0.3,
-                 "medium_resistance": max(intercept, 0.01 * float(np.mean(slow * p))) / per_medium}  # fmt: skip
-        bounds = {"cake_resistance_reference": (0.0, np.inf), "compressibility": (0.0, 2.0), "medium_resistance": (0.0, np.inf)}
-        return self.fitted(model, start, middle, slow, index=1 + np.flatnonzero(grown), keep=keep, flags=flags, bounds=bounds)
+        start = {
+            "cake_resistance_reference": abs(slope) / per_cake,
+            "compressibility": 0.3,
+            "medium_resistance": max(intercept, 0.01 * float(np.mean(slow * p))) / per_medium,
+        }
+        bounds = {
+            "cake_resistance_reference": (0.0, np.inf),
+            "compressibility": (0.0, 2.0),
+            "medium_resistance": (0.0, np.inf),
+        }
+        return self.fitted(
+            model, start, middle, slow, index=1 + np.flatnonzero(grown), keep=keep, flags=flags, bounds=bounds
+        )

@@ -9,7 +9,17 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.flags import unsolved
-from granum.core.kinds import Area, Distance, Fraction, Law, Mass, PositiveNumber, PressureDrop, Speed, VoidFraction
+from granum.core.kinds import (
+    Area,
+    Distance,
+    Fraction,
+    Law,
+    Mass,
+    PositiveNumber,
+    PressureDrop,
+    Speed,
+    VoidFraction,
+)
 from granum.core.limits import Limit
 from granum.fluidization.formulas.freeboard import disengaging_height_smolders, elutriation_flux_geldart
 from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_wen_yu
@@ -20,7 +30,9 @@ from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
-_UNSOLVED = "The overflow that leaves the bed with its mass was not found: check the solid, the gas and the area."
+_UNSOLVED = (
+    "The overflow that leaves the bed with its mass was not found: check the solid, the gas and the area."
+)
 LEAST, THIN = 1e-12, 1e-3  # of a stream without gas, so that the sheet says what fails
 GAS_DIFFUSIVITY = 2.5e-5  # m²/s, of water vapor in air near 20 °C: the bypass is that of a dryer
 
@@ -47,7 +59,9 @@ class BedFigures(NamedTuple):
 
 
 class Blown(NamedTuple):
-    """The gas, m/s, kg/m³ and Pa s, on a solid of that density and mean size, and the share of each species and size class that it takes along."""
+    """The gas, m/s, kg/m³ and Pa s, on a solid of that density and mean size, and the share of each species
+    and size class that it takes along.
+    """
 
     velocity: Any
     density: Any
@@ -59,27 +73,41 @@ class Blown(NamedTuple):
 
 @equipment("fluidized_bed", source="kunii1991; geldart1979", title="Fluidized bed")
 class FluidizedBed(Unit):
-    """Well-mixed gas-fluidized bed of fixed solid mass: every size class leaves with the gas by its elutriation constant, the rest overflows.
+    """Well-mixed gas-fluidized bed of fixed solid mass: every size class leaves with the gas by its
+    elutriation constant, the rest overflows.
 
-    In steady state the class of mass fraction x in the bed loses K* A x to the gas and P x with the product, P being whatever closes the
-    balance. A bed that cannot keep its solid against the gas empties upwards: the product is then nothing. Holds above the
-    disengaging height.
+    In steady state the class of mass fraction x in the bed loses K* A x to the gas and P x with the product,
+    P being whatever closes the balance. A bed that cannot keep its solid against the gas empties upwards: the
+    product is then nothing. Holds above the disengaging height.
     """
 
     area: Area
     mass: Mass
     void_fraction: VoidFraction = 0.45
-    minimum_fluidization: Annotated[Any, Law("minimum_fluidization_velocity")] = minimum_fluidization_velocity_wen_yu
+    minimum_fluidization: Annotated[Any, Law("minimum_fluidization_velocity")] = (
+        minimum_fluidization_velocity_wen_yu
+    )
     distributor_ratio: PositiveNumber = 0.3
 
     limits: ClassVar[Limits] = {
-        "fluidized": Limit("gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"),
-        "carried": Limit("gas velocity over terminal velocity of the mean size", 0.0, 1.0, "dimensionless", "kunii1991"),
+        "fluidized": Limit(
+            "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
+        ),
+        "carried": Limit(
+            "gas velocity over terminal velocity of the mean size", 0.0, 1.0, "dimensionless", "kunii1991"
+        ),
         "distributor": Limit("distributor to bed pressure drop", 0.2, 0.4, "dimensionless", "kunii1991"),
     }
 
     @classmethod
-    def size(cls, gas_volume_flow: Any, superficial_velocity: Any, residence_time: Any, solid_mass_flow: Any, **more: Any) -> FluidizedBed:
+    def size(
+        cls,
+        gas_volume_flow: Any,
+        superficial_velocity: Any,
+        residence_time: Any,
+        solid_mass_flow: Any,
+        **more: Any,
+    ) -> FluidizedBed:
         """The bed that gives a gas velocity and a residence time of the solid."""
         return cls(gas_volume_flow / superficial_velocity, solid_mass_flow * residence_time, **more)
 
@@ -87,7 +115,9 @@ class FluidizedBed(Unit):
         volume = feed.gas_volume_flow
         density = jnp.where(volume > 0.0, safe_divide(feed.gas_flow, volume), THIN)
         mean = 1.0 / jnp.maximum(jnp.sum(feed.size_fractions / jnp.asarray(feed.mixture.sizes)), 1e-9)
-        return Blown(jnp.maximum(volume / self.area, LEAST), density, feed.gas_viscosity, feed.solid_density, mean)
+        return Blown(
+            jnp.maximum(volume / self.area, LEAST), density, feed.gas_viscosity, feed.solid_density, mean
+        )
 
     def rates(self, feed: Stream, gas: Blown) -> Any:
         """Elutriation of each species and size class per mass fraction in the bed, kg/s."""
@@ -95,14 +125,18 @@ class FluidizedBed(Unit):
         density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
         size = jnp.asarray(m.sizes) + 0.0 * density
         fall, U = terminal_velocity(size, density, gas.density, gas.viscosity), gas.velocity
-        return jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), gas.density), 0.0) * self.area
+        return (
+            jnp.where(fall < U, elutriation_flux_geldart(U, jnp.minimum(fall, 100.0 * U), gas.density), 0.0)
+            * self.area
+        )
 
     def inside(self, feed: Stream) -> Blown:
         gas = self._blown(feed)
         rates, flows = self.rates(feed, gas), jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim)))
         total = jnp.maximum(jnp.sum(flows), LEAST)
 
-        # x_i = F_i/(P + K_i); the mass fractions sum to one. With P = total the sum is at most one; with P = 0 at least one, or none stays
+        # x_i = F_i/(P + K_i); the mass fractions sum to one. With P = total the sum is at most one; with P =
+        # 0 at least one, or none stays
         def surplus(P: Any) -> Any:
             return jnp.sum(flows / (P + rates + LEAST * total)) - 1.0
 
@@ -122,19 +156,42 @@ class FluidizedBed(Unit):
         moist = safe_divide(jnp.sum(carried), feed.solid_flow)
         gas = feed.part(solid=share, liquid=moist, gas=1.0)
         lower = jnp.maximum(feed.pressure - self._drop(inside), 1.0)
-        product = feed.replace(solid=feed.solid - carried, liquid=feed.liquid - gas.liquid, gas=0.0 * feed.gas)
+        product = feed.replace(
+            solid=feed.solid - carried, liquid=feed.liquid - gas.liquid, gas=0.0 * feed.gas
+        )
         return BedOutlets(gas.replace(pressure=lower), product.replace(pressure=lower))
 
     def figures(self, inside: Blown, outlets: BedOutlets, feed: Stream) -> BedFigures:
-        U, first = inside.velocity, self.minimum_fluidization(inside.mean_size, inside.solid_density, inside.density, inside.viscosity)
+        U, first = (
+            inside.velocity,
+            self.minimum_fluidization(
+                inside.mean_size, inside.solid_density, inside.density, inside.viscosity
+            ),
+        )
         settled = self.mass / (self.area * inside.solid_density * (1.0 - self.void_fraction))
-        bed = two_phase_bed(U, first, settled, GAS_DIFFUSIVITY, self.void_fraction, diameter=jnp.sqrt(4.0 * self.area / jnp.pi))
+        bed = two_phase_bed(
+            U,
+            first,
+            settled,
+            GAS_DIFFUSIVITY,
+            self.void_fraction,
+            diameter=jnp.sqrt(4.0 * self.area / jnp.pi),
+        )
         return BedFigures(
-            U, first, self._drop(inside), bed.bubble_diameter, bed.bubble_fraction, bed.height_expanded, bed.bypass_fraction,
-            disengaging_height_smolders(U, first, bed.bubble_diameter), safe_divide(outlets.gas.solid_flow, feed.solid_flow),
-        )  # fmt: skip
+            U,
+            first,
+            self._drop(inside),
+            bed.bubble_diameter,
+            bed.bubble_fraction,
+            bed.height_expanded,
+            bed.bypass_fraction,
+            disengaging_height_smolders(U, first, bed.bubble_diameter),
+            safe_divide(outlets.gas.solid_flow, feed.solid_flow),
+        )
 
-    def measured(self, inside: Blown, outlets: BedOutlets, figures: BedFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Blown, outlets: BedOutlets, figures: BedFigures, feed: Stream
+    ) -> dict[str, Any]:
         U = figures.superficial_velocity
         fall = terminal_velocity(inside.mean_size, inside.solid_density, inside.density, inside.viscosity)
         return {

@@ -1,4 +1,6 @@
-"""A bed fluidized by a liquid: expansion, pressure drop, limits. Ion exchangers, backwashed filters, growing crystals."""
+"""A bed fluidized by a liquid: expansion, pressure drop, limits. Ion exchangers, backwashed filters, growing
+crystals.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,17 @@ from typing import Any, ClassVar, NamedTuple
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Density, Fraction, Length, Mass, PressureDrop, Speed, Sphericity, VoidFraction
+from granum.core.kinds import (
+    Area,
+    Density,
+    Fraction,
+    Length,
+    Mass,
+    PressureDrop,
+    Speed,
+    Sphericity,
+    VoidFraction,
+)
 from granum.core.limits import Limit
 from granum.fluidization.formulas.expansion import (
     bed_void_fraction_richardson_zaki,
@@ -41,14 +53,19 @@ class LiquidBedFigures(NamedTuple):
     pressure_drop: PressureDrop
 
 
-@equipment("liquid_fluidized_bed", source="richardson1954; ergun1952; kunii1991, ch. 3", title="Liquid-fluidized bed",
-           typical={"particle_density": (2400.0, 2700.0)})  # fmt: skip
+@equipment(
+    "liquid_fluidized_bed",
+    source="richardson1954; ergun1952; kunii1991, ch. 3",
+    title="Liquid-fluidized bed",
+    typical={"particle_density": (2400.0, 2700.0)},
+)
 class LiquidFluidizedBed(Unit):
-    """Bed of equal grains fluidized upwards by the liquid of a stream: expansion, pressure drop, and what would be carried off.
+    """Bed of equal grains fluidized upwards by the liquid of a stream: expansion, pressure drop, and what
+    would be carried off.
 
-    The grains stay and are no part of the stream; the void fraction is that of the settled bed, from which Ergun's minimum fluidization
-    and the terminal velocity give the expansion.
-    For graded grains see ``graded_bed_expansion``. The pressure of the liquid falls by the buoyant weight of the grains.
+    The grains stay and are no part of the stream; the void fraction is that of the settled bed, from which
+    Ergun's minimum fluidization and the terminal velocity give the expansion. For graded grains see
+    ``graded_bed_expansion``. The pressure of the liquid falls by the buoyant weight of the grains.
     """
 
     area: Area
@@ -59,13 +76,26 @@ class LiquidFluidizedBed(Unit):
     sphericity: Sphericity = 1.0
 
     limits: ClassVar[Limits] = {
-        "fluidized": Limit("liquid velocity over minimum fluidization velocity", 1.0, 1e3, "dimensionless", "kunii1991"),
-        "carried": Limit("liquid velocity over terminal velocity", 0.0, 1.0, "dimensionless", "richardson1954"),
+        "fluidized": Limit(
+            "liquid velocity over minimum fluidization velocity", 1.0, 1e3, "dimensionless", "kunii1991"
+        ),
+        "carried": Limit(
+            "liquid velocity over terminal velocity", 0.0, 1.0, "dimensionless", "richardson1954"
+        ),
     }
 
     @classmethod
-    def size(cls, liquid_volume_flow: Any, bed_void_fraction: Any, terminal_velocity: Any, settling_exponent: Any, mass: Any,
-             particle_diameter: Any, particle_density: Any, **more: Any) -> LiquidFluidizedBed:  # fmt: skip
+    def size(
+        cls,
+        liquid_volume_flow: Any,
+        bed_void_fraction: Any,
+        terminal_velocity: Any,
+        settling_exponent: Any,
+        mass: Any,
+        particle_diameter: Any,
+        particle_density: Any,
+        **more: Any,
+    ) -> LiquidFluidizedBed:
         """The bed whose section expands it to a void fraction: U = v_t ε^n."""
         area = liquid_volume_flow / (terminal_velocity * bed_void_fraction**settling_exponent)
         return cls(area, mass, particle_diameter, particle_density, **more)
@@ -79,7 +109,10 @@ class LiquidFluidizedBed(Unit):
     def inside(self, feed: Stream) -> Any:
         """Ergun's pressure drop of the settled bed, at most the buoyant weight over the section."""
         d, density, rho, eta = self._fluid(feed)
-        fixed = pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta, self.sphericity) * self._settled
+        fixed = (
+            pressure_gradient_ergun(self._velocity(feed), d, self.void_fraction, rho, eta, self.sphericity)
+            * self._settled
+        )
         return jnp.minimum(fixed, pressure_drop_fluidized_bed(self.mass, self.area, density, rho))
 
     @property
@@ -99,6 +132,11 @@ class LiquidFluidizedBed(Unit):
         expanded = settled * (1.0 - self.void_fraction) / (1.0 - jnp.minimum(e, FULLEST))
         return LiquidBedFigures(U, first, fall, e, settled, expanded, inside)
 
-    def measured(self, inside: Any, outlets: LiquidOutlets, figures: LiquidBedFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Any, outlets: LiquidOutlets, figures: LiquidBedFigures, feed: Stream
+    ) -> dict[str, Any]:
         U = figures.superficial_velocity
-        return {"fluidized": U / figures.minimum_fluidization_velocity, "carried": U / figures.terminal_velocity}
+        return {
+            "fluidized": U / figures.minimum_fluidization_velocity,
+            "carried": U / figures.terminal_velocity,
+        }

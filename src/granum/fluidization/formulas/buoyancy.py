@@ -8,7 +8,11 @@ import jax.numpy as jnp
 
 from granum.core import impossible
 
-TYPICAL = {"particle_diameter": (5e-5, 1e-3), "fluid_density": (0.4, 5.0), "dynamic_viscosity": (1.5e-5, 4e-5)}
+TYPICAL = {
+    "particle_diameter": (5e-5, 1e-3),
+    "fluid_density": (0.4, 5.0),
+    "dynamic_viscosity": (1.5e-5, 4e-5),
+}
 FINE = {**TYPICAL, "particle_diameter": (4e-5, 2e-4)}
 
 

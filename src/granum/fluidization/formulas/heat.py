@@ -29,23 +29,35 @@ from granum.fluidization.formulas.buoyancy import TYPICAL, archimedes
 GAS = {**TYPICAL, "thermal_conductivity": (0.02, 0.06), "specific_heat_capacity": (700.0, 1200.0)}
 
 
-@formula(source="zabrodsky1966; kunii1991, ch. 3", equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
-         output="heat_transfer_coefficient", fitted={"particle_diameter": (4e-5, 5e-4), "particle_density": (1400.0, 4000.0)}, typical={**GAS, "particle_diameter": (1e-4, 5e-4), "particle_density": (1500.0, 4000.0)})  # fmt: skip
+@formula(
+    source="zabrodsky1966; kunii1991, ch. 3",
+    equation=r"h_{\max} = 35.8\,\rho_p^{0.2}\lambda_g^{0.6} d_p^{-0.36}",
+    output="heat_transfer_coefficient",
+    fitted={"particle_diameter": (4e-5, 5e-4), "particle_density": (1400.0, 4000.0)},
+    typical={**GAS, "particle_diameter": (1e-4, 5e-4), "particle_density": (1500.0, 4000.0)},
+)
 def heat_transfer_coefficient_zabrodsky(
     particle_diameter: Length, particle_density: Density, thermal_conductivity: ThermalConductivity
 ) -> HeatTransferCoefficient:
-    """Greatest heat transfer coefficient between a bubbling bed and an immersed surface by Zabrodsky, for group B.
+    """Greatest heat transfer coefficient between a bubbling bed and an immersed surface by Zabrodsky, for
+    group B.
 
     Group B: sandlike powders of 40 to 500 µm and 1400 to 4000 kg/m³ (Kunii and Levenspiel).
 
-    >>> 250 < heat_transfer_coefficient_zabrodsky(particle_diameter="300 um", particle_density=2500, thermal_conductivity=0.026) < 450
+    >>> 250 < heat_transfer_coefficient_zabrodsky(
+    ...     particle_diameter="300 um", particle_density=2500, thermal_conductivity=0.026
+    ... ) < 450
     True
     """
     return 35.8 * particle_density**0.2 * thermal_conductivity**0.6 * particle_diameter**-0.36
 
 
-@formula(source="todes1965", equation=r"\mathrm{Re}_{opt} = \frac{\mathrm{Ar}}{18 + 5.22\sqrt{\mathrm{Ar}}}",
-         output="superficial_velocity", typical=GAS)  # fmt: skip
+@formula(
+    source="todes1965",
+    equation=r"\mathrm{Re}_{opt} = \frac{\mathrm{Ar}}{18 + 5.22\sqrt{\mathrm{Ar}}}",
+    output="superficial_velocity",
+    typical=GAS,
+)
 def superficial_velocity_best_heat_transfer(
     particle_diameter: Length,
     particle_density: Density,
@@ -55,8 +67,9 @@ def superficial_velocity_best_heat_transfer(
 ) -> Speed:
     """Gas velocity of the greatest heat transfer to a surface by Todes.
 
-    >>> u = superficial_velocity_best_heat_transfer(particle_diameter="300 um", particle_density=2500, fluid_density=1.2,
-    ...                                             dynamic_viscosity=1.8e-5)
+    >>> u = superficial_velocity_best_heat_transfer(
+    ...     particle_diameter="300 um", particle_density=2500, fluid_density=1.2, dynamic_viscosity=1.8e-5
+    ... )
     >>> 0.3 < u < 0.7
     True
     """
@@ -64,9 +77,16 @@ def superficial_velocity_best_heat_transfer(
     return Ar / (18.0 + 5.22 * jnp.sqrt(Ar)) * dynamic_viscosity / (fluid_density * particle_diameter)
 
 
-@formula(source="mickley1955", equation=r"\bar h = 2\sqrt{\frac{\lambda_e \rho_p (1-\varepsilon) c_p}{\pi\,t}}",
-         output="heat_transfer_coefficient",
-         typical={"thermal_conductivity": (0.1, 0.5), "specific_heat_capacity": (700.0, 1200.0), "contact_time": (0.1, 2.0)})  # fmt: skip
+@formula(
+    source="mickley1955",
+    equation=r"\bar h = 2\sqrt{\frac{\lambda_e \rho_p (1-\varepsilon) c_p}{\pi\,t}}",
+    output="heat_transfer_coefficient",
+    typical={
+        "thermal_conductivity": (0.1, 0.5),
+        "specific_heat_capacity": (700.0, 1200.0),
+        "contact_time": (0.1, 2.0),
+    },
+)
 def heat_transfer_coefficient_packet(
     thermal_conductivity: ThermalConductivity,
     particle_density: Density,
@@ -74,23 +94,39 @@ def heat_transfer_coefficient_packet(
     void_fraction: VoidFraction,
     contact_time: Time,
 ) -> HeatTransferCoefficient:
-    """Mean heat transfer coefficient to packets of emulsion that stay a time at a surface, by Mickley and Fairbanks.
+    """Mean heat transfer coefficient to packets of emulsion that stay a time at a surface, by Mickley and
+    Fairbanks.
 
     The conductivity is that of the emulsion; the heat capacity that of the solid.
 
-    >>> round(heat_transfer_coefficient_packet(thermal_conductivity=0.2, particle_density=2500, specific_heat_capacity=800,
-    ...                                        void_fraction=0.5, contact_time=1.0))
+    >>> round(
+    ...     heat_transfer_coefficient_packet(
+    ...         thermal_conductivity=0.2,
+    ...         particle_density=2500,
+    ...         specific_heat_capacity=800,
+    ...         void_fraction=0.5,
+    ...         contact_time=1.0,
+    ...     )
+    ... )
     505
     """
     bulk = particle_density * (1.0 - void_fraction)
     return 2.0 * jnp.sqrt(thermal_conductivity * bulk * specific_heat_capacity / (jnp.pi * contact_time))
 
 
-@formula(source="gunn1978",
-         equation=r"\mathrm{Nu} = (7 - 10\varepsilon + 5\varepsilon^2)(1 + 0.7\,\mathrm{Re}^{0.2}\mathrm{Pr}^{1/3}) + (1.33 - 2.4\varepsilon + 1.2\varepsilon^2)\mathrm{Re}^{0.7}\mathrm{Pr}^{1/3}",
-         fitted={"reynolds": (0.0, 1e5), "void_fraction": (0.35, 1.0)})  # fmt: skip
-def nusselt_number_gunn(reynolds: Ratio, prandtl_number: PositiveNumber, void_fraction: VoidFraction) -> PositiveNumber:
-    """Nusselt number of particles in a fixed or fluidized bed by Gunn; with Schmidt for Prandtl the Sherwood number.
+@formula(
+    source="gunn1978",
+    equation=(
+        r"\mathrm{Nu} = (7 - 10\varepsilon + 5\varepsilon^2)(1 + 0.7\,\mathrm{Re}^{0.2}\mathrm{Pr}^{1/3}) + "
+        r"(1.33 - 2.4\varepsilon + 1.2\varepsilon^2)\mathrm{Re}^{0.7}\mathrm{Pr}^{1/3}"
+    ),
+    fitted={"reynolds": (0.0, 1e5), "void_fraction": (0.35, 1.0)},
+)
+def nusselt_number_gunn(
+    reynolds: Ratio, prandtl_number: PositiveNumber, void_fraction: VoidFraction
+) -> PositiveNumber:
+    """Nusselt number of particles in a fixed or fluidized bed by Gunn; with Schmidt for Prandtl the Sherwood
+    number.
 
     In still fluid and an almost empty bed it tends to the 2 of a single sphere:
 
@@ -103,9 +139,14 @@ def nusselt_number_gunn(reynolds: Ratio, prandtl_number: PositiveNumber, void_fr
     return still + (1.33 - 2.4 * e + 1.2 * e**2) * Re**0.7 * third
 
 
-@formula(source="kothari1967; kunii1991, ch. 11", equation=r"\mathrm{Nu}_{bed} = 0.03\,\mathrm{Re}^{1.3}", fitted={"reynolds": (0.1, 50.0)})
+@formula(
+    source="kothari1967; kunii1991, ch. 11",
+    equation=r"\mathrm{Nu}_{bed} = 0.03\,\mathrm{Re}^{1.3}",
+    fitted={"reynolds": (0.1, 50.0)},
+)
 def nusselt_number_kothari(reynolds: PositiveNumber) -> PositiveNumber:
-    """Nusselt number between gas and particles of a whole bubbling bed in plug flow, by Kothari, far below that of one sphere.
+    """Nusselt number between gas and particles of a whole bubbling bed in plug flow, by Kothari, far below
+    that of one sphere.
 
     Low because the gas of the bubbles bypasses, not because the film is thick.
 
@@ -124,10 +165,21 @@ class Distributor(NamedTuple):
     orifices_per_area: NumberPerArea
 
 
-@formula(source="kunii1991, ch. 4",
-         equation=r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_g},\ N_{or} = \frac{4U}{\pi d_{or}^2 u_{or}}",
-         fitted={"distributor_ratio": (0.2, 0.4), "open_area_fraction": (0.0, 0.1)},
-         typical={"pressure_drop": (2e3, 2e4), "orifice_diameter": (1e-3, 5e-3), "superficial_velocity": (0.2, 1.0), "distributor_ratio": (0.2, 0.4), "fluid_density": (0.4, 5.0)})  # fmt: skip
+@formula(
+    source="kunii1991, ch. 4",
+    equation=(
+        r"\Delta p_d = r\,\Delta p_b,\ u_{or} = C_d\sqrt{2\Delta p_d/\rho_g},\ N_{or} = \frac{4U}{\pi "
+        r"d_{or}^2 u_{or}}"
+    ),
+    fitted={"distributor_ratio": (0.2, 0.4), "open_area_fraction": (0.0, 0.1)},
+    typical={
+        "pressure_drop": (2e3, 2e4),
+        "orifice_diameter": (1e-3, 5e-3),
+        "superficial_velocity": (0.2, 1.0),
+        "distributor_ratio": (0.2, 0.4),
+        "fluid_density": (0.4, 5.0),
+    },
+)
 def distributor_design(
     pressure_drop: PressureDrop,
     superficial_velocity: Speed,
@@ -136,11 +188,14 @@ def distributor_design(
     distributor_ratio: PositiveNumber = 0.3,
     discharge_coefficient: PositiveNumber = 0.6,
 ) -> Distributor:
-    """Perforated plate whose pressure drop is a given share of that of the bed: orifice velocity, open area, orifices per area.
+    """Perforated plate whose pressure drop is a given share of that of the bed: orifice velocity, open area,
+    orifices per area.
 
     A share of 0.2 to 0.4 keeps the gas even; an open area above 10 % is no longer a distributor.
 
-    >>> plate = distributor_design(pressure_drop=10000, superficial_velocity=0.4, fluid_density=1.2, orifice_diameter="2 mm")
+    >>> plate = distributor_design(
+    ...     pressure_drop=10000, superficial_velocity=0.4, fluid_density=1.2, orifice_diameter="2 mm"
+    ... )
     >>> round(plate.orifice_velocity, 2)
     42.43
     """

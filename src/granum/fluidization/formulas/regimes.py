@@ -21,8 +21,11 @@ class GraceCoordinates(NamedTuple):
     dimensionless_velocity: Ratio
 
 
-@formula(source="grace1986",
-         equation=r"d^* = \mathrm{Ar}^{1/3},\quad u^* = \mathrm{Re}/\mathrm{Ar}^{1/3}", typical=WIDE)  # fmt: skip
+@formula(
+    source="grace1986",
+    equation=r"d^* = \mathrm{Ar}^{1/3},\quad u^* = \mathrm{Re}/\mathrm{Ar}^{1/3}",
+    typical=WIDE,
+)
 def grace_coordinates(
     superficial_velocity: Speed,
     particle_diameter: Length,
@@ -33,8 +36,13 @@ def grace_coordinates(
 ) -> GraceCoordinates:
     """Dimensionless diameter and velocity of Grace's regime map.
 
-    >>> x = grace_coordinates(superficial_velocity=1.0, particle_diameter="100 um", particle_density=2500, fluid_density=1.2,
-    ...                       dynamic_viscosity=1.8e-5)
+    >>> x = grace_coordinates(
+    ...     superficial_velocity=1.0,
+    ...     particle_diameter="100 um",
+    ...     particle_density=2500,
+    ...     fluid_density=1.2,
+    ...     dynamic_viscosity=1.8e-5,
+    ... )
     >>> round(x.dimensionless_diameter * x.dimensionless_velocity, 3)  # the Reynolds number
     6.667
     """
@@ -43,7 +51,12 @@ def grace_coordinates(
     return GraceCoordinates(size, rho * superficial_velocity * d / (eta * size))
 
 
-@formula(source="bi1995", equation=r"\mathrm{Re}_c = 1.24\,\mathrm{Ar}^{0.45}", fitted={"archimedes_number": (2.0, 1e8)}, typical=TYPICAL)
+@formula(
+    source="bi1995",
+    equation=r"\mathrm{Re}_c = 1.24\,\mathrm{Ar}^{0.45}",
+    fitted={"archimedes_number": (2.0, 1e8)},
+    typical=TYPICAL,
+)
 def turbulent_onset_velocity_bi_grace(
     particle_diameter: Length,
     particle_density: Density,
@@ -51,10 +64,12 @@ def turbulent_onset_velocity_bi_grace(
     dynamic_viscosity: DynamicViscosity,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Speed:
-    """Gas velocity at which bubbling turns into turbulent fluidization, from the peak of the pressure fluctuations.
+    """Gas velocity at which bubbling turns into turbulent fluidization, from the peak of the pressure
+    fluctuations.
 
-    >>> u = turbulent_onset_velocity_bi_grace(particle_diameter="100 um", particle_density=2500, fluid_density=1.2,
-    ...                                       dynamic_viscosity=1.8e-5)
+    >>> u = turbulent_onset_velocity_bi_grace(
+    ...     particle_diameter="100 um", particle_density=2500, fluid_density=1.2, dynamic_viscosity=1.8e-5
+    ... )
     >>> 0.5 < u < 2.0
     True
     """
@@ -64,7 +79,12 @@ def turbulent_onset_velocity_bi_grace(
     return 1.24 * Ar**0.45 * eta / (rho * d)
 
 
-@formula(source="bi1995", equation=r"\mathrm{Re}_{se} = 1.53\,\mathrm{Ar}^{0.5}", fitted={"archimedes_number": (2.0, 4e6)}, typical=TYPICAL)
+@formula(
+    source="bi1995",
+    equation=r"\mathrm{Re}_{se} = 1.53\,\mathrm{Ar}^{0.5}",
+    fitted={"archimedes_number": (2.0, 4e6)},
+    typical=TYPICAL,
+)
 def entrainment_onset_velocity_bi_grace(
     particle_diameter: Length,
     particle_density: Density,
@@ -74,10 +94,12 @@ def entrainment_onset_velocity_bi_grace(
 ) -> Speed:
     """Gas velocity of significant entrainment, where fast fluidization begins.
 
-    For fine particles it lies far above the terminal velocity of one particle, because they leave as clusters.
+    For fine particles it lies far above the terminal velocity of one particle, because they leave as
+    clusters.
 
-    >>> u = entrainment_onset_velocity_bi_grace(particle_diameter="100 um", particle_density=2500, fluid_density=1.2,
-    ...                                         dynamic_viscosity=1.8e-5)
+    >>> u = entrainment_onset_velocity_bi_grace(
+    ...     particle_diameter="100 um", particle_density=2500, fluid_density=1.2, dynamic_viscosity=1.8e-5
+    ... )
     >>> 1.0 < u < 4.0
     True
     """
@@ -87,13 +109,19 @@ def entrainment_onset_velocity_bi_grace(
     return 1.53 * Ar**0.5 * eta / (rho * d)
 
 
-@formula(source="stewart1967; geldart1986",
-         equation=r"U_{ms} = U_{mf} + 0.07\sqrt{gD} + 0.16\,\max(1.34 D^{0.175} - H_{mf},\,0)^2",
-         typical={"diameter": (0.05, 1.0), "height": (0.2, 1.2)})  # fmt: skip
+@formula(
+    source="stewart1967; geldart1986",
+    equation=r"U_{ms} = U_{mf} + 0.07\sqrt{gD} + 0.16\,\max(1.34 D^{0.175} - H_{mf},\,0)^2",
+    typical={"diameter": (0.05, 1.0), "height": (0.2, 1.2)},
+)
 def minimum_slugging_velocity(
-    minimum_fluidization_velocity: Speed, diameter: Length, height: Length | None = None, gravity: Acceleration = STANDARD_GRAVITY
+    minimum_fluidization_velocity: Speed,
+    diameter: Length,
+    height: Length | None = None,
+    gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Speed:
-    """Gas velocity at which a bed starts to slug, by Stewart and Davidson; shallow beds by Baeyens and Geldart.
+    """Gas velocity at which a bed starts to slug, by Stewart and Davidson; shallow beds by Baeyens and
+    Geldart.
 
     The height is that of the bed at minimum fluidization; left out, the bed is taken as deep.
 
@@ -106,7 +134,11 @@ def minimum_slugging_velocity(
     return deep + 0.16 * jnp.maximum(slugging_height(diameter) - height, 0.0) ** 2
 
 
-@formula(source="baeyens1974slug; geldart1986", equation=r"H_s = 1.34\,D^{0.175}", typical={"diameter": (0.05, 1.0)})
+@formula(
+    source="baeyens1974slug; geldart1986",
+    equation=r"H_s = 1.34\,D^{0.175}",
+    typical={"diameter": (0.05, 1.0)},
+)
 def slugging_height(diameter: Length) -> Length:
     """Depth a bed must exceed to slug freely; the print is 60 D^0.175 in centimeters.
 
@@ -116,22 +148,46 @@ def slugging_height(diameter: Length) -> Length:
     return 1.34 * diameter**0.175
 
 
-@formula(source="davidson1963", equation=r"U_s = U - U_{mf} + 0.35\sqrt{gD}",
-         typical={"superficial_velocity": (0.3, 1.0), "minimum_fluidization_velocity": (0.01, 0.2), "diameter": (0.05, 1.0)})  # fmt: skip
+@formula(
+    source="davidson1963",
+    equation=r"U_s = U - U_{mf} + 0.35\sqrt{gD}",
+    typical={
+        "superficial_velocity": (0.3, 1.0),
+        "minimum_fluidization_velocity": (0.01, 0.2),
+        "diameter": (0.05, 1.0),
+    },
+)
 def slug_rise_velocity(
-    superficial_velocity: Speed, minimum_fluidization_velocity: Speed, diameter: Length, gravity: Acceleration = STANDARD_GRAVITY
+    superficial_velocity: Speed,
+    minimum_fluidization_velocity: Speed,
+    diameter: Length,
+    gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Speed:
     """Rise velocity of slugs in a bed.
 
-    >>> round(slug_rise_velocity(superficial_velocity=0.3, minimum_fluidization_velocity=0.1, diameter=0.1), 4)
+    >>> round(
+    ...     slug_rise_velocity(superficial_velocity=0.3, minimum_fluidization_velocity=0.1, diameter=0.1), 4
+    ... )
     0.5466
     """
-    return jnp.maximum(superficial_velocity - minimum_fluidization_velocity, 0.0) + 0.35 * jnp.sqrt(gravity * diameter)
+    return jnp.maximum(superficial_velocity - minimum_fluidization_velocity, 0.0) + 0.35 * jnp.sqrt(
+        gravity * diameter
+    )
 
 
-@formula(source="romero1962; wilhelm1948",
-         equation=r"N = \frac{U_{mf}^2}{g d_p}\,\frac{\rho_f U_{mf} d_p}{\eta}\,\frac{\rho_p - \rho_f}{\rho_f}\,\frac{H_{mf}}{D}",
-         typical={**TYPICAL, "minimum_fluidization_velocity": (0.01, 0.1), "height": (0.5, 3.0), "diameter": (0.3, 1.0)})  # fmt: skip
+@formula(
+    source="romero1962; wilhelm1948",
+    equation=(
+        r"N = \frac{U_{mf}^2}{g d_p}\,\frac{\rho_f U_{mf} d_p}{\eta}\,\frac{\rho_p - "
+        r"\rho_f}{\rho_f}\,\frac{H_{mf}}{D}"
+    ),
+    typical={
+        **TYPICAL,
+        "minimum_fluidization_velocity": (0.01, 0.1),
+        "height": (0.5, 3.0),
+        "diameter": (0.3, 1.0),
+    },
+)
 def bubbling_number(
     minimum_fluidization_velocity: Speed,
     particle_diameter: Length,
@@ -142,13 +198,34 @@ def bubbling_number(
     diameter: Length,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Ratio:
-    """Romero and Johanson's product of Froude, Reynolds, density and shape: smooth fluidization below 100, bubbling above.
+    """Romero and Johanson's product of Froude, Reynolds, density and shape: smooth fluidization below 100,
+    bubbling above.
 
     Sand in a gas under pressure:
 
-    >>> round(bubbling_number(minimum_fluidization_velocity=0.021, particle_diameter="0.3 mm", particle_density=2600, fluid_density=106.2,
-    ...                       dynamic_viscosity=2.21e-5, height=3.25, diameter=0.95))
+    >>> round(
+    ...     bubbling_number(
+    ...         minimum_fluidization_velocity=0.021,
+    ...         particle_diameter="0.3 mm",
+    ...         particle_density=2600,
+    ...         fluid_density=106.2,
+    ...         dynamic_viscosity=2.21e-5,
+    ...         height=3.25,
+    ...         diameter=0.95,
+    ...     )
+    ... )
     365
     """
     U, d, rho = minimum_fluidization_velocity, particle_diameter, fluid_density
-    return U**2 / (gravity * d) * rho * U * d / dynamic_viscosity * excess(particle_density, rho) / rho * height / diameter
+    return (
+        U**2
+        / (gravity * d)
+        * rho
+        * U
+        * d
+        / dynamic_viscosity
+        * excess(particle_density, rho)
+        / rho
+        * height
+        / diameter
+    )

@@ -1,4 +1,6 @@
-"""Two-phase theory of a bubbling bed: gas in bubbles, gas in the emulsion, and what passes between them. For dryers and reactors."""
+"""Two-phase theory of a bubbling bed: gas in bubbles, gas in the emulsion, and what passes between them. For
+dryers and reactors.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,18 @@ import numpy as np
 
 from granum.core import formula, limit_active
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Area, Diffusivity, Distance, Fraction, Frequency, Length, Ratio, Speed, VoidFraction
+from granum.core.kinds import (
+    Acceleration,
+    Area,
+    Diffusivity,
+    Distance,
+    Fraction,
+    Frequency,
+    Length,
+    Ratio,
+    Speed,
+    VoidFraction,
+)
 from granum.fluidization.formulas.bubbles import (
     NO_BUBBLES,
     SPEEDS,
@@ -21,7 +34,13 @@ from granum.fluidization.formulas.bubbles import (
 
 _points, _weights = np.polynomial.legendre.leggauss(8)
 NODES, WEIGHTS = 0.5 * (1.0 + _points), 0.5 * _weights
-BED = {**SPEEDS, "diffusivity": (1e-5, 1e-4), "diameter": (1.0, 2.0), "catchment_area": (1e-5, 1e-3), "bypass_fraction": (0.05, 0.8)}
+BED = {
+    **SPEEDS,
+    "diffusivity": (1e-5, 1e-4),
+    "diameter": (1.0, 2.0),
+    "catchment_area": (1e-5, 1e-3),
+    "bypass_fraction": (0.05, 0.8),
+}
 
 
 class TwoPhaseBed(NamedTuple):
@@ -36,8 +55,11 @@ class TwoPhaseBed(NamedTuple):
     bypass_fraction: Fraction
 
 
-@formula(source="davidson1963; kunii1991, ch. 6 and 10; darton1977",
-         equation=r"X = \int_0^H \frac{K_{be}}{u_b}\,dz,\quad B = \left(1 - \frac{U_{mf}}{U}\right)e^{-X}", typical=BED)  # fmt: skip
+@formula(
+    source="davidson1963; kunii1991, ch. 6 and 10; darton1977",
+    equation=r"X = \int_0^H \frac{K_{be}}{u_b}\,dz,\quad B = \left(1 - \frac{U_{mf}}{U}\right)e^{-X}",
+    typical=BED,
+)
 def two_phase_bed(
     superficial_velocity: Speed,
     minimum_fluidization_velocity: Speed,
@@ -48,22 +70,28 @@ def two_phase_bed(
     diameter: Length | None = None,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> TwoPhaseBed:
-    """Bubbles, expansion and gas exchange of a bubbling bed: emulsion at minimum fluidization, the surplus gas in bubbles.
+    """Bubbles, expansion and gas exchange of a bubbling bed: emulsion at minimum fluidization, the surplus
+    gas in bubbles.
 
-    Height and void fraction are those at minimum fluidization. Bubbles grow by Darton, not beyond the vessel; size, rise and share are
-    reported at half the height, expansion and exchange are summed over it, most of the exchange being near the distributor.
-    The bypass is the share of the gas that leaves as it came, in bubbles through a well-mixed emulsion: of a dryer whose emulsion gas is
-    saturated, the gas leaves with one minus the bypass of the possible load. With the thermal diffusivity in place of the diffusivity the
-    same holds for heat.
+    Height and void fraction are those at minimum fluidization. Bubbles grow by Darton, not beyond the vessel;
+    size, rise and share are reported at half the height, expansion and exchange are summed over it, most of
+    the exchange being near the distributor. The bypass is the share of the gas that leaves as it came, in
+    bubbles through a well-mixed emulsion: of a dryer whose emulsion gas is saturated, the gas leaves with one
+    minus the bypass of the possible load. With the thermal diffusivity in place of the diffusivity the same
+    holds for heat.
 
     Never more than the surplus gas passes by:
 
-    >>> 0.0 < two_phase_bed(superficial_velocity=0.2, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5).bypass_fraction < 0.75
+    >>> 0.0 < two_phase_bed(
+    ...     superficial_velocity=0.2, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5
+    ... ).bypass_fraction < 0.75
     True
 
     At minimum fluidization there are no bubbles: the bed is not expanded and all gas meets the solid.
 
-    >>> bed = two_phase_bed(superficial_velocity=0.05, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5)
+    >>> bed = two_phase_bed(
+    ...     superficial_velocity=0.05, minimum_fluidization_velocity=0.05, height=0.3, diffusivity=2.5e-5
+    ... )
     >>> bed.bypass_fraction, bed.bubble_diameter, bed.height_expanded
     (0.0, 0.0, 0.3)
     """
@@ -93,17 +121,23 @@ def two_phase_bed(
     return TwoPhaseBed(*(jnp.where(bubbling, some, rest) for some, rest in zip(found, none, strict=True)))
 
 
-@formula(source="davidson1963",
-         equation=r"\frac{c}{c_0} = B + \frac{(1-B)^2}{1 - B + k H_{mf}/U}", typical=BED)  # fmt: skip
+@formula(
+    source="davidson1963", equation=r"\frac{c}{c_0} = B + \frac{(1-B)^2}{1 - B + k H_{mf}/U}", typical=BED
+)
 def unconverted_fraction_davidson_harrison(
     bypass_fraction: Fraction, rate_constant: Frequency, height: Length, superficial_velocity: Speed
 ) -> Fraction:
     """Share of a gas left unconverted by a bubbling bed of well-mixed emulsion, by Davidson and Harrison.
 
-    The rate constant is of first order, per volume of emulsion; the height that at minimum fluidization. The bypass comes from
-    ``two_phase_bed``. However fast the reaction, the bypass is left:
+    The rate constant is of first order, per volume of emulsion; the height that at minimum fluidization. The
+    bypass comes from ``two_phase_bed``. However fast the reaction, the bypass is left:
 
-    >>> round(unconverted_fraction_davidson_harrison(bypass_fraction=0.2, rate_constant=1e9, height=1.0, superficial_velocity=0.5), 6)
+    >>> round(
+    ...     unconverted_fraction_davidson_harrison(
+    ...         bypass_fraction=0.2, rate_constant=1e9, height=1.0, superficial_velocity=0.5
+    ...     ),
+    ...     6,
+    ... )
     0.2
     """
     met = 1.0 - bypass_fraction

@@ -1,4 +1,6 @@
-"""Pressure drop against gas or liquid velocity: minimum fluidization velocity and void fraction with intervals."""
+"""Pressure drop against gas or liquid velocity: minimum fluidization velocity and void fraction with
+intervals.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +25,19 @@ OVERSHOOT, LEAST_BRANCH, CARRIED = 1.05, 4, (0.9, 1.05)
     "pressure_curve",
     source="davidson1963; kunii1991, ch. 3",
     title="Minimum fluidization from the pressure-drop curve",
-    equation=r"\Delta p = \Delta p_w \min\left[b\,x + (1-b)\,x^2,\,1\right],\ x = U/U_{mf},\ \varepsilon_{mf} = 1 - \frac{\Delta p_w}{H_{mf} g (\rho_p - \rho_f)}",
+    equation=(
+        r"\Delta p = \Delta p_w \min\left[b\,x + (1-b)\,x^2,\,1\right],\ x = U/U_{mf},\ \varepsilon_{mf} = "
+        r"1 - \frac{\Delta p_w}{H_{mf} g (\rho_p - \rho_f)}"
+    ),
 )
 class PressureCurve(LabTest):
-    """Minimum fluidization velocity where the line of the fixed bed meets the plateau of the carried bed, and the void fraction there.
+    """Minimum fluidization velocity where the line of the fixed bed meets the plateau of the carried bed, and
+    the void fraction there.
 
-    The fixed bed is Ergun's: a viscous and an inertial part. Rows may rise and then fall in velocity: then the falling branch alone is
-    fitted, since a packed bed sticks before it lifts. Points above the plateau on a rising branch are left out. Height is that of the
-    bed at minimum fluidization. With mass and area the plateau is compared with the weight of the bed.
+    The fixed bed is Ergun's: a viscous and an inertial part. Rows may rise and then fall in velocity: then
+    the falling branch alone is fitted, since a packed bed sticks before it lifts. Points above the plateau on
+    a rising branch are left out. Height is that of the bed at minimum fluidization. With mass and area the
+    plateau is compared with the weight of the bed.
     """
 
     superficial_velocity: Annotated[Speed, Series("points")]
@@ -41,14 +48,21 @@ class PressureCurve(LabTest):
     mass: Mass | None = None
     area: Area | None = None
 
-    estimates: ClassVar = {"minimum_fluidization_velocity": Speed, "plateau_pressure_drop": PressureDrop, "viscous_share": Fraction}
+    estimates: ClassVar = {
+        "minimum_fluidization_velocity": Speed,
+        "plateau_pressure_drop": PressureDrop,
+        "viscous_share": Fraction,
+    }
     axes: ClassVar = {"superficial_velocity": Speed, "pressure_drop": PressureDrop}
     least_points: ClassVar = 6
 
     def fit(self) -> Fit:
         """Velocity, plateau and viscous share with 95 % intervals; the void fraction beside them."""
         denser(self.particle_density, self.fluid_density)
-        U, dp = np.asarray(self.superficial_velocity, dtype=float), np.asarray(self.pressure_drop, dtype=float)
+        U, dp = (
+            np.asarray(self.superficial_velocity, dtype=float),
+            np.asarray(self.pressure_drop, dtype=float),
+        )
         flags: list[dict[str, Any]] = []
         keep = U > 0.0
         if not keep.any():
@@ -58,7 +72,11 @@ class PressureCurve(LabTest):
             keep &= np.arange(len(U)) >= top
             if top:
                 flags.append(
-                    self.note("falling branch", _("The falling branch is fitted; the rising one is left out."), "superficial_velocity")
+                    self.note(
+                        "falling branch",
+                        _("The falling branch is fitted; the rising one is left out."),
+                        "superficial_velocity",
+                    )
                 )
         high = keep & (0.7 * U[keep].max() < U)
         plateau = float(np.median(dp[high]))
@@ -66,7 +84,11 @@ class PressureCurve(LabTest):
         if above.any():
             keep &= ~above
             flags.append(
-                self.note("overshoot", _("Points above the plateau left out: {count}.").format(count=int(above.sum())), "pressure_drop")
+                self.note(
+                    "overshoot",
+                    _("Points above the plateau left out: {count}.").format(count=int(above.sum())),
+                    "pressure_drop",
+                )
             )
         low = keep & (dp < 0.9 * plateau)
         if low.sum() < 2 or (keep & ~low).sum() < 2:
@@ -91,13 +113,26 @@ class PressureCurve(LabTest):
         if self.mass is not None and self.area is not None:
             share = plateau / self._weight()
             if not CARRIED[0] <= share <= CARRIED[1]:
-                text = _("The plateau carries {share} % of the weight of the bed: channels, wall friction, or a wrong mass.")
-                flags.append(self.note("plateau", text.format(share=format_number(100 * share, 3)), "plateau_pressure_drop"))
+                text = _(
+                    "The plateau carries {share} % of the weight of the bed: channels, wall friction, "
+                    "or a wrong mass."
+                )
+                flags.append(
+                    self.note(
+                        "plateau", text.format(share=format_number(100 * share, 3)), "plateau_pressure_drop"
+                    )
+                )
         return self.fitted(
-            model, start, U, dp, keep=keep, derived=derived, flags=flags,
+            model,
+            start,
+            U,
+            dp,
+            keep=keep,
+            derived=derived,
+            flags=flags,
             bounds={"viscous_share": (0.0, 1.0), "minimum_fluidization_velocity": (0.0, np.inf)},
             kinds={"bed_void_fraction": Fraction, "carried_share": Ratio},
-        )  # fmt: skip
+        )
 
     def _weight(self) -> Any:
         """Weight of the bed less buoyancy, per area, Pa."""

@@ -20,7 +20,7 @@ from granum.core.kinds import (
     RelativeHumidity,
     SpecificEnergy,
     Temperature,
-)  # fmt: skip
+)
 from granum.humid_gas.formulas.state import RANGE, GasVaporPair, within_pair
 from granum.humid_gas.pairs import AIR_WATER
 
@@ -28,8 +28,15 @@ _SOURCE = "ashrae2017, ch. 1; keey1978"
 SHARES = "The shares of the fuel add up to more than 1."
 BURNT = "The fuel holds more oxygen than it can burn with."
 ONLY_WATER = "So little air leaves no dry gas."
-TOO_HOT = "The gas would be hotter than 1230 °C, where it dissociates: no temperature is given. Take more air."
-_WARM = {"temperature": (303.15, 343.15), "humidity_ratio": (0.005, 0.015), "pressure": (9e4, 2e5), "dry_gas_flow": (1.0, 2.0)}
+TOO_HOT = (
+    "The gas would be hotter than 1230 °C, where it dissociates: no temperature is given. Take more air."
+)
+_WARM = {
+    "temperature": (303.15, 343.15),
+    "humidity_ratio": (0.005, 0.015),
+    "pressure": (9e4, 2e5),
+    "dry_gas_flow": (1.0, 2.0),
+}
 
 
 class Process(NamedTuple):
@@ -68,18 +75,28 @@ def after(pair: Any, w: Any, h: Any, P: Any) -> Process:
     y = pair.fraction(w)
     T = rel.temperature_at_enthalpy(pair, P, y, h)
     gas = rel.settled(pair, T, P, y)
-    return Process(T, w + 0.0 * T, gas.y / rel.saturated_fraction(pair, T, P), h + 0.0 * T, pair.molar_mass_ratio * gas.fog)
+    return Process(
+        T,
+        w + 0.0 * T,
+        gas.y / rel.saturated_fraction(pair, T, P),
+        h + 0.0 * T,
+        pair.molar_mass_ratio * gas.fog,
+    )
 
 
 @formula(
     source=_SOURCE,
     equation=r"w = \frac{G_1 w_1 + G_2 w_2}{G_1+G_2},\quad h = \frac{G_1 h_1 + G_2 h_2}{G_1+G_2}",
     fitted=RANGE,
-    typical={"humidity_ratio_first": (0.005, 0.01), "humidity_ratio_second": (0.01, 0.02), "enthalpy_first": (4e4, 5e4),
-             "enthalpy_second": (8e4, 1e5)},
+    typical={
+        "humidity_ratio_first": (0.005, 0.01),
+        "humidity_ratio_second": (0.01, 0.02),
+        "enthalpy_first": (4e4, 5e4),
+        "enthalpy_second": (8e4, 1e5),
+    },
     title="Mixing of two humid gases",
     output="humid_process",
-)  # fmt: skip
+)
 def mixing(
     dry_gas_flow_first: MassFlow,
     humidity_ratio_first: HumidityRatio,
@@ -90,9 +107,11 @@ def mixing(
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
 ) -> Process:
-    """Adiabatic mixing of two gases: on a straight line between them, in proportion to their dry gas; fog where it passes saturation.
+    """Adiabatic mixing of two gases: on a straight line between them, in proportion to their dry gas; fog
+    where it passes saturation.
 
-    The exercise of the notes (D I.3.2): 1.5 kg at 100 kJ/kg and 0.027 with 2.5 kg at 160 kJ/kg and 0.04. They print 46.5 °C and 0.58.
+    The exercise of the notes (D I.3.2): 1.5 kg at 100 kJ/kg and 0.027 with 2.5 kg at 160 kJ/kg and 0.04. They
+    print 46.5 °C and 0.58.
 
     >>> mixed = mixing(1.5, 0.027, 100e3, 2.5, 0.04, 160e3)
     >>> round(mixed.enthalpy / 1e3, 1), round(mixed.humidity_ratio, 4)
@@ -104,9 +123,14 @@ def mixing(
     return after(pair, w, h, pressure)
 
 
-@formula(source=_SOURCE, equation=r"\dot Q = G\,(h_2 - h_1),\qquad w_2 = w_1", title="Heating of a humid gas", output="humid_process",
-         fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
-         typical={**_WARM, "temperature": (285.0, 300.0), "temperature_outlet": (320.0, 400.0)})  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"\dot Q = G\,(h_2 - h_1),\qquad w_2 = w_1",
+    title="Heating of a humid gas",
+    output="humid_process",
+    fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
+    typical={**_WARM, "temperature": (285.0, 300.0), "temperature_outlet": (320.0, 400.0)},
+)
 def heating(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -119,7 +143,10 @@ def heating(
 
     By hand: 1.006·40 + 0.01·1.86·40 = 41.0 kJ per kg of dry air.
 
-    >>> round(heating(temperature="20 degC", humidity_ratio=0.01, temperature_outlet="60 degC").heat_duty / 1e3, 1)
+    >>> round(
+    ...     heating(temperature="20 degC", humidity_ratio=0.01, temperature_outlet="60 degC").heat_duty / 1e3,
+    ...     1,
+    ... )
     41.0
     """
     _gas, h1 = gas_at(pair, temperature, humidity_ratio, pressure)
@@ -128,9 +155,14 @@ def heating(
     return Duty(gas.T, humidity_ratio + 0.0 * h2, phi, h2, dry_gas_flow * (h2 - h1), 0.0 * dry_gas_flow * h2)
 
 
-@formula(source=_SOURCE, equation=r"h_2 = h_1 + \dot Q/G,\qquad w_2 = w_1", title="Heating of a humid gas by a duty", output="humid_process",
-         fitted=RANGE,
-         typical={**_WARM, "heat_duty": (1e4, 5e4)})  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"h_2 = h_1 + \dot Q/G,\qquad w_2 = w_1",
+    title="Heating of a humid gas by a duty",
+    output="humid_process",
+    fitted=RANGE,
+    typical={**_WARM, "heat_duty": (1e4, 5e4)},
+)
 def heating_by_duty(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -141,17 +173,25 @@ def heating_by_duty(
 ) -> Process:
     """The state after a heat duty at constant humidity; a negative duty cools, fog staying in the gas.
 
-    >>> round(heating_by_duty(temperature="20 degC", humidity_ratio=0.01, heat_duty="41 kW").temperature - 273.15, 0)
+    >>> round(
+    ...     heating_by_duty(temperature="20 degC", humidity_ratio=0.01, heat_duty="41 kW").temperature
+    ...     - 273.15,
+    ...     0,
+    ... )
     60.0
     """
     _gas, h1 = gas_at(pair, temperature, humidity_ratio, pressure)
     return after(pair, humidity_ratio, h1 + heat_duty / dry_gas_flow, pressure)
 
 
-@formula(source=_SOURCE, equation=r"\dot Q = G\left[h_2 - h_1 + (w_1-w_2) h_l(T_2)\right],\quad w_2 = \min(w_1, w_s(T_2))",
-         title="Cooling with condensation", output="humid_process",
-         fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
-         typical={**_WARM, "temperature_outlet": (276.0, 282.0)})  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"\dot Q = G\left[h_2 - h_1 + (w_1-w_2) h_l(T_2)\right],\quad w_2 = \min(w_1, w_s(T_2))",
+    title="Cooling with condensation",
+    output="humid_process",
+    fitted={**RANGE, "temperature_outlet": RANGE["temperature"]},
+    typical={**_WARM, "temperature_outlet": (276.0, 282.0)},
+)
 def cooling(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -160,7 +200,8 @@ def cooling(
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
 ) -> Duty:
-    """Cooling to a temperature; below the dew point the condensate drains at the outlet temperature and the gas leaves saturated.
+    """Cooling to a temperature; below the dew point the condensate drains at the outlet temperature and the
+    gas leaves saturated.
 
     >>> cold = cooling(temperature="30 degC", humidity_ratio=0.02, temperature_outlet="10 degC")
     >>> round(cold.humidity_ratio, 4), round(cold.condensate_flow, 4), round(cold.heat_duty / 1e3, 1)
@@ -172,13 +213,23 @@ def cooling(
     dry = rel.Gas(gas.T, gas.y, 0.0 * gas.fog)
     phi = gas.y / rel.saturated_fraction(pair, gas.T, pressure)
     return Duty(
-        gas.T, pair.humidity_ratio(gas.y), phi, rel.enthalpy_of(pair, dry, pressure), dry_gas_flow * (h_fog - h1), dry_gas_flow * drained
+        gas.T,
+        pair.humidity_ratio(gas.y),
+        phi,
+        rel.enthalpy_of(pair, dry, pressure),
+        dry_gas_flow * (h_fog - h1),
+        dry_gas_flow * drained,
     )
 
 
-@formula(source="ashrae2017, ch. 1; mcquiston2005", equation=r"w_2 = \mathrm{BF}\,w_1 + (1-\mathrm{BF})\,\min(w_1, w_s(T_b))",
-         title="Dehumidifying coil with bypass", output="humid_process",
-         fitted={**RANGE, "coil_temperature": RANGE["temperature"]}, typical={**_WARM, "coil_temperature": (276.0, 282.0)})  # fmt: skip
+@formula(
+    source="ashrae2017, ch. 1; mcquiston2005",
+    equation=r"w_2 = \mathrm{BF}\,w_1 + (1-\mathrm{BF})\,\min(w_1, w_s(T_b))",
+    title="Dehumidifying coil with bypass",
+    output="humid_process",
+    fitted={**RANGE, "coil_temperature": RANGE["temperature"]},
+    typical={**_WARM, "coil_temperature": (276.0, 282.0)},
+)
 def dehumidifying(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -188,9 +239,12 @@ def dehumidifying(
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
 ) -> Duty:
-    """A cold coil: part of the gas leaves saturated at the temperature of the surface, the rest passes it unchanged.
+    """A cold coil: part of the gas leaves saturated at the temperature of the surface, the rest passes it
+    unchanged.
 
-    >>> out = dehumidifying(temperature="30 degC", humidity_ratio=0.016, coil_temperature="8 degC", coil_bypass_fraction=0.1)
+    >>> out = dehumidifying(
+    ...     temperature="30 degC", humidity_ratio=0.016, coil_temperature="8 degC", coil_bypass_fraction=0.1
+    ... )
     >>> round(out.humidity_ratio, 4), round(out.temperature - 273.15, 1)
     (0.0076, 10.2)
     """
@@ -203,12 +257,23 @@ def dehumidifying(
     h2 = coil_bypass_fraction * h1 + share * touched
     out = after(pair, w2, h2, pressure)
     return Duty(
-        out.temperature, w2 + 0.0 * h2, out.relative_humidity, h2, dry_gas_flow * share * (h_fog - h1), dry_gas_flow * share * drained
+        out.temperature,
+        w2 + 0.0 * h2,
+        out.relative_humidity,
+        h2,
+        dry_gas_flow * share * (h_fog - h1),
+        dry_gas_flow * share * drained,
     )
 
 
-@formula(source=_SOURCE, equation=r"w_2 = w_1 + \dot m_i/G,\quad h_2 = h_1 + h_i\,\dot m_i/G", title="Injection of water or steam",
-         output="humid_process", fitted=RANGE, typical=_WARM)  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"w_2 = w_1 + \dot m_i/G,\quad h_2 = h_1 + h_i\,\dot m_i/G",
+    title="Injection of water or steam",
+    output="humid_process",
+    fitted=RANGE,
+    typical=_WARM,
+)
 def injection(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -222,7 +287,9 @@ def injection(
 
     Saturated steam at 1 bar has 2675 kJ/kg, water at 20 °C has 84 kJ/kg. Beyond saturation the excess is fog.
 
-    >>> out = injection(temperature="25 degC", humidity_ratio=0.005, injected_flow=0.005, injected_enthalpy="2675 kJ/kg")
+    >>> out = injection(
+    ...     temperature="25 degC", humidity_ratio=0.005, injected_flow=0.005, injected_enthalpy="2675 kJ/kg"
+    ... )
     >>> round(out.humidity_ratio, 3), round(out.temperature - 273.15, 1)
     (0.01, 25.6)
     """
@@ -231,9 +298,14 @@ def injection(
     return after(pair, humidity_ratio + ratio, h1 + injected_enthalpy * ratio, pressure)
 
 
-@formula(source=_SOURCE, equation=r"h_2 = h_1 + (w_2 - w_1)\,h_l(T_{as})", title="Adiabatic drying", output="humid_process",
-         fitted=RANGE,
-         typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014)})  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"h_2 = h_1 + (w_2 - w_1)\,h_l(T_{as})",
+    title="Adiabatic drying",
+    output="humid_process",
+    fitted=RANGE,
+    typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014)},
+)
 def adiabatic_drying(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -241,7 +313,8 @@ def adiabatic_drying(
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
 ) -> Process:
-    """Gas that takes up moisture from a product at its adiabatic-saturation temperature, without loss: a line of constant wet bulb.
+    """Gas that takes up moisture from a product at its adiabatic-saturation temperature, without loss: a line
+    of constant wet bulb.
 
     >>> out = adiabatic_drying(temperature="80 degC", humidity_ratio=0.01, humidity_ratio_outlet=0.02)
     >>> round(out.temperature - 273.15, 1)
@@ -254,9 +327,19 @@ def adiabatic_drying(
     return after(pair, humidity_ratio_outlet, h1 + (humidity_ratio_outlet - humidity_ratio) * liquid, P)
 
 
-@formula(source=_SOURCE, equation=r"h_2 = h_1 + \Delta\,(w_2 - w_1)", title="Real drying", output="humid_process",
-         fitted=RANGE,
-         typical={**_WARM, "humidity_ratio": (0.005, 0.01), "humidity_ratio_outlet": (0.011, 0.014), "drying_slope": (-4e5, -2e5)})  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"h_2 = h_1 + \Delta\,(w_2 - w_1)",
+    title="Real drying",
+    output="humid_process",
+    fitted=RANGE,
+    typical={
+        **_WARM,
+        "humidity_ratio": (0.005, 0.01),
+        "humidity_ratio_outlet": (0.011, 0.014),
+        "drying_slope": (-4e5, -2e5),
+    },
+)
 def real_drying(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -265,16 +348,21 @@ def real_drying(
     pressure: Pressure = STANDARD_ATMOSPHERE,
     pair: GasVaporPair = AIR_WATER,
 ) -> Process:
-    """Gas through a dryer whose losses and additions per kilogram of evaporated water are summed in the drying slope.
+    """Gas through a dryer whose losses and additions per kilogram of evaporated water are summed in the
+    drying slope.
 
     A slope of zero is the isenthalpic drying of the notes; losses make it negative and the outlet colder.
 
-    >>> out = real_drying(temperature="80 degC", humidity_ratio=0.01, humidity_ratio_outlet=0.02, drying_slope="-300 kJ/kg")
+    >>> out = real_drying(
+    ...     temperature="80 degC", humidity_ratio=0.01, humidity_ratio_outlet=0.02, drying_slope="-300 kJ/kg"
+    ... )
     >>> round(out.temperature - 273.15, 1)
     51.8
     """
     _gas, h1 = gas_at(pair, temperature, humidity_ratio, pressure)
-    return after(pair, humidity_ratio_outlet, h1 + drying_slope * (humidity_ratio_outlet - humidity_ratio), pressure)
+    return after(
+        pair, humidity_ratio_outlet, h1 + drying_slope * (humidity_ratio_outlet - humidity_ratio), pressure
+    )
 
 
 class Recirculation(NamedTuple):
@@ -285,15 +373,21 @@ class Recirculation(NamedTuple):
     dry_gas_flow_fresh: MassFlow
 
 
-@formula(source="keey1978", equation=r"w_2 = w_0 + \frac{e}{1-r},\qquad w_1 = w_2 - e,\qquad G_0 = (1-r)\,G",
-         title="Recirculation of a dryer's gas", output="humid_process", typical={"humidity_ratio_fresh": (0.005, 0.01)})  # fmt: skip
+@formula(
+    source="keey1978",
+    equation=r"w_2 = w_0 + \frac{e}{1-r},\qquad w_1 = w_2 - e,\qquad G_0 = (1-r)\,G",
+    title="Recirculation of a dryer's gas",
+    output="humid_process",
+    typical={"humidity_ratio_fresh": (0.005, 0.01)},
+)
 def recirculation(
     humidity_ratio_fresh: HumidityRatio,
     evaporation_per_dry_gas: MassRatio,
     recirculated_fraction: Fraction,
     dry_gas_flow: MassFlow = 1.0,
 ) -> Recirculation:
-    """Steady humidity before and after a dryer whose outlet gas returns in part: the loop builds up until the exhaust carries it all.
+    """Steady humidity before and after a dryer whose outlet gas returns in part: the loop builds up until the
+    exhaust carries it all.
 
     By hand: fresh 0.01, 0.01 taken up per pass, 80 % returned, exhaust 0.01 + 0.01/0.2 = 0.06.
 
@@ -320,11 +414,20 @@ class CombustionGas(NamedTuple):
     equation=r"m_{a} = n\,\frac{x_C/12.011 + x_H/4.032 + x_S/32.06 - x_O/31.998}{0.2095}\,28.966,\quad "
     r"h = \frac{m_a h_a + \mathrm{PCI} + L_0\,(9x_H + x_W)}{m_g}",
     fitted={"excess_air_ratio": (4.0, inf)},
-    typical={"temperature": (285.0, 300.0), "fuel_fraction_hydrogen": (0.1, 0.2), "fuel_fraction_carbon": (0.7, 0.75),
-             "humidity_ratio": (0.004, 0.01), "excess_air_ratio": (4.0, 10.0), "fuel_fraction_oxygen": (0.0, 0.02),
-             "fuel_fraction_sulfur": (0.0, 0.01), "fuel_fraction_water": (0.0, 0.01), "heat_loss_share": (0.01, 0.05), "lower_heating_value": (4e7, 5e7)},
+    typical={
+        "temperature": (285.0, 300.0),
+        "fuel_fraction_hydrogen": (0.1, 0.2),
+        "fuel_fraction_carbon": (0.7, 0.75),
+        "humidity_ratio": (0.004, 0.01),
+        "excess_air_ratio": (4.0, 10.0),
+        "fuel_fraction_oxygen": (0.0, 0.02),
+        "fuel_fraction_sulfur": (0.0, 0.01),
+        "fuel_fraction_water": (0.0, 0.01),
+        "heat_loss_share": (0.01, 0.05),
+        "lower_heating_value": (4e7, 5e7),
+    },
     title="Combustion gas for direct firing",
-)  # fmt: skip
+)
 def combustion_gas(
     fuel_fraction_carbon: Fraction,
     fuel_fraction_hydrogen: Fraction,
@@ -338,20 +441,36 @@ def combustion_gas(
     heat_loss_share: Fraction = 0.0,
     pressure: Pressure = STANDARD_ATMOSPHERE,
 ) -> CombustionGas:
-    """Gas of a burner fired straight into the drying air: its humidity, enthalpy and temperature, complete combustion.
+    """Gas of a burner fired straight into the drying air: its humidity, enthalpy and temperature, complete
+    combustion.
 
-    The dry flue gas is taken as air, within 1 % of its enthalpy from four times the air needed. Hydrogen burns to nine times its mass of
-    water. Methane needs 17.2 kg of air per kg.
+    The dry flue gas is taken as air, within 1 % of its enthalpy from four times the air needed. Hydrogen
+    burns to nine times its mass of water. Methane needs 17.2 kg of air per kg.
 
-    >>> gas = combustion_gas(fuel_fraction_carbon=0.749, fuel_fraction_hydrogen=0.251, lower_heating_value="50 MJ/kg", excess_air_ratio=5.0)
+    >>> gas = combustion_gas(
+    ...     fuel_fraction_carbon=0.749,
+    ...     fuel_fraction_hydrogen=0.251,
+    ...     lower_heating_value="50 MJ/kg",
+    ...     excess_air_ratio=5.0,
+    ... )
     >>> round(gas.air_per_fuel)
     86
-    >>> gas = combustion_gas(fuel_fraction_carbon=0.749, fuel_fraction_hydrogen=0.251, lower_heating_value="50 MJ/kg", excess_air_ratio=1.0)
+    >>> gas = combustion_gas(
+    ...     fuel_fraction_carbon=0.749,
+    ...     fuel_fraction_hydrogen=0.251,
+    ...     lower_heating_value="50 MJ/kg",
+    ...     excess_air_ratio=1.0,
+    ... )
     >>> round(gas.air_per_fuel, 1)
     17.2
     """
     P = jnp.asarray(pressure, dtype=float)
-    oxygen = fuel_fraction_carbon / 12.011 + fuel_fraction_hydrogen / 4.032 + fuel_fraction_sulfur / 32.06 - fuel_fraction_oxygen / 31.998
+    oxygen = (
+        fuel_fraction_carbon / 12.011
+        + fuel_fraction_hydrogen / 4.032
+        + fuel_fraction_sulfur / 32.06
+        - fuel_fraction_oxygen / 31.998
+    )
     others = fuel_fraction_hydrogen + fuel_fraction_oxygen + fuel_fraction_sulfur + fuel_fraction_water
     too_much = fuel_fraction_carbon + others > 1.0 + 1e-9
     flags.impossible(too_much, fuel_fraction_carbon, "fuel_fraction_carbon", 0.0, 1.0 - others, SHARES)
@@ -374,23 +493,38 @@ def combustion_gas(
     source="keey1978",
     equation=r"\Delta = h_l(T_{s1}) - q_s - q_{loss} + q_{add}",
     fitted={"temperature_solid": (273.15, 623.15)},
-    typical={"temperature_solid": (285.0, 300.0), "specific_energy_solid": (5e4, 2e5), "specific_energy_loss": (5e4, 2e5),
-             "specific_energy_added": (1e4, 5e4)},
+    typical={
+        "temperature_solid": (285.0, 300.0),
+        "specific_energy_solid": (5e4, 2e5),
+        "specific_energy_loss": (5e4, 2e5),
+        "specific_energy_added": (1e4, 5e4),
+    },
     title="Drying slope from losses",
-)  # fmt: skip
+)
 def drying_slope(
     temperature_solid: Temperature,
     specific_energy_solid: SpecificEnergy = 0.0,
     specific_energy_loss: SpecificEnergy = 0.0,
     specific_energy_added: SpecificEnergy = 0.0,
 ) -> SpecificEnergy:
-    """Change of the gas's enthalpy per kilogram of water taken up: what the water brings less what solid and surroundings take.
+    """Change of the gas's enthalpy per kilogram of water taken up: what the water brings less what solid and
+    surroundings take.
 
-    All per kilogram of evaporated water: heat to warm the solid, heat lost, heat added inside the dryer. Water is liquid: from 0 to 350 °C,
-    where the fit of its enthalpy ends.
+    All per kilogram of evaporated water: heat to warm the solid, heat lost, heat added inside the dryer.
+    Water is liquid: from 0 to 350 °C, where the fit of its enthalpy ends.
 
-    >>> round(drying_slope(temperature_solid="20 degC", specific_energy_solid="150 kJ/kg", specific_energy_loss="200 kJ/kg") / 1e3)
+    >>> round(
+    ...     drying_slope(
+    ...         temperature_solid="20 degC",
+    ...         specific_energy_solid="150 kJ/kg",
+    ...         specific_energy_loss="200 kJ/kg",
+    ...     )
+    ...     / 1e3
+    ... )
     -266
     """
-    liquid = AIR_WATER.condensate_molar_enthalpy(jnp.asarray(temperature_solid), STANDARD_ATMOSPHERE, False) / AIR_WATER.vapor_molar_mass
+    liquid = (
+        AIR_WATER.condensate_molar_enthalpy(jnp.asarray(temperature_solid), STANDARD_ATMOSPHERE, False)
+        / AIR_WATER.vapor_molar_mass
+    )
     return liquid - specific_energy_solid - specific_energy_loss + specific_energy_added

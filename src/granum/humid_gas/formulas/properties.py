@@ -18,7 +18,7 @@ from granum.core.kinds import (
     SpecificEnergy,
     SpecificVolume,
     Temperature,
-)  # fmt: skip
+)
 from granum.humid_gas.formulas.state import RANGE, GasVaporPair, within_pair
 from granum.humid_gas.pairs import AIR_WATER
 
@@ -29,13 +29,23 @@ _WARM = {"temperature": (303.15, 363.15), "humidity_ratio": (0.002, 0.02), "pres
 
 def _gas(pair: GasVaporPair, T: Temperature, w: HumidityRatio, P: Pressure) -> rel.Gas:
     within_pair(pair, P)
-    return rel.settled(pair, jnp.asarray(T, dtype=float), jnp.asarray(P, dtype=float), pair.fraction(jnp.asarray(w, dtype=float)))
+    return rel.settled(
+        pair,
+        jnp.asarray(T, dtype=float),
+        jnp.asarray(P, dtype=float),
+        pair.fraction(jnp.asarray(w, dtype=float)),
+    )
 
 
-@formula(source="ashrae2017, ch. 1, eq. 3", equation=r"p = 101325\,(1 - 2.25577\times 10^{-5}\,Z)^{5.2559}",
-         fitted={"altitude": (-5000.0, 11000.0)}, title="Air pressure at an altitude")  # fmt: skip
+@formula(
+    source="ashrae2017, ch. 1, eq. 3",
+    equation=r"p = 101325\,(1 - 2.25577\times 10^{-5}\,Z)^{5.2559}",
+    fitted={"altitude": (-5000.0, 11000.0)},
+    title="Air pressure at an altitude",
+)
 def pressure_at_altitude(altitude: Position) -> Pressure:
-    """Pressure of the standard atmosphere at a height above sea level, to put into every formula of humid air.
+    """Pressure of the standard atmosphere at a height above sea level, to put into every formula of humid
+    air.
 
     A sensible default where the barometer is not known; weather moves it by a few percent.
 
@@ -45,9 +55,15 @@ def pressure_at_altitude(altitude: Position) -> Pressure:
     return STANDARD_ATMOSPHERE * jnp.maximum(1.0 - 2.25577e-5 * altitude, 1e-3) ** 5.2559
 
 
-@formula(source=_SOURCE, equation=r"w = \frac{M_v}{M_g}\,\frac{p_v}{p - p_v}",
-         typical={"vapor_pressure": (500.0, 2e4)}, title="Humidity ratio from vapor pressure")  # fmt: skip
-def humidity_ratio(vapor_pressure: Pressure, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER) -> HumidityRatio:
+@formula(
+    source=_SOURCE,
+    equation=r"w = \frac{M_v}{M_g}\,\frac{p_v}{p - p_v}",
+    typical={"vapor_pressure": (500.0, 2e4)},
+    title="Humidity ratio from vapor pressure",
+)
+def humidity_ratio(
+    vapor_pressure: Pressure, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+) -> HumidityRatio:
     """Mass of vapor per mass of dry gas at a partial pressure of the vapor.
 
     >>> round(humidity_ratio(vapor_pressure="2339 Pa"), 4)
@@ -58,8 +74,12 @@ def humidity_ratio(vapor_pressure: Pressure, pressure: Pressure = STANDARD_ATMOS
     return pair.humidity_ratio(y)
 
 
-@formula(source=_SOURCE, equation=r"p_v = p\,\frac{w}{M_v/M_g + w}", title="Vapor pressure from humidity ratio")
-def vapor_pressure(humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER) -> Pressure:
+@formula(
+    source=_SOURCE, equation=r"p_v = p\,\frac{w}{M_v/M_g + w}", title="Vapor pressure from humidity ratio"
+)
+def vapor_pressure(
+    humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+) -> Pressure:
     """Partial pressure of the vapor in a gas of given humidity ratio.
 
     >>> round(vapor_pressure(humidity_ratio=0.0147))
@@ -68,26 +88,47 @@ def vapor_pressure(humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_
     return pair.fraction(humidity_ratio) * pressure
 
 
-@formula(source=_SOURCE, equation=r"w_s = \frac{M_v}{M_g}\,\frac{p_s(T)}{p - p_s(T)}", fitted=RANGE,
-         typical={"temperature": (275.0, 365.0), "pressure": (8e4, 2e5)}, title="Humidity ratio at saturation")  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"w_s = \frac{M_v}{M_g}\,\frac{p_s(T)}{p - p_s(T)}",
+    fitted=RANGE,
+    typical={"temperature": (275.0, 365.0), "pressure": (8e4, 2e5)},
+    title="Humidity ratio at saturation",
+)
 def humidity_ratio_saturated(
     temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
 ) -> HumidityRatio:
-    """Humidity ratio of saturated gas, over ice below the triple point; no value at and above the boiling point.
+    """Humidity ratio of saturated gas, over ice below the triple point; no value at and above the boiling
+    point.
 
-    >>> [round(humidity_ratio_saturated(temperature=t), 4) for t in ("0 degC", "10 degC", "20 degC", "30 degC")]
+    >>> [
+    ...     round(humidity_ratio_saturated(temperature=t), 4)
+    ...     for t in ("0 degC", "10 degC", "20 degC", "30 degC")
+    ... ]
     [0.0038, 0.0076, 0.0147, 0.0272]
     """
     within_pair(pair, pressure)
     y = rel.saturated_fraction(pair, jnp.asarray(temperature), pressure)
     if flags.listening():
-        flags.impossible(y >= 1, temperature, "temperature", -jnp.inf, pair.boiling_temperature(jnp.asarray(pressure)), BOILS)
+        flags.impossible(
+            y >= 1,
+            temperature,
+            "temperature",
+            -jnp.inf,
+            pair.boiling_temperature(jnp.asarray(pressure)),
+            BOILS,
+        )
     return pair.humidity_ratio(jnp.where(y < 1, y, jnp.nan))
 
 
-@formula(source=_SOURCE, equation=r"\varphi = p_v/p_s(T)", fitted=RANGE, typical=_WARM, title="Relative humidity")
+@formula(
+    source=_SOURCE, equation=r"\varphi = p_v/p_s(T)", fitted=RANGE, typical=_WARM, title="Relative humidity"
+)
 def relative_humidity(
-    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+    temperature: Temperature,
+    humidity_ratio: HumidityRatio,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
 ) -> RelativeHumidity:
     """Vapor pressure over the saturation pressure at the same temperature; 1 in fog.
 
@@ -108,29 +149,49 @@ def relative_humidity(
 def dew_point_temperature(
     humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
 ) -> Temperature:
-    """Temperature at which cooling at constant humidity brings the first drop, or the first ice below the triple point.
+    """Temperature at which cooling at constant humidity brings the first drop, or the first ice below the
+    triple point.
 
     >>> round(dew_point_temperature(humidity_ratio=0.01) - 273.15, 1)
     14.0
     """
     within_pair(pair, pressure)
-    return rel.dew_point(pair, jnp.asarray(pressure, dtype=float), pair.fraction(jnp.asarray(humidity_ratio, dtype=float)))
+    return rel.dew_point(
+        pair, jnp.asarray(pressure, dtype=float), pair.fraction(jnp.asarray(humidity_ratio, dtype=float))
+    )
 
 
-@formula(source=_SOURCE, equation=r"h = h_g(T) + w\,h_v(T)", fitted=RANGE, typical=_WARM, title="Enthalpy of a humid gas")
+@formula(
+    source=_SOURCE,
+    equation=r"h = h_g(T) + w\,h_v(T)",
+    fitted=RANGE,
+    typical=_WARM,
+    title="Enthalpy of a humid gas",
+)
 def enthalpy(
-    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+    temperature: Temperature,
+    humidity_ratio: HumidityRatio,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
 ) -> SpecificEnergy:
     """Enthalpy per mass of dry gas, zero for dry gas and for liquid at 0 °C; fog counts as liquid or ice.
 
     >>> round(enthalpy(temperature="55 degC", humidity_ratio=0.01) / 1e3, 1)
     81.4
     """
-    return rel.enthalpy_of(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
+    return rel.enthalpy_of(
+        pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float)
+    )
 
 
-@formula(source="ashrae2017, ch. 1, eq. 30", equation=r"h = c_g t + w\,(L_0 + c_v t)", fitted={"temperature": (273.15, 333.15)}, typical={**_WARM, "temperature": (283.15, 333.15)}, output="enthalpy",
-         title="Enthalpy of a humid gas, constant heat capacities")  # fmt: skip
+@formula(
+    source="ashrae2017, ch. 1, eq. 30",
+    equation=r"h = c_g t + w\,(L_0 + c_v t)",
+    fitted={"temperature": (273.15, 333.15)},
+    typical={**_WARM, "temperature": (283.15, 333.15)},
+    output="enthalpy",
+    title="Enthalpy of a humid gas, constant heat capacities",
+)
 def enthalpy_linear(
     temperature: Temperature,
     humidity_ratio: HumidityRatio,
@@ -140,35 +201,63 @@ def enthalpy_linear(
 ) -> SpecificEnergy:
     """Hand form of the enthalpy of humid air, with the handbook's constants unless others are given.
 
-    The notes print 1.01 θ + w (2494 + 1.92 θ) in kJ/kg and 595 Y + (0.24 + 0.47 Y) t in kcal/kg: give their constants to repeat them. With
-    the handbook's constants it stays within 41 J/kg of ``air_water`` from 0 to 60 °C, up to a humidity ratio of 0.03.
+    The notes print 1.01 θ + w (2494 + 1.92 θ) in kJ/kg and 595 Y + (0.24 + 0.47 Y) t in kcal/kg: give their
+    constants to repeat them. With the handbook's constants it stays within 41 J/kg of ``air_water`` from 0 to
+    60 °C, up to a humidity ratio of 0.03.
 
-    >>> round(enthalpy_linear(temperature="50 degC", humidity_ratio=0.02, gas_heat_capacity="0.24 kcal/(kg*K)",
-    ...       vapor_heat_capacity="0.47 kcal/(kg*K)", heat_of_vaporization="595 kcal/kg") / 4184, 2)
+    >>> round(
+    ...     enthalpy_linear(
+    ...         temperature="50 degC",
+    ...         humidity_ratio=0.02,
+    ...         gas_heat_capacity="0.24 kcal/(kg*K)",
+    ...         vapor_heat_capacity="0.47 kcal/(kg*K)",
+    ...         heat_of_vaporization="595 kcal/kg",
+    ...     )
+    ...     / 4184,
+    ...     2,
+    ... )
     24.37
     """
     t = temperature - ZERO_CELSIUS
     return gas_heat_capacity * t + humidity_ratio * (heat_of_vaporization + vapor_heat_capacity * t)
 
 
-@formula(source=_SOURCE, equation=r"v = \frac{R T}{p M_g}\left(1 + \frac{M_g}{M_v} w\right)", fitted=RANGE, typical=_WARM,
-         title="Volume of a humid gas per mass of dry gas")  # fmt: skip
+@formula(
+    source=_SOURCE,
+    equation=r"v = \frac{R T}{p M_g}\left(1 + \frac{M_g}{M_v} w\right)",
+    fitted=RANGE,
+    typical=_WARM,
+    title="Volume of a humid gas per mass of dry gas",
+)
 def specific_volume(
-    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+    temperature: Temperature,
+    humidity_ratio: HumidityRatio,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
 ) -> SpecificVolume:
     """Volume of humid gas per mass of dry gas; drops of fog take none.
 
     >>> round(specific_volume(temperature="22.2 degC", humidity_ratio=0.01005), 2)
     0.85
     """
-    return rel.volume_of(pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float))
+    return rel.volume_of(
+        pair, _gas(pair, temperature, humidity_ratio, pressure), jnp.asarray(pressure, dtype=float)
+    )
 
 
 @formula(
-    source=_SOURCE, equation=r"\rho = \frac{1 + w}{v}", fitted=RANGE, typical=_WARM, output="gas_density", title="Density of a humid gas"
+    source=_SOURCE,
+    equation=r"\rho = \frac{1 + w}{v}",
+    fitted=RANGE,
+    typical=_WARM,
+    output="gas_density",
+    title="Density of a humid gas",
 )
 def gas_density(
-    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+    temperature: Temperature,
+    humidity_ratio: HumidityRatio,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
 ) -> Density:
     """Mass of humid gas, vapor and fog included, per volume.
 
@@ -187,12 +276,16 @@ def gas_density(
     title="Adiabatic-saturation temperature",
 )
 def adiabatic_saturation_temperature(
-    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE, pair: GasVaporPair = AIR_WATER
+    temperature: Temperature,
+    humidity_ratio: HumidityRatio,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    pair: GasVaporPair = AIR_WATER,
 ) -> Temperature:
-    """Temperature that a gas reaches when liquid of that same temperature evaporates into it until it is saturated.
+    """Temperature that a gas reaches when liquid of that same temperature evaporates into it until it is
+    saturated.
 
-    Sought between freezing and the lower of dry bulb and boiling point, so it is right for hot, moist gas too. Where a state over
-    liquid and one over ice exist, just around 0 °C, the liquid one is given.
+    Sought between freezing and the lower of dry bulb and boiling point, so it is right for hot, moist gas
+    too. Where a state over liquid and one over ice exist, just around 0 °C, the liquid one is given.
 
     >>> round(adiabatic_saturation_temperature(temperature="150 degC", humidity_ratio=1.0) - 273.15, 1)
     87.7
@@ -215,10 +308,11 @@ def wet_bulb_temperature(
     pair: GasVaporPair = AIR_WATER,
     lewis_factor: PositiveNumber | None = None,
 ) -> Temperature:
-    """Temperature of a small wet surface in a stream of gas: the temperature of a product in its constant-rate period.
+    """Temperature of a small wet surface in a stream of gas: the temperature of a product in its
+    constant-rate period.
 
-    For air and water it is the adiabatic-saturation temperature (the Lewis factor is 1 by convention); for other pairs the Lewis
-    factor of the pair lifts it above. Heat by radiation and conduction is left out.
+    For air and water it is the adiabatic-saturation temperature (the Lewis factor is 1 by convention); for
+    other pairs the Lewis factor of the pair lifts it above. Heat by radiation and conduction is left out.
 
     >>> round(wet_bulb_temperature(temperature="22.2 degC", humidity_ratio=0.01) - 273.15, 1)
     17.0

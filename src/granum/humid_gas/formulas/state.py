@@ -26,14 +26,20 @@ from granum.core.kinds import (
     SpecificEnergy,
     SpecificVolume,
     Temperature,
-)  # fmt: skip
+)
 from granum.humid_gas.inputs import Solver
 from granum.humid_gas.pairs import AIR_WATER, LEAST_PRESSURE, MOST_PRESSURE
 
 GasVaporPair = Annotated[Any, Law("gas_vapor_pair")]
-NO_DEW_POINT = "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given instead."
+NO_DEW_POINT = (
+    "The gas is so dry that its dew point lies below the coldest temperature of the pair, which is given "
+    "instead."
+)
 IDEAL = "Both gases are taken as ideal there: give the pair air_water_real, which is the real mixture."
-NO_SATURATION = "Above the boiling point no gas is saturated and percentage humidity has no meaning: give the humidity ratio."
+NO_SATURATION = (
+    "Above the boiling point no gas is saturated and percentage humidity has no meaning: give the "
+    "humidity ratio."
+)
 RANGE = {"temperature": (213.0, 623.2)}  # that of the pressure is the pair's
 
 
@@ -58,10 +64,17 @@ class HumidGasState(NamedTuple):
 
 
 def within_pair(pair: Any, pressure: Any) -> None:
-    """Inside a formula body: flag pressures at which the substances of a pair are no longer what it takes them for."""
+    """Inside a formula body: flag pressures at which the substances of a pair are no longer what it takes
+    them for.
+    """
     P, highest = jnp.asarray(pressure), pair.highest_pressure
     flags.extrapolated(
-        (P < LEAST_PRESSURE) | (highest < P), P, "pressure", LEAST_PRESSURE, highest, IDEAL if highest < MOST_PRESSURE else ""
+        (P < LEAST_PRESSURE) | (highest < P),
+        P,
+        "pressure",
+        LEAST_PRESSURE,
+        highest,
+        IDEAL if highest < MOST_PRESSURE else "",
     )
 
 
@@ -91,33 +104,46 @@ def state(
 ) -> HumidGasState:
     """State of a humid gas from any two of its properties, at any pressure and for any gas–vapor pair.
 
-    Temperatures below the triple point are over ice. A humidity ratio or enthalpy beyond saturation gives fog: saturated gas with
-    ``condensate_ratio`` kg of drops per kg of dry gas, to which humidity ratio and enthalpy then belong too, but not the humid heat.
-    The dew point of perfectly dry gas does not exist; the coldest temperature of the pair is given instead. A relative humidity above
-    the boiling point is vapor pressure over saturation pressure. Percentage humidity is humidity ratio over that at saturation, which
-    has no end above the boiling point (0 there); as an input it goes with the temperature alone. Wet bulb and enthalpy lie nearly on
-    one line and fix the state badly: that is flagged.
+    Temperatures below the triple point are over ice. A humidity ratio or enthalpy beyond saturation gives
+    fog: saturated gas with ``condensate_ratio`` kg of drops per kg of dry gas, to which humidity ratio and
+    enthalpy then belong too, but not the humid heat. The dew point of perfectly dry gas does not exist; the
+    coldest temperature of the pair is given instead. A relative humidity above the boiling point is vapor
+    pressure over saturation pressure. Percentage humidity is humidity ratio over that at saturation, which
+    has no end above the boiling point (0 there); as an input it goes with the temperature alone. Wet bulb and
+    enthalpy lie nearly on one line and fix the state badly: that is flagged.
 
-    Air and water are ideal gases by default, as in most textbooks. The tables of ASHRAE, and pressures above a few bar, are of the real
-    mixture: ``pair="air_water_real"``. Solvents: ``pair="nitrogen_ethanol"``, ``"air_acetone"`` and others, or ``GasAndVapor`` of any two.
+    Air and water are ideal gases by default, as in most textbooks. The tables of ASHRAE, and pressures above
+    a few bar, are of the real mixture: ``pair="air_water_real"``. Solvents: ``pair="nitrogen_ethanol"``,
+    ``"air_acetone"`` and others, or ``GasAndVapor`` of any two.
 
     The notes' reading at 22.2 °C dry and 17 °C wet: 60 %, 47.8 kJ/kg, dew point 14 °C.
 
     >>> air = state(temperature="22.2 degC", wet_bulb_temperature="17 degC")
-    >>> round(air.relative_humidity, 2), round(air.enthalpy / 1e3, 1), round(air.dew_point_temperature - 273.15)
+    >>> (
+    ...     round(air.relative_humidity, 2),
+    ...     round(air.enthalpy / 1e3, 1),
+    ...     round(air.dew_point_temperature - 273.15),
+    ... )
     (0.6, 47.7, 14)
     """
     given = {
-        "temperature": temperature, "humidity_ratio": humidity_ratio, "vapor_pressure": vapor_pressure,
-        "dew_point_temperature": dew_point_temperature, "relative_humidity": relative_humidity,
-        "wet_bulb_temperature": wet_bulb_temperature, "adiabatic_saturation_temperature": adiabatic_saturation_temperature,
-        "enthalpy": enthalpy, "specific_volume": specific_volume,
-    }  # fmt: skip
+        "temperature": temperature,
+        "humidity_ratio": humidity_ratio,
+        "vapor_pressure": vapor_pressure,
+        "dew_point_temperature": dew_point_temperature,
+        "relative_humidity": relative_humidity,
+        "wet_bulb_temperature": wet_bulb_temperature,
+        "adiabatic_saturation_temperature": adiabatic_saturation_temperature,
+        "enthalpy": enthalpy,
+        "specific_volume": specific_volume,
+    }
     given = {name: jnp.asarray(value, dtype=float) for name, value in given.items() if value is not None}
     P = jnp.asarray(pressure, dtype=float)
     within_pair(pair, P)
     if percentage_humidity is not None:
-        given["humidity_ratio"] = _from_percentage(pair, P, given, jnp.asarray(percentage_humidity, dtype=float))
+        given["humidity_ratio"] = _from_percentage(
+            pair, P, given, jnp.asarray(percentage_humidity, dtype=float)
+        )
     lewis = pair.lewis_factor() if lewis_factor is None else lewis_factor
     gas, possible = Solver(pair, P, lewis, given).solve()
     if percentage_humidity is not None:
@@ -129,9 +155,9 @@ def _from_percentage(pair: Any, P: Any, given: dict[str, Any], share: Any) -> An
     """Humidity ratio of a percentage humidity at the temperature given with it."""
     if list(given) != ["temperature"]:
         raise InputError(
-            _("Percentage humidity fixes a state beside the temperature alone; given with it: {names}.").format(
-                names=", ".join(given) or _("none")
-            ),
+            _(
+                "Percentage humidity fixes a state beside the temperature alone; given with it: {names}."
+            ).format(names=", ".join(given) or _("none")),
             given=list(given),
         )
     ys = rel.saturated_fraction(pair, given["temperature"], P)
@@ -139,8 +165,12 @@ def _from_percentage(pair: Any, P: Any, given: dict[str, Any], share: Any) -> An
     return share * pair.humidity_ratio(jnp.where(ys < 1.0, ys, jnp.nan))
 
 
-def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: dict[str, Any]) -> HumidGasState:
-    """All properties of a solved state; the given ones are repeated exactly, an impossible state is NaN and flagged."""
+def describe(
+    pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: dict[str, Any]
+) -> HumidGasState:
+    """All properties of a solved state; the given ones are repeated exactly, an impossible state is NaN and
+    flagged.
+    """
     T = jnp.where(possible, gas.T, 300.0)
     y = jnp.where(possible, gas.y, 0.0)
     fog = jnp.where(possible, gas.fog, 0.0)
@@ -150,12 +180,26 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
     wet = adiabatic if lewis is None else rel.polished_wet_bulb(pair, T, P, y, lewis)
     outside = (pair.lowest_temperature > T) | (pair.highest_temperature < T)
     flags.record(
-        flags.EXTRAPOLATED, possible & outside, T, "temperature", "humid_gas.state", pair.lowest_temperature, pair.highest_temperature
+        flags.EXTRAPOLATED,
+        possible & outside,
+        T,
+        "temperature",
+        "humid_gas.state",
+        pair.lowest_temperature,
+        pair.highest_temperature,
     )
     critical = pair.highest_condensation
     if critical < jnp.inf:
         above = possible & (wet > critical)
-        flags.record(flags.EXTRAPOLATED, above, wet, "wet_bulb_temperature", "humid_gas.state", pair.lowest_temperature, critical)
+        flags.record(
+            flags.EXTRAPOLATED,
+            above,
+            wet,
+            "wet_bulb_temperature",
+            "humid_gas.state",
+            pair.lowest_temperature,
+            critical,
+        )
     driest = y < rel.saturated_fraction(pair, jnp.asarray(pair.lowest_temperature), P)
     flags.limit_active(possible & driest, pair.lowest_temperature, "dew_point_temperature", NO_DEW_POINT)
     humidity = rel.humidity_of(pair, gas)
@@ -172,7 +216,9 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
         "vapor_pressure": y * P,
         "vapor_mole_fraction": y,
         "condensate_ratio": pair.molar_mass_ratio * fog,
-        "percentage_humidity": jnp.where(ys < 1.0, humidity, 0.0) * jnp.maximum(1.0 - ys, 0.0) / (pair.molar_mass_ratio * ys),
+        "percentage_humidity": jnp.where(ys < 1.0, humidity, 0.0)
+        * jnp.maximum(1.0 - ys, 0.0)
+        / (pair.molar_mass_ratio * ys),
         "saturation_pressure": ys * P,
         "humid_heat": heat / ((1.0 - y) * pair.gas_molar_mass),
     }
@@ -180,6 +226,9 @@ def describe(pair: Any, gas: rel.Gas, P: Any, lewis: Any, possible: Any, given: 
     values["density"] = mass / pair.molar_volume(T, P, y)
     values |= given
     shape = jnp.broadcast_shapes(*(jnp.shape(v) for v in values.values()), jnp.shape(possible))
-    return HumidGasState(**{
-        name: jnp.where(possible, jnp.broadcast_to(values[name], shape), jnp.nan) for name in HumidGasState._fields
-    })  # fmt: skip
+    return HumidGasState(
+        **{
+            name: jnp.where(possible, jnp.broadcast_to(values[name], shape), jnp.nan)
+            for name in HumidGasState._fields
+        }
+    )

@@ -41,18 +41,34 @@ def _mixed(first: Any, second: Any, y: Any, weights: tuple[Any, Any]) -> Any:
     return (1.0 - y) * first / ((1.0 - y) + y * weights[0]) + y * second / (y + (1.0 - y) * weights[1])
 
 
-@formula(source="poling2001, eq. 9-5.14 and 10-6.2; lemmon2004; iapws2008viscosity; iapws2011conductivity; marrero1972",
-         equation=r"\eta = \sum_i \frac{y_i\eta_i}{\sum_j y_j\phi_{ij}},\quad \phi_{ij} = \frac{[1+(\eta_i/\eta_j)^{1/2}(M_j/M_i)^{1/4}]^2}{[8(1+M_i/M_j)]^{1/2}}",
-         fitted={"temperature": (273.15, 623.15)},
-         typical={"temperature": (293.15, 393.15), "humidity_ratio": (0.005, 0.1), "pressure": (9e4, 2e5)},
-         title="Transport properties of humid air", output="humid_gas_state")  # fmt: skip
-def transport(temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE) -> Transport:
-    """Viscosity (Wilke), conductivity (Mason and Saxena), heat capacity and diffusivity of humid air at low pressure.
+@formula(
+    source=(
+        "poling2001, eq. 9-5.14 and 10-6.2; lemmon2004; iapws2008viscosity; iapws2011conductivity; "
+        "marrero1972"
+    ),
+    equation=(
+        r"\eta = \sum_i \frac{y_i\eta_i}{\sum_j y_j\phi_{ij}},\quad \phi_{ij} = "
+        r"\frac{[1+(\eta_i/\eta_j)^{1/2}(M_j/M_i)^{1/4}]^2}{[8(1+M_i/M_j)]^{1/2}}"
+    ),
+    fitted={"temperature": (273.15, 623.15)},
+    typical={"temperature": (293.15, 393.15), "humidity_ratio": (0.005, 0.1), "pressure": (9e4, 2e5)},
+    title="Transport properties of humid air",
+    output="humid_gas_state",
+)
+def transport(
+    temperature: Temperature, humidity_ratio: HumidityRatio, pressure: Pressure = STANDARD_ATMOSPHERE
+) -> Transport:
+    """Viscosity (Wilke), conductivity (Mason and Saxena), heat capacity and diffusivity of humid air at low
+    pressure.
 
     Dry air at 27 °C: 18.5 µPa s, 26.4 mW/(m K), Pr 0.71.
 
     >>> dry = transport(temperature=300.0, humidity_ratio=0.0)
-    >>> round(dry.dynamic_viscosity * 1e6, 1), round(dry.thermal_conductivity * 1e3, 1), round(dry.prandtl_number, 2)
+    >>> (
+    ...     round(dry.dynamic_viscosity * 1e6, 1),
+    ...     round(dry.thermal_conductivity * 1e3, 1),
+    ...     round(dry.prandtl_number, 2),
+    ... )
     (18.5, 26.4, 0.71)
     """
     T, w = temperature, humidity_ratio

@@ -1,7 +1,9 @@
-"""Forms of property correlations: how a handful of coefficients makes a property a function of temperature.
+"""Forms of property correlations: how a handful of coefficients makes a property a function of
+temperature.
 
-Each form is a card, and a member of the family ``correlation``: the ``form`` of a property in a material's TOML file is the part of
-its name after ``correlation_``. The unit of the value is whatever the coefficients were fitted in.
+Each form is a card, and a member of the family ``correlation``: the ``form`` of a property in a material's
+TOML file is the part of its name after ``correlation_``. The unit of the value is whatever the coefficients
+were fitted in.
 """
 
 from __future__ import annotations
@@ -29,13 +31,20 @@ def _horner(coefficients: Any, x: Any) -> Any:
 def correlation_polynomial(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Polynomial in the absolute temperature, lowest power first (DIPPR equation 100).
 
-    >>> round(correlation_polynomial(temperature=300.0, coefficients=[102640.0, -139.63, -0.030341, 0.0020386]), 0)
+    >>> round(
+    ...     correlation_polynomial(temperature=300.0, coefficients=[102640.0, -139.63, -0.030341, 0.0020386]),
+    ...     0,
+    ... )
     113063.0
     """
     return _horner(jnp.asarray(coefficients), temperature)
 
 
-@formula(source="mullin2001, app. A.4", equation=r"y = \sum_i c_i (T - 273.15)^i", title="Polynomial in degrees Celsius")
+@formula(
+    source="mullin2001, app. A.4",
+    equation=r"y = \sum_i c_i (T - 273.15)^i",
+    title="Polynomial in degrees Celsius",
+)
 def correlation_polynomial_celsius(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Polynomial in the temperature in degrees Celsius, lowest power first.
 
@@ -45,8 +54,11 @@ def correlation_polynomial_celsius(temperature: Temperature, coefficients: Coeff
     return _horner(jnp.asarray(coefficients), temperature - ZERO_CELSIUS)
 
 
-@formula(source="green2008, table 2-8", equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T + c_4 T^{c_5}\right)",
-         title="Extended Antoine form (DIPPR 101)")  # fmt: skip
+@formula(
+    source="green2008, table 2-8",
+    equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T + c_4 T^{c_5}\right)",
+    title="Extended Antoine form (DIPPR 101)",
+)
 def correlation_dippr101(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Exponential form used for vapor pressures and liquid viscosities.
 
@@ -58,7 +70,11 @@ def correlation_dippr101(temperature: Temperature, coefficients: Coefficients) -
     return jnp.exp(c[0] + c[1] / T + c[2] * jnp.log(T) + c[3] * T ** c[4])
 
 
-@formula(source="green2008, table 2-312", equation=r"y = \frac{c_1 T^{c_2}}{1 + c_3/T + c_4/T^2}", title="Sutherland form (DIPPR 102)")
+@formula(
+    source="green2008, table 2-312",
+    equation=r"y = \frac{c_1 T^{c_2}}{1 + c_3/T + c_4/T^2}",
+    title="Sutherland form (DIPPR 102)",
+)
 def correlation_dippr102(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Generalized Sutherland form used for the viscosity and conductivity of dilute gases.
 
@@ -80,7 +96,12 @@ def correlation_rackett(temperature: Temperature, coefficients: Coefficients) ->
 
     Up to the critical temperature.
 
-    >>> round(correlation_rackett(temperature=298.15, coefficients=[1628.8, 0.27469, 514.0, 0.23178]) * 46.068 / 1e3, -1)
+    >>> round(
+    ...     correlation_rackett(temperature=298.15, coefficients=[1628.8, 0.27469, 514.0, 0.23178])
+    ...     * 46.068
+    ...     / 1e3,
+    ...     -1,
+    ... )
     790.0
     """
     c = jnp.asarray(coefficients)
@@ -89,12 +110,20 @@ def correlation_rackett(temperature: Temperature, coefficients: Coefficients) ->
     return c[0] / c[1] ** (1.0 + y ** c[3])
 
 
-@formula(source="green2008, table 2-150", equation=r"y = c_2\,(1 - T_r)^{c_3 + c_4 T_r + c_5 T_r^2 + \dots},\quad T_r = T/c_1",
-         title="Watson form (DIPPR 106)", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
+@formula(
+    source="green2008, table 2-150",
+    equation=r"y = c_2\,(1 - T_r)^{c_3 + c_4 T_r + c_5 T_r^2 + \dots},\quad T_r = T/c_1",
+    title="Watson form (DIPPR 106)",
+    fitted={"reduced_temperature": (0.0, 1.0)},
+)
 def correlation_watson(temperature: Temperature, coefficients: Coefficients) -> Number:
-    """Watson form used for heats of vaporization and surface tensions; c1 is the critical temperature, where the value becomes zero.
+    """Watson form used for heats of vaporization and surface tensions; c1 is the critical temperature, where
+    the value becomes zero.
 
-    >>> round(correlation_watson(temperature=298.15, coefficients=[514.0, 55789.0, 0.31245, 0.0, 0.0]) / 46.068, -1)
+    >>> round(
+    ...     correlation_watson(temperature=298.15, coefficients=[514.0, 55789.0, 0.31245, 0.0, 0.0]) / 46.068,
+    ...     -1,
+    ... )
     920.0
     """
     c = jnp.asarray(coefficients)
@@ -103,8 +132,11 @@ def correlation_watson(temperature: Temperature, coefficients: Coefficients) -> 
     return c[1] * jnp.maximum(1.0 - Tr, 1e-9) ** _horner(c[2:], Tr)
 
 
-@formula(source="green2008, table 2-156", equation=r"y = c_1 + c_2\left[\frac{c_3/T}{\sinh(c_3/T)}\right]^2 + c_4\left[\frac{c_5/T}{\cosh(c_5/T)}\right]^2",
-         title="Aly–Lee form (DIPPR 107)")  # fmt: skip
+@formula(
+    source="green2008, table 2-156",
+    equation=r"y = c_1 + c_2\left[\frac{c_3/T}{\sinh(c_3/T)}\right]^2 + c_4\left[\frac{c_5/T}{\cosh(c_5/T)}\right]^2",  # noqa: E501
+    title="Aly–Lee form (DIPPR 107)",
+)
 def correlation_aly_lee(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Aly and Lee's form for the heat capacity of ideal gases.
 
@@ -117,10 +149,13 @@ def correlation_aly_lee(temperature: Temperature, coefficients: Coefficients) ->
     return c[0] + c[1] * (a / jnp.sinh(a)) ** 2 + c[3] * (b / jnp.cosh(b)) ** 2
 
 
-@formula(source="green2008, table 2-153",
-         equation=r"y = \frac{c_2^2}{\tau} + c_3 - 2c_2c_4\tau - c_2c_5\tau^2 - \frac{c_4^2\tau^3}{3} - \frac{c_4c_5\tau^4}{2} - \frac{c_5^2\tau^5}{5},"
-                  r"\quad \tau = 1 - T/c_1",
-         title="Zábranský form (DIPPR 114)", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
+@formula(
+    source="green2008, table 2-153",
+    equation=r"y = \frac{c_2^2}{\tau} + c_3 - 2c_2c_4\tau - c_2c_5\tau^2 - \frac{c_4^2\tau^3}{3} - \frac{c_4c_5\tau^4}{2} - \frac{c_5^2\tau^5}{5},"  # noqa: E501
+    r"\quad \tau = 1 - T/c_1",
+    title="Zábranský form (DIPPR 114)",
+    fitted={"reduced_temperature": (0.0, 1.0)},
+)
 def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Form for the heat capacity of liquids up to the critical temperature c1.
 
@@ -134,8 +169,12 @@ def correlation_dippr114(temperature: Temperature, coefficients: Coefficients) -
     return A**2 / t + B - 2 * A * C * t - A * D * t**2 - C**2 * t**3 / 3 - C * D * t**4 / 2 - D**2 * t**5 / 5
 
 
-@formula(source="vdi2010, sec. D3.1, table 3", equation=r"y = c_6\exp\frac{c_1\tau + c_2\tau^{1.5} + c_3\tau^{2.5} + c_4\tau^5}{1-\tau},\quad \tau = 1 - T/c_5",
-         title="Wagner form", fitted={"reduced_temperature": (0.0, 1.0)})  # fmt: skip
+@formula(
+    source="vdi2010, sec. D3.1, table 3",
+    equation=r"y = c_6\exp\frac{c_1\tau + c_2\tau^{1.5} + c_3\tau^{2.5} + c_4\tau^5}{1-\tau},\quad \tau = 1 - T/c_5",  # noqa: E501
+    title="Wagner form",
+    fitted={"reduced_temperature": (0.0, 1.0)},
+)
 def correlation_wagner(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Wagner's form for the vapor pressure up to the critical point c5, c6.
 
@@ -162,7 +201,9 @@ def correlation_antoine(temperature: Temperature, coefficients: Coefficients) ->
     return 10.0 ** (c[0] - c[1] / (temperature + c[2]))
 
 
-@formula(source="poling2001, ch. 9", equation=r"y = \exp\left(c_1 + \frac{c_2}{T + c_3}\right)", title="Vogel form")
+@formula(
+    source="poling2001, ch. 9", equation=r"y = \exp\left(c_1 + \frac{c_2}{T + c_3}\right)", title="Vogel form"
+)
 def correlation_vogel(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Vogel's form for liquid viscosities; Andrade's with c3 = 0.
 
@@ -173,7 +214,11 @@ def correlation_vogel(temperature: Temperature, coefficients: Coefficients) -> N
     return jnp.exp(c[0] + c[1] / (temperature + c[2]))
 
 
-@formula(source="apelblat1999, eq. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T\right)", title="Apelblat form")
+@formula(
+    source="apelblat1999, eq. 3",
+    equation=r"y = \exp\left(c_1 + \frac{c_2}{T} + c_3\ln T\right)",
+    title="Apelblat form",
+)
 def correlation_apelblat(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Apelblat's form for solubilities: an enthalpy of solution that varies linearly with temperature.
 
@@ -184,7 +229,11 @@ def correlation_apelblat(temperature: Temperature, coefficients: Coefficients) -
     return jnp.exp(c[0] + c[1] / T + c[2] * jnp.log(T))
 
 
-@formula(source="mullin2001, ch. 3", equation=r"y = \exp\sum_i c_i (T - 273.15)^i", title="Exponential of a polynomial in degrees Celsius")
+@formula(
+    source="mullin2001, ch. 3",
+    equation=r"y = \exp\sum_i c_i (T - 273.15)^i",
+    title="Exponential of a polynomial in degrees Celsius",
+)
 def correlation_exponential_celsius(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Exponential of a polynomial in the temperature in degrees Celsius, lowest power first: always positive.
 
@@ -194,7 +243,9 @@ def correlation_exponential_celsius(temperature: Temperature, coefficients: Coef
     return jnp.exp(_horner(jnp.asarray(coefficients), temperature - ZERO_CELSIUS))
 
 
-@formula(source="mullin2001, ch. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T}\right)", title="van 't Hoff form")
+@formula(
+    source="mullin2001, ch. 3", equation=r"y = \exp\left(c_1 + \frac{c_2}{T}\right)", title="van 't Hoff form"
+)
 def correlation_vant_hoff(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Van 't Hoff's form for solubilities: a constant enthalpy of solution.
 
@@ -225,11 +276,20 @@ def correlation_mulero(temperature: Temperature, coefficients: Coefficients) -> 
     return sum(c[i] * t ** c[i + 1] for i in range(1, c.shape[0] - 1, 2))
 
 
-@formula(source="green2008, table 2-151", equation=r"y = c_1 + c_2 T + c_3 T^{-2}", title="Heat capacity form of Maier and Kelley")
+@formula(
+    source="green2008, table 2-151",
+    equation=r"y = c_1 + c_2 T + c_3 T^{-2}",
+    title="Heat capacity form of Maier and Kelley",
+)
 def correlation_maier_kelley(temperature: Temperature, coefficients: Coefficients) -> Number:
     """Maier and Kelley's form for the heat capacity of solids.
 
-    >>> round(correlation_maier_kelley(temperature=298.15, coefficients=[22.08, 0.008971, -522500.0]) * 4184 / 101.961, 0)
+    >>> round(
+    ...     correlation_maier_kelley(temperature=298.15, coefficients=[22.08, 0.008971, -522500.0])
+    ...     * 4184
+    ...     / 101.961,
+    ...     0,
+    ... )
     775.0
     """
     c, T = jnp.asarray(coefficients), temperature

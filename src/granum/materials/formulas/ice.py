@@ -25,7 +25,9 @@ def ice_vapor_pressure(temperature: Temperature) -> Pressure:
     8.94735
     """
     theta = temperature / _TRIPLE_TEMPERATURE
-    total = -21.2144006 * theta**0.00333333333 + 27.3203819 * theta**1.20666667 - 6.10598130 * theta**1.70333333
+    total = (
+        -21.2144006 * theta**0.00333333333 + 27.3203819 * theta**1.20666667 - 6.10598130 * theta**1.70333333
+    )
     return _TRIPLE_PRESSURE * jnp.exp(total / theta)
 
 
@@ -44,5 +46,9 @@ def ice_melting_pressure(temperature: Temperature) -> Pressure:
     138.268
     """
     theta = temperature / _TRIPLE_TEMPERATURE
-    total = 0.119539337e7 * (1 - theta**3) + 0.808183159e5 * (1 - theta**25.75) + 0.333826860e4 * (1 - theta**103.75)
+    total = (
+        0.119539337e7 * (1 - theta**3)
+        + 0.808183159e5 * (1 - theta**25.75)
+        + 0.333826860e4 * (1 - theta**103.75)
+    )
     return _TRIPLE_PRESSURE * (1 + total)

@@ -15,11 +15,17 @@ ROOM = 298.15
 
 @formula(
     source="davies1962, ch. 3; malmberg1956",
-    equation=r"\log_{10}\gamma = -A z^2\left(\frac{\sqrt I}{1+\sqrt I} - 0.3\,I\right),\quad A = 1.8246\times10^{6}\,(\epsilon T)^{-3/2}",
+    equation=(
+        r"\log_{10}\gamma = -A z^2\left(\frac{\sqrt I}{1+\sqrt I} - 0.3\,I\right),\quad A = "
+        r"1.8246\times10^{6}\,(\epsilon T)^{-3/2}"
+    ),
     fitted={"ionic_strength": (0.0, 0.5), "temperature": (273.15, 373.15)},
 )
-def activity_coefficient_davies(charge_number: Number, ionic_strength: Molality, temperature: Temperature = ROOM) -> PositiveNumber:
-    """Activity coefficient of an ion in water from its charge and the ionic strength (mol/kg), with water's dielectric constant.
+def activity_coefficient_davies(
+    charge_number: Number, ionic_strength: Molality, temperature: Temperature = ROOM
+) -> PositiveNumber:
+    """Activity coefficient of an ion in water from its charge and the ionic strength (mol/kg), with water's
+    dielectric constant.
 
     Within a few percent up to 0.1 mol/kg, a first estimate up to 0.5.
 
@@ -43,16 +49,25 @@ class SaltSaturation(NamedTuple):
 
 @formula(
     source="davies1962, ch. 3; haynes2014, sec. 5",
-    equation=r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = 10^{\mathrm{SI}/(p+q)}",
+    equation=(
+        r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
+        r"10^{\mathrm{SI}/(p+q)}"
+    ),
     typical={"cation_molality": (1e-5, 1e-2), "anion_molality": (1e-5, 1e-2), "ionic_strength": (1e-3, 0.3)},
     fitted={"ionic_strength": (0.0, 0.5)},
     title="Saturation of a sparingly soluble salt",
 )
-def salt_saturation(cation_molality: Molality, anion_molality: Molality, ionic_strength: Molality,
-                    salt: str = "barium sulfate") -> SaltSaturation:  # fmt: skip
-    """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies activity coefficients.
+def salt_saturation(
+    cation_molality: Molality,
+    anion_molality: Molality,
+    ionic_strength: Molality,
+    salt: str = "barium sulfate",
+) -> SaltSaturation:
+    """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies
+    activity coefficients.
 
-    Free ions only: complexes and protonated forms must be taken off first. ``granum.materials.names("salt")`` lists the salts.
+    Free ions only: complexes and protonated forms must be taken off first. ``granum.materials.names("salt")``
+    lists the salts.
 
     >>> round(salt_saturation(1.04e-5, 1.04e-5, 0.0, salt="barium sulfate").saturation_ratio, 2)
     1.0
@@ -65,11 +80,18 @@ def salt_saturation(cation_molality: Molality, anion_molality: Molality, ionic_s
     return SaltSaturation(product, index, 10.0 ** (index / found.ion_count))
 
 
-@formula(source="haynes2014, sec. 5", equation=r"m = \left(\frac{K_{sp}}{p^p q^q}\right)^{1/(p+q)}", title="Molality of a salt saturated in pure water",
-         typical={"solubility_product": (1e-12, 1e-4)}, output="salt_molality")  # fmt: skip
-def salt_molality_from_product(solubility_product: PositiveNumber, cation_count: PositiveNumber = 1.0,
-                               anion_count: PositiveNumber = 1.0) -> Molality:  # fmt: skip
-    """Molality of a salt in the pure water it saturates, ideal solution, no hydrolysis: mol of formula units per kg of water.
+@formula(
+    source="haynes2014, sec. 5",
+    equation=r"m = \left(\frac{K_{sp}}{p^p q^q}\right)^{1/(p+q)}",
+    title="Molality of a salt saturated in pure water",
+    typical={"solubility_product": (1e-12, 1e-4)},
+    output="salt_molality",
+)
+def salt_molality_from_product(
+    solubility_product: PositiveNumber, cation_count: PositiveNumber = 1.0, anion_count: PositiveNumber = 1.0
+) -> Molality:
+    """Molality of a salt in the pure water it saturates, ideal solution, no hydrolysis: mol of formula units
+    per kg of water.
 
     >>> round(salt_molality_from_product(1.70e-5, 1.0, 2.0), 4)
     0.0162
@@ -78,13 +100,21 @@ def salt_molality_from_product(solubility_product: PositiveNumber, cation_count:
     return jnp.exp((jnp.log(solubility_product) - p * jnp.log(p) - q * jnp.log(q)) / (p + q))
 
 
-@formula(source="stumm1996, ch. 3", equation=r"\alpha_n = \left[1 + \sum_{k=1}^{n} 10^{\,\sum_{j=n-k+1}^{n} pK_j - k\,\mathrm{pH}}\right]^{-1}",
-         output="deprotonated_fraction", typical={"ph_value": (5.0, 11.0)})  # fmt: skip
+@formula(
+    source="stumm1996, ch. 3",
+    equation=(
+        r"\alpha_n = \left[1 + \sum_{k=1}^{n} 10^{\,\sum_{j=n-k+1}^{n} pK_j - " r"k\,\mathrm{pH}}\right]^{-1}"
+    ),
+    output="deprotonated_fraction",
+    typical={"ph_value": (5.0, 11.0)},
+)
 def deprotonated_fraction(ph_value: Number, acid_exponents: Annotated[Number, Series("steps")]) -> Fraction:
-    """Share of a dissolved weak acid that is there as its last anion, from pH and the exponents pK of its steps, first step first.
+    """Share of a dissolved weak acid that is there as its last anion, from pH and the exponents pK of its
+    steps, first step first.
 
-    It turns total carbonate, oxalate or phosphate into the free anion that a solubility product counts. Concentration constants at the
-    ionic strength of the solution; ideal where those of infinite dilution are used.
+    It turns total carbonate, oxalate or phosphate into the free anion that a solubility product counts.
+    Concentration constants at the ionic strength of the solution; ideal where those of infinite dilution are
+    used.
 
     >>> round(float(deprotonated_fraction(ph_value=10.33, acid_exponents=[6.35, 10.33])), 3)
     0.5

@@ -1,4 +1,6 @@
-"""Everything the library knows of a material at a temperature, as cards: what ``granum calc`` and the forms use."""
+"""Everything the library knows of a material at a temperature, as cards: what ``granum calc`` and the forms
+use.
+"""
 
 from __future__ import annotations
 
@@ -45,11 +47,17 @@ class LiquidProperties(NamedTuple):
     heat_of_vaporization: SpecificEnergy
 
 
-@formula(source="green2008, sec. 2; iapwsif97; mulero2012", typical={"temperature": (285.0, 340.0)}, title="Properties of a liquid")
+@formula(
+    source="green2008, sec. 2; iapwsif97; mulero2012",
+    typical={"temperature": (285.0, 340.0)},
+    title="Properties of a liquid",
+)
 def liquid_properties(temperature: Temperature, fluid: str = "water") -> LiquidProperties:
-    """Density, viscosity, heat capacity, conductivity, surface tension, vapor pressure and heat of vaporization of a pure liquid.
+    """Density, viscosity, heat capacity, conductivity, surface tension, vapor pressure and heat of
+    vaporization of a pure liquid.
 
-    The sources of each property stand in the material's file; ``granum.materials.names("fluid")`` lists the fluids.
+    The sources of each property stand in the material's file; ``granum.materials.names("fluid")`` lists the
+    fluids.
 
     >>> round(liquid_properties("25 degC", fluid="ethanol").dynamic_viscosity * 1e3, 1)
     1.1
@@ -57,8 +65,16 @@ def liquid_properties(temperature: Temperature, fluid: str = "water") -> LiquidP
     from granum.materials.library import fluid as find
 
     f = find(fluid)
-    laws = (f.liquid_density, f.liquid_viscosity, f.liquid_heat_capacity, f.liquid_conductivity, f.surface_tension)
-    return LiquidProperties(*(_or_nan(law, temperature) for law in (*laws, f.vapor_pressure, f.heat_of_vaporization)))
+    laws = (
+        f.liquid_density,
+        f.liquid_viscosity,
+        f.liquid_heat_capacity,
+        f.liquid_conductivity,
+        f.surface_tension,
+    )
+    return LiquidProperties(
+        *(_or_nan(law, temperature) for law in (*laws, f.vapor_pressure, f.heat_of_vaporization))
+    )
 
 
 class GasProperties(NamedTuple):
@@ -70,8 +86,14 @@ class GasProperties(NamedTuple):
     thermal_conductivity: ThermalConductivity
 
 
-@formula(source="lemmon2004; poling2001, app. A; green2008, sec. 2", typical={"temperature": (285.0, 500.0)}, title="Properties of a gas")
-def gas_properties(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, fluid: str = "dry air") -> GasProperties:
+@formula(
+    source="lemmon2004; poling2001, app. A; green2008, sec. 2",
+    typical={"temperature": (285.0, 500.0)},
+    title="Properties of a gas",
+)
+def gas_properties(
+    temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, fluid: str = "dry air"
+) -> GasProperties:
     """Density, viscosity, heat capacity and conductivity of a gas or vapor at low pressure.
 
     >>> round(gas_properties("20 degC").gas_density, 3)
@@ -92,11 +114,19 @@ class VaporInGas(NamedTuple):
     molar_mass_ratio: Ratio
 
 
-@formula(source="poling2001, eq. 11-4.4; marrero1972; fuller1969", typical={"temperature": (285.0, 440.0)}, title="Vapor in a carrier gas")
+@formula(
+    source="poling2001, eq. 11-4.4; marrero1972; fuller1969",
+    typical={"temperature": (285.0, 440.0)},
+    title="Vapor in a carrier gas",
+)
 def vapor_in_gas(
-    temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE, vapor: str = "water", gas: str = "dry air"
+    temperature: Temperature,
+    pressure: Pressure = STANDARD_ATMOSPHERE,
+    vapor: str = "water",
+    gas: str = "dry air",
 ) -> VaporInGas:
-    """Diffusivity and Lewis number of a vapor in a gas that carries little of it, and the ratio of their molar masses.
+    """Diffusivity and Lewis number of a vapor in a gas that carries little of it, and the ratio of their
+    molar masses.
 
     >>> round(vapor_in_gas("25 degC", vapor="toluene").lewis_number, 1)
     2.7
@@ -121,13 +151,19 @@ class Solubility(NamedTuple):
     temperature_highest: Temperature
 
 
-@formula(source="haynes2014, sec. 5; green2008, table 2-120", typical={"temperature": (285.0, 340.0)}, title="Solubility")
+@formula(
+    source="haynes2014, sec. 5; green2008, table 2-120",
+    typical={"temperature": (285.0, 340.0)},
+    title="Solubility",
+)
 def solubility(temperature: Temperature, system: str = "potassium nitrate") -> Solubility:
     """Solubility of a solute over its stable crystal in the usual bases, all of anhydrous solute.
 
-    The misfit is the root mean square of what the curve deviates from the data it was drawn through; zero where it goes through them or is the source's
-    own formula. Outside the lowest and highest temperature of the data the curve goes on as a van 't Hoff line and is flagged. The sources of each
-    system stand in its file; ``granum.materials.names("solute")`` lists the systems. ``saturated_solution`` has the properties of the solution.
+    The misfit is the root mean square of what the curve deviates from the data it was drawn through; zero
+    where it goes through them or is the source's own formula. Outside the lowest and highest temperature of
+    the data the curve goes on as a van 't Hoff line and is flagged. The sources of each system stand in its
+    file; ``granum.materials.names("solute")`` lists the systems. ``saturated_solution`` has the properties of
+    the solution.
 
     >>> found = solubility("80 degC", "potassium aluminum sulfate")
     >>> round(100 * found.solubility_per_solvent, 1), round(found.crystal_per_solute, 3)
@@ -140,8 +176,16 @@ def solubility(temperature: Temperature, system: str = "potassium nitrate") -> S
     ratio = s.solubility(T)
     moles, solvent = ratio / s.molar_mass, 1.0 / s.solvent.molar_mass
     lowest, highest = s.data_range
-    return Solubility(ratio, s.mass_fraction(ratio), moles / (moles + solvent), moles, s.hydrate_ratio(T), s.solubility_misfit(T),
-                      lowest + 0.0 * T, highest + 0.0 * T)  # fmt: skip
+    return Solubility(
+        ratio,
+        s.mass_fraction(ratio),
+        moles / (moles + solvent),
+        moles,
+        s.hydrate_ratio(T),
+        s.solubility_misfit(T),
+        lowest + 0.0 * T,
+        highest + 0.0 * T,
+    )
 
 
 class Saturation(NamedTuple):
@@ -156,12 +200,18 @@ class Saturation(NamedTuple):
     specific_heat_capacity: HeatCapacity
 
 
-@formula(source="haynes2014, sec. 5; laliberte2009", typical={"temperature": (285.0, 340.0)}, title="Saturated solution")
+@formula(
+    source="haynes2014, sec. 5; laliberte2009",
+    typical={"temperature": (285.0, 340.0)},
+    title="Saturated solution",
+)
 def saturated_solution(temperature: Temperature, system: str = "potassium nitrate") -> Saturation:
-    """Solubility of a solute over its stable crystal, with the heat released on crystallization and the properties of the solution.
+    """Solubility of a solute over its stable crystal, with the heat released on crystallization and the
+    properties of the solution.
 
-    Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per mass of anhydrous solute.
-    The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
+    Everything is per mass of anhydrous solute; ``crystal_per_solute`` is the mass of (hydrated) crystal per
+    mass of anhydrous solute. The sources of each system stand in its file;
+    ``granum.materials.names("solute")`` lists the systems.
 
     >>> round(saturated_solution("20 degC").liquid_density / 1e3, 2)
     1.16
@@ -173,8 +223,15 @@ def saturated_solution(temperature: Temperature, system: str = "potassium nitrat
     ratio = s.solubility(T)
     viscosity = jnp.nan + 0.0 * T if s.viscosity_law.is_missing else s.solution_viscosity(T, ratio)
     heat = s.heat_of_crystallization(T) if all(b.heat_given for b in s.branches) else jnp.nan + 0.0 * T
-    return Saturation(ratio, s.mass_fraction(ratio), s.hydrate_ratio(T), heat, s.solution_density(T, ratio),
-                      viscosity, s.solution_heat_capacity(T, ratio))  # fmt: skip
+    return Saturation(
+        ratio,
+        s.mass_fraction(ratio),
+        s.hydrate_ratio(T),
+        heat,
+        s.solution_density(T, ratio),
+        viscosity,
+        s.solution_heat_capacity(T, ratio),
+    )
 
 
 class SolutionProperties(NamedTuple):
@@ -195,8 +252,9 @@ def solution_properties(
 ) -> SolutionProperties:
     """Density, viscosity and heat capacity of a solution of one solute at any strength, saturated or not.
 
-    The fraction is that of anhydrous solute in the solution. Brine of 10 % at 20 °C: 1070.7 kg/m³ and 1.193 mPa s in the CRC handbook.
-    The sources of each system stand in its file; ``granum.materials.names("solute")`` lists the systems.
+    The fraction is that of anhydrous solute in the solution. Brine of 10 % at 20 °C: 1070.7 kg/m³ and
+    1.193 mPa s in the CRC handbook. The sources of each system stand in its file;
+    ``granum.materials.names("solute")`` lists the systems.
 
     >>> brine = solution_properties("20 degC", "10 %", "sodium chloride")
     >>> round(brine.liquid_density), round(1000 * brine.dynamic_viscosity, 1)

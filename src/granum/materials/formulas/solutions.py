@@ -8,7 +8,15 @@ import jax.numpy as jnp
 
 from granum.core import formula
 from granum.core.constants import ZERO_CELSIUS
-from granum.core.kinds import Density, DynamicViscosity, HeatCapacity, MassFraction, Number, Series, Temperature
+from granum.core.kinds import (
+    Density,
+    DynamicViscosity,
+    HeatCapacity,
+    MassFraction,
+    Number,
+    Series,
+    Temperature,
+)
 from granum.materials.formulas.water import water_density, water_heat_capacity
 from granum.materials.formulas.water_transport import water_viscosity
 
@@ -22,18 +30,30 @@ def _solute(mass_fraction: Any) -> Any:
 
 @formula(
     source="laliberte2004, eq. 5 and 9; laliberte2009, table 2",
-    equation=r"\frac1\rho = \frac{1-w}{\rho_w} + w\,\frac{w + c_2 + c_3 t}{(c_0 w + c_1)\,e^{10^{-6}(t + c_4)^2}}",
+    equation=(
+        r"\frac1\rho = \frac{1-w}{\rho_w} + w\,\frac{w + c_2 + c_3 t}{(c_0 w + c_1)\,e^{10^{-6}(t + "
+        r"c_4)^2}}"
+    ),
     output="liquid_density",
     title="Density of an aqueous solution (Laliberté–Cooper)",
     fitted={"temperature": (273.15, 413.15), "solute_mass_fraction": (0.0, 0.79)},
 )
-def liquid_density_laliberte(temperature: Temperature, solute_mass_fraction: MassFraction, coefficients: Coefficients) -> Density:
+def liquid_density_laliberte(
+    temperature: Temperature, solute_mass_fraction: MassFraction, coefficients: Coefficients
+) -> Density:
     """Density of an aqueous solution from the apparent density of the solute; t is in degrees Celsius.
 
-    Within about 0.1 % of the data it was fitted to. Differs from the print: water's own density is that of IAPWS-IF97. The data of the
-    solutes kept here end at 140 °C and at a mass fraction of 0.79; those of one solute may end before.
+    Within about 0.1 % of the data it was fitted to. Differs from the print: water's own density is that of
+    IAPWS-IF97. The data of the solutes kept here end at 140 °C and at a mass fraction of 0.79; those of one
+    solute may end before.
 
-    >>> potassium_chloride = [-0.855928945959145, 6.04073571306402, 2.81787416217166, 0.0253924645877338, 2681.61723465886]
+    >>> potassium_chloride = [
+    ...     -0.855928945959145,
+    ...     6.04073571306402,
+    ...     2.81787416217166,
+    ...     0.0253924645877338,
+    ...     2681.61723465886,
+    ... ]
     >>> round(liquid_density_laliberte("20 degC", 0.10, potassium_chloride), 0)
     1063.0
     """
@@ -44,7 +64,10 @@ def liquid_density_laliberte(temperature: Temperature, solute_mass_fraction: Mas
 
 @formula(
     source="laliberte2007, eq. 8 and 12; laliberte2009, table 3",
-    equation=r"\eta = \eta_w^{1-w}\,\eta_s^{w},\quad \eta_s = \frac{\exp\left(\frac{v_1 w^{v_2} + v_3}{v_4 t + 1}\right)}{v_5 w^{v_6} + 1}\ \mathrm{mPa\,s}",
+    equation=(
+        r"\eta = \eta_w^{1-w}\,\eta_s^{w},\quad \eta_s = \frac{\exp\left(\frac{v_1 w^{v_2} + v_3}{v_4 t + "
+        r"1}\right)}{v_5 w^{v_6} + 1}\ \mathrm{mPa\,s}"
+    ),
     output="dynamic_viscosity",
     title="Viscosity of an aqueous solution (Laliberté)",
     fitted={"temperature": (273.15, 427.15), "solute_mass_fraction": (0.0, 0.79)},
@@ -54,21 +77,34 @@ def dynamic_viscosity_laliberte(
 ) -> DynamicViscosity:
     """Viscosity of an aqueous solution by geometric mixing of water and solute; t is in degrees Celsius.
 
-    Within about 3 % of the data it was fitted to. Differs from the print: water's own viscosity is that of IAPWS 2008. The data of the
-    solutes kept here end at 154 °C and at a mass fraction of 0.79; those of one solute may end before.
+    Within about 3 % of the data it was fitted to. Differs from the print: water's own viscosity is that of
+    IAPWS 2008. The data of the solutes kept here end at 154 °C and at a mass fraction of 0.79; those of one
+    solute may end before.
 
-    >>> sodium_chloride = [16.221788633396, 1.32293086770011, 1.48485985010431, 0.00746912559657377, 30.7802007540575, 2.05826852322558]
+    >>> sodium_chloride = [
+    ...     16.221788633396,
+    ...     1.32293086770011,
+    ...     1.48485985010431,
+    ...     0.00746912559657377,
+    ...     30.7802007540575,
+    ...     2.05826852322558,
+    ... ]
     >>> round(dynamic_viscosity_laliberte("20 degC", 0.10, sodium_chloride) * 1e3, 2)
     1.19
     """
     v, w, t = jnp.asarray(coefficients), _solute(solute_mass_fraction), temperature - ZERO_CELSIUS
-    log_solute = (v[0] * w ** v[1] + v[2]) / (v[3] * t + 1.0) - jnp.log(v[4] * w ** v[5] + 1.0) + jnp.log(1e-3)
+    log_solute = (
+        (v[0] * w ** v[1] + v[2]) / (v[3] * t + 1.0) - jnp.log(v[4] * w ** v[5] + 1.0) + jnp.log(1e-3)
+    )
     return jnp.exp((1.0 - w) * jnp.log(water_viscosity(temperature)) + w * log_solute)
 
 
 @formula(
     source="laliberte2009, eq. 8–10, table 4",
-    equation=r"c_p = (1-w)\,c_{p,w} + w\left[a_1 e^{\alpha} + a_5 w^{a_6}\right],\quad \alpha = a_2 t + a_3 e^{0.01 t} + a_4 w",
+    equation=(
+        r"c_p = (1-w)\,c_{p,w} + w\left[a_1 e^{\alpha} + a_5 w^{a_6}\right],\quad \alpha = a_2 t + a_3 "
+        r"e^{0.01 t} + a_4 w"
+    ),
     output="specific_heat_capacity",
     title="Heat capacity of an aqueous solution (Laliberté)",
     fitted={"temperature": (273.15, 414.0), "solute_mass_fraction": (0.0, 0.65)},
@@ -76,12 +112,21 @@ def dynamic_viscosity_laliberte(
 def specific_heat_capacity_laliberte(
     temperature: Temperature, solute_mass_fraction: MassFraction, coefficients: Coefficients
 ) -> HeatCapacity:
-    """Heat capacity of an aqueous solution from the apparent heat capacity of the solute; t is in degrees Celsius.
+    """Heat capacity of an aqueous solution from the apparent heat capacity of the solute; t is in degrees
+    Celsius.
 
-    Within about 1 % of the data it was fitted to. Differs from the print: water's own heat capacity is that of IAPWS-IF97. The data of the
-    solutes kept here end at 140 °C and at a mass fraction of 0.64; those of one solute may end before.
+    Within about 1 % of the data it was fitted to. Differs from the print: water's own heat capacity is that
+    of IAPWS-IF97. The data of the solutes kept here end at 140 °C and at a mass fraction of 0.64; those of
+    one solute may end before.
 
-    >>> sodium_chloride = [-0.0693559668993322, -0.0782134167486952, 3.84798479408635, -11.2762109247072, 8.73187698542672, 1.81245930472755]
+    >>> sodium_chloride = [
+    ...     -0.0693559668993322,
+    ...     -0.0782134167486952,
+    ...     3.84798479408635,
+    ...     -11.2762109247072,
+    ...     8.73187698542672,
+    ...     1.81245930472755,
+    ... ]
     >>> round(specific_heat_capacity_laliberte("25 degC", 0.10, sodium_chloride) / 1e3, 1)
     3.7
     """

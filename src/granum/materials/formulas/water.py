@@ -12,12 +12,23 @@ from granum.core.constants import STANDARD_ATMOSPHERE
 from granum.core.kinds import Density, HeatCapacity, Pressure, SpecificEnergy, SurfaceTension, Temperature
 
 R_WATER = 461.526  # J/(kg K), IF97's own
-_N4 = (0.0, 0.11670521452767e4, -0.72421316703206e6, -0.17073846940092e2, 0.12020824702470e5, -0.32325550322333e7,
-       0.14915108613530e2, -0.48232657361591e4, 0.40511340542057e6, -0.23855557567849, 0.65017534844798e3)  # fmt: skip
+_N4 = (
+    0.0,
+    0.11670521452767e4,
+    -0.72421316703206e6,
+    -0.17073846940092e2,
+    0.12020824702470e5,
+    -0.32325550322333e7,
+    0.14915108613530e2,
+    -0.48232657361591e4,
+    0.40511340542057e6,
+    -0.23855557567849,
+    0.65017534844798e3,
+)
 # (I, J, n) of IF97 table 2
 _REGION_1 = np.array([
-    (0, -2, 0.14632971213167), (0, -1, -0.84548187169114), (0, 0, -0.37563603672040e1), (0, 1, 0.33855169168385e1),
-    (0, 2, -0.95791963387872), (0, 3, 0.15772038513228), (0, 4, -0.16616417199501e-1), (0, 5, 0.81214629983568e-3),
+    (0, -2, 0.14632971213167), (0, -1, -0.84548187169114), (0, 0, -0.37563603672040e1), (0, 1, 0.33855169168385e1),  # noqa: E501
+    (0, 2, -0.95791963387872), (0, 3, 0.15772038513228), (0, 4, -0.16616417199501e-1), (0, 5, 0.81214629983568e-3),  # noqa: E501
     (1, -9, 0.28319080123804e-3), (1, -7, -0.60706301565874e-3), (1, -1, -0.18990068218419e-1),
     (1, 0, -0.32529748770505e-1), (1, 1, -0.21841717175414e-1), (1, 3, -0.52838357969930e-4),
     (2, -3, -0.47184321073267e-3), (2, 0, -0.30001780793026e-3), (2, 1, 0.47661393906987e-4),
@@ -32,7 +43,10 @@ _REGION_1 = np.array([
 
 @formula(
     source="iapwsif97, eq. 30",
-    equation=r"p_v = \left[\frac{2C}{-B+(B^2-4AC)^{1/2}}\right]^4 \mathrm{MPa},\quad \vartheta = T + \frac{n_9}{T-n_{10}}",
+    equation=(
+        r"p_v = \left[\frac{2C}{-B+(B^2-4AC)^{1/2}}\right]^4 \mathrm{MPa},\quad \vartheta = T + "
+        r"\frac{n_9}{T-n_{10}}"
+    ),
     fitted={"temperature": (273.15, 647.096)},
     output="vapor_pressure",
     title="Vapor pressure of water (IAPWS-IF97)",
@@ -40,14 +54,15 @@ _REGION_1 = np.array([
 def water_vapor_pressure(temperature: Temperature) -> Pressure:
     """Saturation pressure of water over the liquid.
 
-    Within 0.025 % of the scientific formulation up to the critical point. Below 0 °C it continues over supercooled liquid;
-    over ice use ``ice_vapor_pressure``.
+    Within 0.025 % of the scientific formulation up to the critical point. Below 0 °C it continues over
+    supercooled liquid; over ice use ``ice_vapor_pressure``.
 
     >>> round(water_vapor_pressure(temperature=300.0), 5)
     3536.58941
     """
     n = _N4
-    # Outside 10 K … critical point the square root would turn imaginary; the value there is of no use but must stay finite.
+    # Outside 10 K … critical point the square root would turn imaginary; the value there is of no use but
+    # must stay finite.
     T = jnp.clip(temperature, 150.0, 647.096)
     theta = T + n[9] / (T - n[10])
     A = theta**2 + n[1] * theta + n[2]
@@ -99,12 +114,18 @@ def _region_1(T: Any, p: Any) -> tuple[Any, Any, _Gibbs]:
 _RANGE_1 = {"temperature": (273.15, 623.15), "pressure": (0.0, 100e6)}
 
 
-@formula(source="iapwsif97, eq. 7, table 3", equation=r"\rho = \frac{p}{R T\,\pi\gamma_\pi}", fitted=_RANGE_1,
-         output="liquid_density", title="Density of liquid water (IAPWS-IF97)")  # fmt: skip
+@formula(
+    source="iapwsif97, eq. 7, table 3",
+    equation=r"\rho = \frac{p}{R T\,\pi\gamma_\pi}",
+    fitted=_RANGE_1,
+    output="liquid_density",
+    title="Density of liquid water (IAPWS-IF97)",
+)
 def water_density(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> Density:
     """Density of liquid water.
 
-    Within 0.003 % of the scientific formulation. Valid up to the saturation line; a little beyond (superheated liquid) it stays smooth.
+    Within 0.003 % of the scientific formulation. Valid up to the saturation line; a little beyond
+    (superheated liquid) it stays smooth.
 
     >>> round(1 / water_density(temperature=300.0, pressure="3 MPa"), 11)
     0.00100215168
@@ -113,10 +134,16 @@ def water_density(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSP
     return 16.53e6 / (R_WATER * temperature * g.pi)
 
 
-@formula(source="iapwsif97, eq. 7, table 3", equation=r"h = R T\,\tau\gamma_\tau", fitted=_RANGE_1,
-         output="specific_enthalpy", title="Enthalpy of liquid water (IAPWS-IF97)")  # fmt: skip
+@formula(
+    source="iapwsif97, eq. 7, table 3",
+    equation=r"h = R T\,\tau\gamma_\tau",
+    fitted=_RANGE_1,
+    output="specific_enthalpy",
+    title="Enthalpy of liquid water (IAPWS-IF97)",
+)
 def water_enthalpy(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> SpecificEnergy:
-    """Specific enthalpy of liquid water; internal energy and entropy are zero for the liquid at the triple point.
+    """Specific enthalpy of liquid water; internal energy and entropy are zero for the liquid at the triple
+    point.
 
     >>> round(water_enthalpy(temperature=300.0, pressure="3 MPa") / 1e3, 6)
     115.331273
@@ -125,8 +152,13 @@ def water_enthalpy(temperature: Temperature, pressure: Pressure = STANDARD_ATMOS
     return R_WATER * temperature * tau * g.tau
 
 
-@formula(source="iapwsif97, eq. 7, table 3", equation=r"c_p = -R\,\tau^2\gamma_{\tau\tau}", fitted=_RANGE_1,
-         output="specific_heat_capacity", title="Heat capacity of liquid water (IAPWS-IF97)")  # fmt: skip
+@formula(
+    source="iapwsif97, eq. 7, table 3",
+    equation=r"c_p = -R\,\tau^2\gamma_{\tau\tau}",
+    fitted=_RANGE_1,
+    output="specific_heat_capacity",
+    title="Heat capacity of liquid water (IAPWS-IF97)",
+)
 def water_heat_capacity(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> HeatCapacity:
     """Isobaric heat capacity of liquid water.
 
@@ -139,7 +171,7 @@ def water_heat_capacity(temperature: Temperature, pressure: Pressure = STANDARD_
 
 @formula(
     source="iapwsr176, eq. 1",
-    equation=r"\sigma = 235.8\left(1-\tfrac{T}{T_c}\right)^{1.256}\left[1-0.625\left(1-\tfrac{T}{T_c}\right)\right]\ \mathrm{mN/m}",
+    equation=r"\sigma = 235.8\left(1-\tfrac{T}{T_c}\right)^{1.256}\left[1-0.625\left(1-\tfrac{T}{T_c}\right)\right]\ \mathrm{mN/m}",  # noqa: E501
     fitted={"temperature": (248.15, 647.096)},
     output="surface_tension",
     title="Surface tension of water (IAPWS)",

@@ -1,4 +1,6 @@
-"""Viscosity and thermal conductivity of water and steam: IAPWS 2008 and 2011, without the critical enhancement."""
+"""Viscosity and thermal conductivity of water and steam: IAPWS 2008 and 2011, without the critical
+enhancement.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,9 @@ from granum.materials.formulas.water import water_density
 _CRITICAL_TEMPERATURE, _CRITICAL_DENSITY = 647.096, 322.0
 # (i, j, H) of the 2008 viscosity release, table 2
 _VISCOSITY = np.array([
-    (0, 0, 0.520094), (1, 0, 0.0850895), (2, 0, -1.08374), (3, 0, -0.289555), (0, 1, 0.222531), (1, 1, 0.999115),
-    (2, 1, 1.88797), (3, 1, 1.26613), (5, 1, 0.120573), (0, 2, -0.281378), (1, 2, -0.906851), (2, 2, -0.772479),
-    (3, 2, -0.489837), (4, 2, -0.257040), (0, 3, 0.161913), (1, 3, 0.257399), (0, 4, -0.0325372), (3, 4, 0.0698452),
+    (0, 0, 0.520094), (1, 0, 0.0850895), (2, 0, -1.08374), (3, 0, -0.289555), (0, 1, 0.222531), (1, 1, 0.999115),  # noqa: E501
+    (2, 1, 1.88797), (3, 1, 1.26613), (5, 1, 0.120573), (0, 2, -0.281378), (1, 2, -0.906851), (2, 2, -0.772479),  # noqa: E501
+    (3, 2, -0.489837), (4, 2, -0.257040), (0, 3, 0.161913), (1, 3, 0.257399), (0, 4, -0.0325372), (3, 4, 0.0698452),  # noqa: E501
     (4, 5, 0.00872102), (3, 6, -0.00435673), (5, 6, -0.000593264),
 ])  # fmt: skip
 # rows i, columns j of the 2011 conductivity release, table 2
@@ -52,21 +54,26 @@ def _dilute_viscosity(T: Any) -> Any:
 
 def _dilute_conductivity(T: Any) -> Any:
     tau = _CRITICAL_TEMPERATURE / T
-    series = 2.443221e-3 + 1.323095e-2 * tau + 6.770357e-3 * tau**2 - 3.454586e-3 * tau**3 + 4.096266e-4 * tau**4
+    series = (
+        2.443221e-3 + 1.323095e-2 * tau + 6.770357e-3 * tau**2 - 3.454586e-3 * tau**3 + 4.096266e-4 * tau**4
+    )
     return tau**-0.5 / series  # mW/(m K)
 
 
 @formula(
     source="iapws2008viscosity, eq. 10–12",
-    equation=r"\bar\eta = \bar\eta_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j H_{ij}(\bar\rho-1)^j\right]",
+    equation=(
+        r"\bar\eta = \bar\eta_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j "
+        r"H_{ij}(\bar\rho-1)^j\right]"
+    ),
     fitted=_RANGE,
     title="Viscosity of water or steam at a density (IAPWS 2008)",
 )
 def dynamic_viscosity_iapws(temperature: Temperature, density: Concentration) -> DynamicViscosity:
     """Viscosity of water substance, liquid or vapor, from temperature and its density, zero included.
 
-    Within 1 % for the liquid near ambient conditions; the critical enhancement, which matters within a few kelvin of the critical
-    point only, is left out.
+    Within 1 % for the liquid near ambient conditions; the critical enhancement, which matters within a few
+    kelvin of the critical point only, is left out.
 
     >>> round(dynamic_viscosity_iapws(temperature=298.15, density=998.0) * 1e6, 6)
     889.7351
@@ -79,12 +86,16 @@ def dynamic_viscosity_iapws(temperature: Temperature, density: Concentration) ->
 
 @formula(
     source="iapws2011conductivity, eq. 15–17",
-    equation=r"\bar\lambda = \bar\lambda_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar T}-1\right)^i\sum_j L_{ij}(\bar\rho-1)^j\right]",
+    equation=(
+        r"\bar\lambda = \bar\lambda_0(\bar T)\,\exp\left[\bar\rho\sum_i\left(\tfrac{1}{\bar "
+        r"T}-1\right)^i\sum_j L_{ij}(\bar\rho-1)^j\right]"
+    ),
     fitted=_RANGE,
     title="Thermal conductivity of water or steam at a density (IAPWS 2011)",
 )
 def thermal_conductivity_iapws(temperature: Temperature, density: Concentration) -> ThermalConductivity:
-    """Thermal conductivity of water substance, liquid or vapor, from temperature and its density, without critical enhancement.
+    """Thermal conductivity of water substance, liquid or vapor, from temperature and its density, without
+    critical enhancement.
 
     The part left out is about 0.5 % of the liquid's value up to 100 °C and grows toward the critical point.
 
@@ -97,8 +108,12 @@ def thermal_conductivity_iapws(temperature: Temperature, density: Concentration)
     return 1e-3 * _dilute_conductivity(temperature) * jnp.exp(delta * total)
 
 
-@formula(source="iapws2008viscosity, eq. 10–12; iapwsif97, eq. 7", fitted={"temperature": (273.15, 623.15)},
-         output="dynamic_viscosity", title="Viscosity of liquid water (IAPWS 2008)")  # fmt: skip
+@formula(
+    source="iapws2008viscosity, eq. 10–12; iapwsif97, eq. 7",
+    fitted={"temperature": (273.15, 623.15)},
+    output="dynamic_viscosity",
+    title="Viscosity of liquid water (IAPWS 2008)",
+)
 def water_viscosity(temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> DynamicViscosity:
     """Dynamic viscosity of liquid water.
 
@@ -108,8 +123,13 @@ def water_viscosity(temperature: Temperature, pressure: Pressure = STANDARD_ATMO
     return dynamic_viscosity_iapws(temperature, water_density(temperature, pressure))
 
 
-@formula(source="iapws2011liquid, eq. 8", equation=r"\lambda = \sum_i c_i\,(T/300\,\mathrm{K})^{d_i}", fitted={"temperature": (273.15, 383.15)},
-         output="thermal_conductivity", title="Thermal conductivity of liquid water at 0.1 MPa (IAPWS 2011)")  # fmt: skip
+@formula(
+    source="iapws2011liquid, eq. 8",
+    equation=r"\lambda = \sum_i c_i\,(T/300\,\mathrm{K})^{d_i}",
+    fitted={"temperature": (273.15, 383.15)},
+    output="thermal_conductivity",
+    title="Thermal conductivity of liquid water at 0.1 MPa (IAPWS 2011)",
+)
 def water_conductivity(temperature: Temperature) -> ThermalConductivity:
     """Thermal conductivity of liquid water at ambient pressure, critical enhancement included, within 1.5 %.
 
@@ -120,8 +140,14 @@ def water_conductivity(temperature: Temperature) -> ThermalConductivity:
     return 1.6630 * t**-1.15 - 1.7781 * t**-3.4 + 1.1567 * t**-6.0 - 0.432115 * t**-7.6
 
 
-@formula(source="iapws2008viscosity, eq. 11", equation=r"\bar\eta_0 = \frac{100\sqrt{\bar T}}{\sum_i H_i/\bar T^i}", fitted=_RANGE,
-         typical={"temperature": (280.0, 600.0)}, output="dynamic_viscosity", title="Viscosity of dilute steam (IAPWS 2008)")  # fmt: skip
+@formula(
+    source="iapws2008viscosity, eq. 11",
+    equation=r"\bar\eta_0 = \frac{100\sqrt{\bar T}}{\sum_i H_i/\bar T^i}",
+    fitted=_RANGE,
+    typical={"temperature": (280.0, 600.0)},
+    output="dynamic_viscosity",
+    title="Viscosity of dilute steam (IAPWS 2008)",
+)
 def steam_viscosity(temperature: Temperature) -> DynamicViscosity:
     """Dynamic viscosity of water vapor in the limit of zero density; below 1 % off up to 1 bar.
 
@@ -131,9 +157,14 @@ def steam_viscosity(temperature: Temperature) -> DynamicViscosity:
     return 1e-6 * _dilute_viscosity(temperature)
 
 
-@formula(source="iapws2011conductivity, eq. 16", equation=r"\bar\lambda_0 = \frac{\sqrt{\bar T}}{\sum_k L_k/\bar T^k}", fitted=_RANGE,
-         typical={"temperature": (280.0, 600.0)}, output="thermal_conductivity",
-         title="Thermal conductivity of dilute steam (IAPWS 2011)")  # fmt: skip
+@formula(
+    source="iapws2011conductivity, eq. 16",
+    equation=r"\bar\lambda_0 = \frac{\sqrt{\bar T}}{\sum_k L_k/\bar T^k}",
+    fitted=_RANGE,
+    typical={"temperature": (280.0, 600.0)},
+    output="thermal_conductivity",
+    title="Thermal conductivity of dilute steam (IAPWS 2011)",
+)
 def steam_conductivity(temperature: Temperature) -> ThermalConductivity:
     """Thermal conductivity of water vapor in the limit of zero density.
 

@@ -1,4 +1,6 @@
-"""Drops and bubbles: internal circulation, deformation, and the velocities of deformed ones. Positive downwards."""
+"""Drops and bubbles: internal circulation, deformation, and the velocities of deformed ones. Positive
+downwards.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +29,13 @@ from granum.particles.formulas.terminal_explicit import terminal_velocity_stokes
     equation=r"H = \frac{3(\eta_D + \eta)}{2\eta + 3\eta_D}",
     typical={"dispersed_viscosity": (1e-5, 1e-1)},
 )
-def hadamard_factor(dispersed_viscosity: DynamicViscosity, dynamic_viscosity: DynamicViscosity) -> PositiveNumber:
+def hadamard_factor(
+    dispersed_viscosity: DynamicViscosity, dynamic_viscosity: DynamicViscosity
+) -> PositiveNumber:
     """Velocity of a fluid sphere over that of a rigid one in creeping flow: 1 for mist, 1.5 for a bubble.
 
-    Circulation inside lowers the drag and so raises the velocity. Differs from the print: the course says the velocity falls.
-    Traces of surfactant stop the circulation, and the factor is then 1.
+    Circulation inside lowers the drag and so raises the velocity. Differs from the print: the course says the
+    velocity falls. Traces of surfactant stop the circulation, and the factor is then 1.
 
     >>> round(hadamard_factor(dispersed_viscosity=1.8e-5, dynamic_viscosity=1e-3), 2)
     1.49
@@ -56,11 +60,22 @@ def terminal_velocity_hadamard_rybczynski(
 ) -> Velocity:
     """Terminal velocity of a clean fluid sphere in creeping flow: Stokes' velocity times Hadamard's factor.
 
-    >>> round(1000 * terminal_velocity_hadamard_rybczynski(particle_diameter="50 um", particle_density=1.2, fluid_density=998,
-    ...                                                    dynamic_viscosity="1 cP", dispersed_viscosity=1.8e-5), 3)
+    >>> round(
+    ...     1000
+    ...     * terminal_velocity_hadamard_rybczynski(
+    ...         particle_diameter="50 um",
+    ...         particle_density=1.2,
+    ...         fluid_density=998,
+    ...         dynamic_viscosity="1 cP",
+    ...         dispersed_viscosity=1.8e-5,
+    ...     ),
+    ...     3,
+    ... )
     -2.019
     """
-    rigid = terminal_velocity_stokes(particle_diameter, particle_density, fluid_density, dynamic_viscosity, gravity)
+    rigid = terminal_velocity_stokes(
+        particle_diameter, particle_density, fluid_density, dynamic_viscosity, gravity
+    )
     velocity = rigid * hadamard_factor(dispersed_viscosity, dynamic_viscosity)
     watch(reynolds=abs(velocity) * particle_diameter * fluid_density / dynamic_viscosity)
     return velocity
@@ -76,7 +91,12 @@ def eotvos_number(
 ) -> Ratio:
     """Eötvös number of a drop or bubble: apparent weight against surface tension. Spherical below 0.4.
 
-    >>> round(eotvos_number(particle_diameter="1 mm", particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"), 4)
+    >>> round(
+    ...     eotvos_number(
+    ...         particle_diameter="1 mm", particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"
+    ...     ),
+    ...     4,
+    ... )
     0.1343
     """
     return gravity * abs(particle_density - fluid_density) * particle_diameter**2 / surface_tension
@@ -92,17 +112,35 @@ def morton_number(
 ) -> Ratio:
     """Morton number of a drop or bubble in a liquid, a property of the pair alone.
 
-    >>> round(1e11 * morton_number(particle_density=1.2, fluid_density=998, dynamic_viscosity="1 cP", surface_tension="72.8 mN/m"), 2)
+    >>> round(
+    ...     1e11
+    ...     * morton_number(
+    ...         particle_density=1.2, fluid_density=998, dynamic_viscosity="1 cP", surface_tension="72.8 mN/m"
+    ...     ),
+    ...     2,
+    ... )
     2.54
     """
-    return gravity * dynamic_viscosity**4 * abs(particle_density - fluid_density) / (fluid_density**2 * surface_tension**3)
+    return (
+        gravity
+        * dynamic_viscosity**4
+        * abs(particle_density - fluid_density)
+        / (fluid_density**2 * surface_tension**3)
+    )
 
 
 @formula(source="clift1978, p. 26", equation=r"\mathrm{We} = \frac{\rho_f v^2 d_p}{\sigma}")
-def weber_number(particle_diameter: Length, velocity: Speed, fluid_density: Density, surface_tension: SurfaceTension) -> Ratio:
+def weber_number(
+    particle_diameter: Length, velocity: Speed, fluid_density: Density, surface_tension: SurfaceTension
+) -> Ratio:
     """Weber number of a drop or bubble: inertia of the fluid against surface tension.
 
-    >>> round(weber_number(particle_diameter="2 mm", velocity=0.25, fluid_density=998, surface_tension="72.8 mN/m"), 3)
+    >>> round(
+    ...     weber_number(
+    ...         particle_diameter="2 mm", velocity=0.25, fluid_density=998, surface_tension="72.8 mN/m"
+    ...     ),
+    ...     3,
+    ... )
     1.714
     """
     return fluid_density * velocity**2 * particle_diameter / surface_tension
@@ -120,9 +158,14 @@ def spherical_diameter_limit(
     eotvos_limit: PositiveNumber = 0.4,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Length:
-    """Largest drop or bubble that stays a sphere: about 1 to 2 mm for air in water. Infinite at equal densities.
+    """Largest drop or bubble that stays a sphere: about 1 to 2 mm for air in water. Infinite at equal
+    densities.
 
-    >>> round(1000 * spherical_diameter_limit(particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"), 2)
+    >>> round(
+    ...     1000
+    ...     * spherical_diameter_limit(particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"),
+    ...     2,
+    ... )
     1.73
     """
     weight = gravity * abs(particle_density - fluid_density)
@@ -130,13 +173,23 @@ def spherical_diameter_limit(
     return jnp.where(heavy, jnp.sqrt(eotvos_limit * surface_tension / jnp.where(heavy, weight, 1.0)), jnp.inf)
 
 
-@formula(source="clift1978, chapter 12; grace1978", equation=r"d_{max} = 4\sqrt{\frac{\sigma}{g|\rho_p-\rho_f|}}")
+@formula(
+    source="clift1978, chapter 12; grace1978", equation=r"d_{max} = 4\sqrt{\frac{\sigma}{g|\rho_p-\rho_f|}}"
+)
 def stable_diameter_limit(
-    particle_density: Density, fluid_density: Density, surface_tension: SurfaceTension, gravity: Acceleration = STANDARD_GRAVITY
+    particle_density: Density,
+    fluid_density: Density,
+    surface_tension: SurfaceTension,
+    gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Length:
-    """Largest drop that can fall or rise through a fluid without breaking, Eötvös number 16. Infinite at equal densities.
+    """Largest drop that can fall or rise through a fluid without breaking, Eötvös number 16. Infinite at
+    equal densities.
 
-    >>> round(1000 * stable_diameter_limit(particle_density=998, fluid_density=1.2, surface_tension="72.8 mN/m"), 1)
+    >>> round(
+    ...     1000
+    ...     * stable_diameter_limit(particle_density=998, fluid_density=1.2, surface_tension="72.8 mN/m"),
+    ...     1,
+    ... )
     10.9
     """
     weight = gravity * abs(particle_density - fluid_density)
@@ -159,9 +212,14 @@ class GraceVelocity(NamedTuple):
 
 @formula(
     source="grace1976; clift1978, eq. 7-3 to 7-7",
-    equation=r"\mathrm{Re} = \mathrm{M}^{-0.149}(J - 0.857),\ H = \tfrac43\mathrm{Eo}\,\mathrm{M}^{-0.149}\left(\frac{\eta}{\eta_w}\right)^{-0.14},"
+    equation=r"\mathrm{Re} = \mathrm{M}^{-0.149}(J - 0.857),\ H = \tfrac43\mathrm{Eo}\,\mathrm{M}^{-0.149}\left(\frac{\eta}{\eta_w}\right)^{-0.14},"  # noqa: E501
     r"\ J = 0.94H^{0.757}\ (H\le59.3),\ 3.42H^{0.441}",
-    fitted={"grace_group": (2.0, 1e4), "eotvos_number": (0.0, 40.0), "morton_number": (0.0, 1e-3), "reynolds_number": (0.1, 1e5)},
+    fitted={
+        "grace_group": (2.0, 1e4),
+        "eotvos_number": (0.0, 40.0),
+        "morton_number": (0.0, 1e-3),
+        "reynolds_number": (0.1, 1e5),
+    },
     typical={
         "particle_diameter": (2e-3, 8e-3),
         "particle_density": (1.0, 900.0),
@@ -177,13 +235,19 @@ def terminal_velocity_grace(
     surface_tension: SurfaceTension,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> GraceVelocity:
-    """Terminal velocity of deformed drops and bubbles in liquids that are not surface-clean, by Grace, Wairegi and Nguyen.
+    """Terminal velocity of deformed drops and bubbles in liquids that are not surface-clean, by Grace,
+    Wairegi and Nguyen.
 
-    For ellipsoidal globules above about 1 mm; 15 % root-mean-square deviation. In thoroughly purified systems they go faster.
-    Below H = 2 the globule is a sphere: use the drag laws or Hadamard's factor.
+    For ellipsoidal globules above about 1 mm; 15 % root-mean-square deviation. In thoroughly purified systems
+    they go faster. Below H = 2 the globule is a sphere: use the drag laws or Hadamard's factor.
 
-    >>> found = terminal_velocity_grace(particle_diameter="5 mm", particle_density=1.2, fluid_density=998, dynamic_viscosity="1 cP",
-    ...                                 surface_tension="72.8 mN/m")
+    >>> found = terminal_velocity_grace(
+    ...     particle_diameter="5 mm",
+    ...     particle_density=1.2,
+    ...     fluid_density=998,
+    ...     dynamic_viscosity="1 cP",
+    ...     surface_tension="72.8 mN/m",
+    ... )
     >>> round(found.terminal_velocity, 3)
     -0.242
     """
@@ -203,7 +267,11 @@ def terminal_velocity_grace(
     source="mendelson1967; clift1978, eq. 7-10",
     equation=r"v_t = \sqrt{\frac{2\sigma}{\rho_f d_p} + \frac{g|\rho_p-\rho_f|d_p}{2\rho_f}}",
     fitted={"eotvos_number": (0.25, 40.0)},
-    typical={"particle_diameter": (2e-3, 1e-2), "particle_density": (1.0, 10.0), "surface_tension": (0.05, 0.075)},
+    typical={
+        "particle_diameter": (2e-3, 1e-2),
+        "particle_density": (1.0, 10.0),
+        "surface_tension": (0.05, 0.075),
+    },
 )
 def terminal_velocity_mendelson(
     particle_diameter: Length,
@@ -214,13 +282,20 @@ def terminal_velocity_mendelson(
 ) -> Velocity:
     """Terminal velocity of a deformed bubble in a pure liquid of low viscosity by Mendelson's wave analogy.
 
-    >>> round(terminal_velocity_mendelson(particle_diameter="5 mm", particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"), 3)
+    >>> round(
+    ...     terminal_velocity_mendelson(
+    ...         particle_diameter="5 mm", particle_density=1.2, fluid_density=998, surface_tension="72.8 mN/m"
+    ...     ),
+    ...     3,
+    ... )
     -0.232
     """
     d, rho = particle_diameter, fluid_density
     excess = abs(particle_density - rho)
     watch(eotvos_number=gravity * excess * d**2 / surface_tension)
-    return _sign(particle_density, rho) * jnp.sqrt(2.0 * surface_tension / (rho * d) + gravity * excess * d / (2.0 * rho))
+    return _sign(particle_density, rho) * jnp.sqrt(
+        2.0 * surface_tension / (rho * d) + gravity * excess * d / (2.0 * rho)
+    )
 
 
 @formula(
@@ -229,16 +304,27 @@ def terminal_velocity_mendelson(
     typical={"particle_diameter": (1e-2, 1e-1), "particle_density": (1.0, 10.0)},
 )
 def terminal_velocity_davies_taylor(
-    particle_diameter: Length, particle_density: Density, fluid_density: Density, gravity: Acceleration = STANDARD_GRAVITY
+    particle_diameter: Length,
+    particle_density: Density,
+    fluid_density: Density,
+    gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Velocity:
-    """Terminal velocity of a large spherical-cap bubble or drop by Davies and Taylor, on the volume-equivalent diameter.
+    """Terminal velocity of a large spherical-cap bubble or drop by Davies and Taylor, on the
+    volume-equivalent diameter.
 
     Eötvös number above 40 and Reynolds number above 150.
 
-    >>> round(terminal_velocity_davies_taylor(particle_diameter="20 mm", particle_density=1.2, fluid_density=998), 3)
+    >>> round(
+    ...     terminal_velocity_davies_taylor(
+    ...         particle_diameter="20 mm", particle_density=1.2, fluid_density=998
+    ...     ),
+    ...     3,
+    ... )
     -0.315
     """
     excess = abs(particle_density - fluid_density)
     lift = gravity * excess * particle_diameter / fluid_density
     moves = lift > 0.0
-    return _sign(particle_density, fluid_density) * jnp.where(moves, 0.711 * jnp.sqrt(jnp.where(moves, lift, 1.0)), 0.0)
+    return _sign(particle_density, fluid_density) * jnp.where(
+        moves, 0.711 * jnp.sqrt(jnp.where(moves, lift, 1.0)), 0.0
+    )

@@ -43,14 +43,18 @@ def drag_coefficient_oseen(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="proudman1957, eq. 3.39",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + \frac{3}{16}\mathrm{Re} + \frac{9}{160}\mathrm{Re}^2 \ln\frac{\mathrm{Re}}{2}\right)",
+    equation=(
+        r"C_D = \frac{24}{\mathrm{Re}}\left(1 + \frac{3}{16}\mathrm{Re} + \frac{9}{160}\mathrm{Re}^2 "
+        r"\ln\frac{\mathrm{Re}}{2}\right)"
+    ),
     fitted={"reynolds": (0.0, 1.0)},
     typical={"reynolds": (1e-3, 1.0)},
 )
 def drag_coefficient_proudman_pearson(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere from matched expansions in a small Reynolds number.
 
-    The next term after Oseen's. The series is asymptotic: it serves below Re = 1 only and turns negative above about 10.
+    The next term after Oseen's. The series is asymptotic: it serves below Re = 1 only and turns negative
+    above about 10.
 
     >>> round(drag_coefficient_proudman_pearson(reynolds=1.0), 2)
     27.56
@@ -67,8 +71,9 @@ def drag_coefficient_proudman_pearson(reynolds: PositiveNumber) -> PositiveNumbe
 def drag_coefficient_allen(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere in the intermediate regime, a single power.
 
-    The range in use is 0.2 to 500 for the criteria X and Y and 1 to 1000 in most tables. Against measured drag it is low by
-    60 % at Re = 0.2, 32 % at Re = 1 and 38 % at Re = 1000, within 15 % only from Re = 2.5 to 400.
+    The range in use is 0.2 to 500 for the criteria X and Y and 1 to 1000 in most tables. Against measured
+    drag it is low by 60 % at Re = 0.2, 32 % at Re = 1 and 38 % at Re = 1000, within 15 % only from Re =
+    2.5 to 400.
 
     >>> drag_coefficient_allen(reynolds=1.0)
     18.5
@@ -150,20 +155,29 @@ def drag_coefficient_kaskas(reynolds: PositiveNumber) -> PositiveNumber:
     return 24.0 / Re + 4.0 / jnp.sqrt(Re) + 0.4
 
 
-FIVE_RANGES = ((1.0, 24.0, 1.0), (10.0, 26.0, 0.77), (100.0, 20.0, 0.65), (1000.0, 4.92, 0.346), (jnp.inf, 0.44, 0.0))
+FIVE_RANGES = (
+    (1.0, 24.0, 1.0),
+    (10.0, 26.0, 0.77),
+    (100.0, 20.0, 0.65),
+    (1000.0, 4.92, 0.346),
+    (jnp.inf, 0.44, 0.0),
+)
 """Upper Reynolds number, factor a and exponent n of C_D = a Re^-n, range by range."""
 
 
 @formula(
     source="degremont2007, sedimentation of discrete particles",
-    equation=r"C_D = a\,\mathrm{Re}^{-n},\ (a,n) = (24,1)_{<1},\ (26,0.77)_{<10},\ (20,0.65)_{<100},\ (4.92,0.346)_{<1000},\ (0.44,0)",
+    equation=(
+        r"C_D = a\,\mathrm{Re}^{-n},\ (a,n) = "
+        r"(24,1)_{<1},\ (26,0.77)_{<10},\ (20,0.65)_{<100},\ (4.92,0.346)_{<1000},\ (0.44,0)"
+    ),
     fitted={"reynolds": (1e-4, 2e5)},
 )
 def drag_coefficient_five_ranges(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere by a table of five powers of the Reynolds number.
 
-    It jumps by 8 % at Re = 1, 1.4 % at Re = 10 and less at the other joints. Below Re = 1e-4 Brownian motion overrides the fall.
-    Differs from the print: the course table writes the upper limits 10⁻³ for 10³.
+    It jumps by 8 % at Re = 1, 1.4 % at Re = 10 and less at the other joints. Below Re = 1e-4 Brownian motion
+    overrides the fall. Differs from the print: the course table writes the upper limits 10⁻³ for 10³.
 
     >>> round(drag_coefficient_five_ranges(reynolds=50.0), 3)
     1.573

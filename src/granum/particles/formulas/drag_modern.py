@@ -1,4 +1,6 @@
-"""Drag of a sphere, laws that cover creeping to turbulent flow in one expression, most accurate first in the docs' ranking."""
+"""Drag of a sphere, laws that cover creeping to turbulent flow in one expression, most accurate first in the
+docs' ranking.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ from granum.core.kinds import PositiveNumber
 
 @formula(
     source="brown2003, eq. 19",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.150\,\mathrm{Re}^{0.681}\right) + \frac{0.407}{1 + 8710/\mathrm{Re}}",
+    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.150\,\mathrm{Re}^{0.681}\right) + \frac{0.407}{1 + 8710/\mathrm{Re}}",  # noqa: E501
     fitted={"reynolds": (0.0, 2e5)},
 )
 def drag_coefficient_brown_lawler(reynolds: PositiveNumber) -> PositiveNumber:
@@ -46,7 +48,7 @@ def drag_coefficient_schiller_naumann(reynolds: PositiveNumber) -> PositiveNumbe
 
 @formula(
     source="clift1971",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.15\,\mathrm{Re}^{0.687}\right) + \frac{0.42}{1 + 42500\,\mathrm{Re}^{-1.16}}",
+    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.15\,\mathrm{Re}^{0.687}\right) + \frac{0.42}{1 + 42500\,\mathrm{Re}^{-1.16}}",  # noqa: E501
     fitted={"reynolds": (0.0, 3e5)},
 )
 def drag_coefficient_clift_gauvin(reynolds: PositiveNumber) -> PositiveNumber:
@@ -63,7 +65,7 @@ def drag_coefficient_clift_gauvin(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="turton1986",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.173\,\mathrm{Re}^{0.657}\right) + \frac{0.413}{1 + 16300\,\mathrm{Re}^{-1.09}}",
+    equation=r"C_D = \frac{24}{\mathrm{Re}}\left(1 + 0.173\,\mathrm{Re}^{0.657}\right) + \frac{0.413}{1 + 16300\,\mathrm{Re}^{-1.09}}",  # noqa: E501
     fitted={"reynolds": (0.0, 2e5)},
 )
 def drag_coefficient_turton_levenspiel(reynolds: PositiveNumber) -> PositiveNumber:
@@ -78,7 +80,7 @@ def drag_coefficient_turton_levenspiel(reynolds: PositiveNumber) -> PositiveNumb
 
 @formula(
     source="cheng2009, eq. 2",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}(1 + 0.27\,\mathrm{Re})^{0.43} + 0.47\left[1 - \exp(-0.04\,\mathrm{Re}^{0.38})\right]",
+    equation=r"C_D = \frac{24}{\mathrm{Re}}(1 + 0.27\,\mathrm{Re})^{0.43} + 0.47\left[1 - \exp(-0.04\,\mathrm{Re}^{0.38})\right]",  # noqa: E501
     fitted={"reynolds": (0.0, 2e5)},
 )
 def drag_coefficient_cheng(reynolds: PositiveNumber) -> PositiveNumber:
@@ -95,7 +97,7 @@ def drag_coefficient_cheng(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="barati2014, eq. 22",
-    equation=r"C_D = 5.4856\cdot10^9\tanh\frac{4.3774\cdot10^{-9}}{\mathrm{Re}} + 0.0709\tanh\frac{700.6574}{\mathrm{Re}}"
+    equation=r"C_D = 5.4856\cdot10^9\tanh\frac{4.3774\cdot10^{-9}}{\mathrm{Re}} + 0.0709\tanh\frac{700.6574}{\mathrm{Re}}"  # noqa: E501
     r" + 0.3894\tanh\frac{74.1539}{\mathrm{Re}} - 0.1198\tanh\frac{7429.0843}{\mathrm{Re}}"
     r" + 1.7174\tanh\frac{9.9851}{\mathrm{Re}+2.3384} + 0.4744",
     fitted={"reynolds": (0.002, 2e5)},
@@ -121,8 +123,8 @@ def drag_coefficient_barati(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="mikhailov2013",
-    equation=r"C_D = \frac{3808\left[\frac{1617933}{2030} + \frac{178861}{1063}\mathrm{Re} + \frac{1219}{1084}\mathrm{Re}^2\right]}"
-    r"{681\,\mathrm{Re}\left[\frac{77531}{422} + \frac{13529}{976}\mathrm{Re} - \frac{1}{71154}\mathrm{Re}^2\right]}",
+    equation=r"C_D = \frac{3808\left[\frac{1617933}{2030} + \frac{178861}{1063}\mathrm{Re} + \frac{1219}{1084}\mathrm{Re}^2\right]}"  # noqa: E501
+    r"{681\,\mathrm{Re}\left[\frac{77531}{422} + \frac{13529}{976}\mathrm{Re} - \frac{1}{71154}\mathrm{Re}^2\right]}",  # noqa: E501
     fitted={"reynolds": (0.1, 118300.0)},
 )
 def drag_coefficient_mikhailov_freire(reynolds: PositiveNumber) -> PositiveNumber:
@@ -147,8 +149,8 @@ def drag_coefficient_mikhailov_freire(reynolds: PositiveNumber) -> PositiveNumbe
 def drag_coefficient_khan_richardson(reynolds: PositiveNumber) -> PositiveNumber:
     """Drag coefficient of a sphere by two added powers of the Reynolds number.
 
-    The form C_D = 2 R'/(ρu²) of the original's R'/(ρu²) = (1.84 Re^-0.31 + 0.293 Re^0.06)^3.45 as later refitted. It does not
-    tend to Stokes' law: 10 % off at Re = 1e-3 and more below.
+    The form C_D = 2 R'/(ρu²) of the original's R'/(ρu²) = (1.84 Re^-0.31 + 0.293 Re^0.06)^3.45 as later
+    refitted. It does not tend to Stokes' law: 10 % off at Re = 1e-3 and more below.
 
     >>> round(drag_coefficient_khan_richardson(reynolds=200.0), 4)
     0.7748
@@ -159,7 +161,7 @@ def drag_coefficient_khan_richardson(reynolds: PositiveNumber) -> PositiveNumber
 
 @formula(
     source="swamee1991",
-    equation=r"C_D = 0.5\left\{16\left[\left(\frac{24}{\mathrm{Re}}\right)^{1.6} + \left(\frac{130}{\mathrm{Re}}\right)^{0.72}\right]^{2.5}"
+    equation=r"C_D = 0.5\left\{16\left[\left(\frac{24}{\mathrm{Re}}\right)^{1.6} + \left(\frac{130}{\mathrm{Re}}\right)^{0.72}\right]^{2.5}"  # noqa: E501
     r" + \left[\left(\frac{40000}{\mathrm{Re}}\right)^2 + 1\right]^{-0.25}\right\}^{0.25}",
     fitted={"reynolds": (0.0, 1.5e5)},
 )
@@ -176,7 +178,7 @@ def drag_coefficient_swamee_ojha(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="flemmer1986",
-    equation=r"C_D = \frac{24}{\mathrm{Re}}10^{E},\quad E = 0.261\,\mathrm{Re}^{0.369} - 0.105\,\mathrm{Re}^{0.431}"
+    equation=r"C_D = \frac{24}{\mathrm{Re}}10^{E},\quad E = 0.261\,\mathrm{Re}^{0.369} - 0.105\,\mathrm{Re}^{0.431}"  # noqa: E501
     r" - \frac{0.124}{1 + (\log_{10}\mathrm{Re})^2}",
     fitted={"reynolds": (0.0, 8.6e4)},
     typical={"reynolds": (1e-2, 8e4)},
@@ -200,7 +202,8 @@ def drag_coefficient_flemmer_banks(reynolds: PositiveNumber) -> PositiveNumber:
     fitted={"reynolds": (0.0, 1e4)},
 )
 def drag_coefficient_concha_almendra(reynolds: PositiveNumber) -> PositiveNumber:
-    """Drag coefficient of a sphere by Concha and Almendra, which makes terminal velocity and diameter explicit.
+    """Drag coefficient of a sphere by Concha and Almendra, which makes terminal velocity and diameter
+    explicit.
 
     >>> round(drag_coefficient_concha_almendra(reynolds=100.0), 4)
     1.0301
@@ -211,7 +214,7 @@ def drag_coefficient_concha_almendra(reynolds: PositiveNumber) -> PositiveNumber
 @formula(
     source="morrison2013, eq. 8.83",
     equation=r"C_D = \frac{24}{\mathrm{Re}} + \frac{2.6\,(\mathrm{Re}/5)}{1 + (\mathrm{Re}/5)^{1.52}}"
-    r" + \frac{0.411\,(\mathrm{Re}/263000)^{-7.94}}{1 + (\mathrm{Re}/263000)^{-8}} + \frac{\mathrm{Re}^{0.80}}{461000}",
+    r" + \frac{0.411\,(\mathrm{Re}/263000)^{-7.94}}{1 + (\mathrm{Re}/263000)^{-8}} + \frac{\mathrm{Re}^{0.80}}{461000}",  # noqa: E501
     fitted={"reynolds": (0.0, 1e6)},
 )
 def drag_coefficient_morrison(reynolds: PositiveNumber) -> PositiveNumber:
@@ -223,12 +226,17 @@ def drag_coefficient_morrison(reynolds: PositiveNumber) -> PositiveNumber:
     Re = reynolds
     r = Re / 263000.0
     # r^-7.94 / (1 + r^-8) without overflow at small r
-    return 24.0 / Re + 0.52 * Re / (1.0 + (Re / 5.0) ** 1.52) + 0.411 * r**0.06 / (r**8 + 1.0) + Re**0.80 / 461000.0
+    return (
+        24.0 / Re
+        + 0.52 * Re / (1.0 + (Re / 5.0) ** 1.52)
+        + 0.411 * r**0.06 / (r**8 + 1.0)
+        + Re**0.80 / 461000.0
+    )
 
 
 @formula(
     source="almedeij2008",
-    equation=r"C_D = \left[\frac{1}{(\varphi_1+\varphi_2)^{-1} + \varphi_3^{-1}} + \varphi_4\right]^{1/10},\quad"
+    equation=r"C_D = \left[\frac{1}{(\varphi_1+\varphi_2)^{-1} + \varphi_3^{-1}} + \varphi_4\right]^{1/10},\quad"  # noqa: E501
     r"\varphi_1 = \left(\tfrac{24}{\mathrm{Re}}\right)^{10} + \left(21\mathrm{Re}^{-0.67}\right)^{10}"
     r" + \left(4\mathrm{Re}^{-0.33}\right)^{10} + 0.4^{10},\quad"
     r"\varphi_2 = \left[(0.148\mathrm{Re}^{0.11})^{-10} + 0.5^{-10}\right]^{-1},\quad"
@@ -284,7 +292,9 @@ def drag_coefficient_clift_grace_weber(reynolds: PositiveNumber) -> PositiveNumb
         (4e5, 29.78 - 5.3 * d),
         (1e6, 0.1 * w - 0.49),
     )
-    return jnp.select([Re < upper for upper, _ in pieces], [value for _, value in pieces], 0.19 - 8e4 / jnp.maximum(Re, 1e6))
+    return jnp.select(
+        [Re < upper for upper, _ in pieces], [value for _, value in pieces], 0.19 - 8e4 / jnp.maximum(Re, 1e6)
+    )
 
 
 MORSI = (

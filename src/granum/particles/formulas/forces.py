@@ -6,7 +6,16 @@ import jax.numpy as jnp
 
 from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Density, DynamicViscosity, Force, Length, PositiveNumber, Speed, Sphericity
+from granum.core.kinds import (
+    Acceleration,
+    Density,
+    DynamicViscosity,
+    Force,
+    Length,
+    PositiveNumber,
+    Speed,
+    Sphericity,
+)
 from granum.particles.falling import LEAST, drag_of_shape
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 from granum.particles.formulas.terminal import Drag
@@ -15,7 +24,8 @@ STANDS = "A particle that stands still shows no drag."
 
 
 @formula(
-    source="brown2003; haider1989; clift1978, chapter 5", equation=r"F_D = C_D(\mathrm{Re})\,\frac{\pi d_p^2}{4}\,\frac{\rho_f v^2}{2}"
+    source="brown2003; haider1989; clift1978, chapter 5",
+    equation=r"F_D = C_D(\mathrm{Re})\,\frac{\pi d_p^2}{4}\,\frac{\rho_f v^2}{2}",
 )
 def drag_force(
     particle_diameter: Length,
@@ -29,7 +39,13 @@ def drag_force(
 
     The diameter is that of the sphere of equal volume.
 
-    >>> round(1e6 * drag_force(particle_diameter="1 mm", velocity="0.1 m/s", fluid_density=1000, dynamic_viscosity="1 cP"), 2)
+    >>> round(
+    ...     1e6
+    ...     * drag_force(
+    ...         particle_diameter="1 mm", velocity="0.1 m/s", fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     2,
+    ... )
     4.21
     """
     eta, rho = dynamic_viscosity, fluid_density
@@ -48,11 +64,26 @@ def measured_drag_coefficient(
 ) -> PositiveNumber:
     """Drag coefficient of a particle from its measured terminal velocity, falling or rising.
 
-    >>> round(measured_drag_coefficient(particle_diameter="5 mm", velocity="0.6 m/s", particle_density=2500, fluid_density=1000,
-    ...                                 gravity=9.81), 4)
+    >>> round(
+    ...     measured_drag_coefficient(
+    ...         particle_diameter="5 mm",
+    ...         velocity="0.6 m/s",
+    ...         particle_density=2500,
+    ...         fluid_density=1000,
+    ...         gravity=9.81,
+    ...     ),
+    ...     4,
+    ... )
     0.2725
     """
     v = jnp.asarray(velocity)
     impossible(~(v > 0.0), v, "velocity", reason=STANDS)
     v = jnp.where(v > 0.0, v, jnp.nan)
-    return 4.0 / 3.0 * gravity * particle_diameter * jnp.abs(particle_density - fluid_density) / (fluid_density * v**2)
+    return (
+        4.0
+        / 3.0
+        * gravity
+        * particle_diameter
+        * jnp.abs(particle_density - fluid_density)
+        / (fluid_density * v**2)
+    )

@@ -1,7 +1,8 @@
 """Hindered settling: velocity of a crowd of equal particles over the terminal velocity of one alone.
 
-Every law of the family ``hindrance`` is called with the volume fraction of solids and the Reynolds number of one particle at
-its terminal velocity, and gives the velocity relative to the vessel when no net volume flows: the return flow is in it.
+Every law of the family ``hindrance`` is called with the volume fraction of solids and the Reynolds number of
+one particle at its terminal velocity, and gives the velocity relative to the vessel when no net volume flows:
+the return flow is in it.
 """
 
 from __future__ import annotations
@@ -22,13 +23,16 @@ Exponent = Annotated[Any, Law("settling_exponent")]
 
 @formula(
     source="richardson1954",
-    equation=r"n = 4.65 + 19.5\lambda\ (\mathrm{Re}<0.2),\ (4.35 + 17.5\lambda)\mathrm{Re}^{-0.03}\ (<1),\ (4.45 + 18\lambda)\mathrm{Re}^{-0.1}\ (<200),"
+    equation=r"n = 4.65 + 19.5\lambda\ (\mathrm{Re}<0.2),\ (4.35 + 17.5\lambda)\mathrm{Re}^{-0.03}\ (<1),\ (4.45 + 18\lambda)\mathrm{Re}^{-0.1}\ (<200),"  # noqa: E501
     r"\ 4.45\,\mathrm{Re}^{-0.1}\ (<500),\ 2.39,\quad \lambda = d_p/D",
     fitted={"reynolds": (0.0, 7000.0), "wall_ratio": (0.0, 0.1)},
     typical={"wall_ratio": (0.0, 0.05)},
 )
-def settling_exponent_richardson_zaki(reynolds: PositiveNumber, wall_ratio: WallRatio = 0.0) -> PositiveNumber:
-    """Exponent n of the settling velocity (1 − φ)ⁿ by Richardson and Zaki, with the effect of the vessel wall.
+def settling_exponent_richardson_zaki(
+    reynolds: PositiveNumber, wall_ratio: WallRatio = 0.0
+) -> PositiveNumber:
+    """Exponent n of the settling velocity (1 − φ)ⁿ by Richardson and Zaki, with the effect of the vessel
+    wall.
 
     It jumps by 2 % at Re = 0.2 and at Re = 1.
 
@@ -37,7 +41,12 @@ def settling_exponent_richardson_zaki(reynolds: PositiveNumber, wall_ratio: Wall
     """
     Re, x = reynolds, wall_ratio
     safe = jnp.clip(Re, 0.2, 500.0)
-    pieces = [4.65 + 19.5 * x, (4.35 + 17.5 * x) * safe**-0.03, (4.45 + 18.0 * x) * safe**-0.1, 4.45 * safe**-0.1]
+    pieces = [
+        4.65 + 19.5 * x,
+        (4.35 + 17.5 * x) * safe**-0.03,
+        (4.45 + 18.0 * x) * safe**-0.1,
+        4.45 * safe**-0.1,
+    ]
     return jnp.select([Re < 0.2, Re < 1.0, Re < 200.0, Re < 500.0], pieces, 2.39)
 
 
@@ -75,16 +84,20 @@ def settling_exponent_rowe(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="khan1989; coulson2002, section 5.2.2",
-    equation=r"\frac{4.8 - n}{n - 2.4} = 0.043\,\mathrm{Ar}^{0.57}\left[1 - 1.24\left(\frac{d_p}{D}\right)^{0.27}\right],"
+    equation=r"\frac{4.8 - n}{n - 2.4} = 0.043\,\mathrm{Ar}^{0.57}\left[1 - 1.24\left(\frac{d_p}{D}\right)^{0.27}\right],"  # noqa: E501
     r"\quad \mathrm{Ar} = \tfrac34 C_D\mathrm{Re}^2",
     fitted={"wall_ratio": (0.0, 0.2)},
     typical={"wall_ratio": (1e-4, 0.1)},
 )
-def settling_exponent_khan_richardson(reynolds: PositiveNumber, wall_ratio: WallRatio = 0.0) -> PositiveNumber:
-    """Exponent n of the settling velocity (1 − φ)ⁿ by Khan and Richardson, from the Archimedes number and the wall.
+def settling_exponent_khan_richardson(
+    reynolds: PositiveNumber, wall_ratio: WallRatio = 0.0
+) -> PositiveNumber:
+    """Exponent n of the settling velocity (1 − φ)ⁿ by Khan and Richardson, from the Archimedes number and the
+    wall.
 
-    The Archimedes number follows from the Reynolds number by Brown and Lawler's drag. Above a particle over vessel diameter of
-    0.45 the bracket turns negative; it is held at zero there. Textbooks that print 2.4 for the 1.24 of the wall term find larger exponents.
+    The Archimedes number follows from the Reynolds number by Brown and Lawler's drag. Above a particle over
+    vessel diameter of 0.45 the bracket turns negative; it is held at zero there. Textbooks that print 2.4 for
+    the 1.24 of the wall term find larger exponents.
 
     >>> round(settling_exponent_khan_richardson(reynolds=1e-9), 2)
     4.8
@@ -118,9 +131,12 @@ def settling_exponent_maude_whitmore(reynolds: PositiveNumber) -> PositiveNumber
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_richardson_zaki(
-    solids_volume_fraction: Solids, reynolds: PositiveNumber, settling_exponent: Exponent = settling_exponent_richardson_zaki
+    solids_volume_fraction: Solids,
+    reynolds: PositiveNumber,
+    settling_exponent: Exponent = settling_exponent_richardson_zaki,
 ) -> Ratio:
-    """Hindered over terminal velocity by Richardson and Zaki's power of the void fraction, with a choice of exponent laws.
+    """Hindered over terminal velocity by Richardson and Zaki's power of the void fraction, with a choice of
+    exponent laws.
 
     >>> round(hindrance_richardson_zaki(solids_volume_fraction=0.1, reynolds=0.01), 4)
     0.6127
@@ -161,7 +177,8 @@ def hindrance_maude_whitmore(solids_volume_fraction: Solids, reynolds: PositiveN
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
-    """Hindered over terminal velocity by a power of the void fraction with Khan and Richardson's exponent, far from walls.
+    """Hindered over terminal velocity by a power of the void fraction with Khan and Richardson's exponent,
+    far from walls.
 
     >>> round(hindrance_khan_richardson(solids_volume_fraction=0.1, reynolds=1e-9), 4)
     0.6031
@@ -172,7 +189,7 @@ def hindrance_khan_richardson(solids_volume_fraction: Solids, reynolds: Positive
 @formula(
     source="barnea1973",
     equation=r"C_{D,\varphi} = \left(0.63 + \frac{4.8}{\sqrt{\mathrm{Re}_\varphi}}\right)^2,\quad"
-    r"C_{D,\varphi} = C_D\frac{1-\varphi}{1+\varphi^{1/3}},\ \mathrm{Re}_\varphi = \mathrm{Re}\,e^{-5\varphi/3(1-\varphi)}",
+    r"C_{D,\varphi} = C_D\frac{1-\varphi}{1+\varphi^{1/3}},\ \mathrm{Re}_\varphi = \mathrm{Re}\,e^{-5\varphi/3(1-\varphi)}",  # noqa: E501
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def hindrance_barnea_mizrahi(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -207,7 +224,7 @@ def hindrance_steinour(solids_volume_fraction: Solids, reynolds: PositiveNumber)
 
 @formula(
     source="happel1958",
-    equation=r"\frac{v}{v_t} = \frac{3 - \frac92\gamma + \frac92\gamma^5 - 3\gamma^6}{3 + 2\gamma^5},\quad \gamma = \varphi^{1/3}",
+    equation=r"\frac{v}{v_t} = \frac{3 - \frac92\gamma + \frac92\gamma^5 - 3\gamma^6}{3 + 2\gamma^5},\quad \gamma = \varphi^{1/3}",  # noqa: E501
     fitted={"reynolds": (0.0, 0.2)},
 )
 def hindrance_happel(solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
@@ -243,7 +260,8 @@ def hindrance_batchelor(solids_volume_fraction: Solids, reynolds: PositiveNumber
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 class RichardsonZaki(eqx.Module):
-    """Hindrance law k(1 − φ)ⁿ with a fixed exponent, or with Richardson and Zaki's exponent when none is given.
+    """Hindrance law k(1 − φ)ⁿ with a fixed exponent, or with Richardson and Zaki's exponent when none is
+    given.
 
         A prefactor of 0.8 to 0.9 is often measured in fluidized beds.
 
@@ -257,7 +275,11 @@ class RichardsonZaki(eqx.Module):
 
     def __call__(self, solids_volume_fraction: Solids, reynolds: PositiveNumber) -> Ratio:
         """Hindered over terminal velocity."""
-        n = settling_exponent_richardson_zaki(reynolds, self.wall_ratio) if self.exponent is None else self.exponent
+        n = (
+            settling_exponent_richardson_zaki(reynolds, self.wall_ratio)
+            if self.exponent is None
+            else self.exponent
+        )
         return self.prefactor * (1.0 - solids_volume_fraction) ** n
 
 

@@ -11,7 +11,18 @@ from typing import Annotated, Any, Literal
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
-from granum.core.kinds import Amount, Density, Fraction, Length, Number, NumberPerMass, PositiveNumber, Ratio, Series, Within
+from granum.core.kinds import (
+    Amount,
+    Density,
+    Fraction,
+    Length,
+    Number,
+    NumberPerMass,
+    PositiveNumber,
+    Ratio,
+    Series,
+    Within,
+)
 from granum.particles.distributions import SUM_TOLERANCE, order_of
 
 Sizes = Annotated[Length, Series("classes")]
@@ -20,11 +31,16 @@ Masses = Annotated[Amount, Series("classes")]
 Shares = Annotated[Fraction, Series("classes")]
 NOTHING = "The amounts of all classes are zero: there is nothing to take a mean of."
 
-WRONG_SUM = "This is the sum of all classes, which must add up to 1: add the missing material (pan, oversize, losses)."
+WRONG_SUM = (
+    "This is the sum of all classes, which must add up to 1: add the missing material (pan, oversize, "
+    "losses)."
+)
 
 
 def shares(fractions: Any, name: str = "class_fractions") -> Any:
-    """Class fractions divided by their sum, which must be one but for rounding; no value otherwise. Relative masses need no such sum."""
+    """Class fractions divided by their sum, which must be one but for rounding; no value otherwise. Relative
+    masses need no such sum.
+    """
     total = jnp.sum(jnp.asarray(fractions), axis=-1, keepdims=True)
     wrong = ~(abs(total - 1.0) <= SUM_TOLERANCE)
     impossible(wrong[..., 0], total[..., 0], name, 1.0 - SUM_TOLERANCE, 1.0 + SUM_TOLERANCE, WRONG_SUM)
@@ -45,30 +61,48 @@ def _ratio(x: Any, n: Any, p: float, q: float) -> Any:
 
 
 @formula(
-    source="allen1997; iso9276-2", equation=r"X_{NL} = \frac{\sum X_i N_i}{\sum N_i} = D_{1,0}", title="Number–length mean X_NL = D[1,0]"
+    source="allen1997; iso9276-2",
+    equation=r"X_{NL} = \frac{\sum X_i N_i}{\sum N_i} = D_{1,0}",
+    title="Number–length mean X_NL = D[1,0]",
 )
 def mean_diameter_number_length(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Arithmetic mean diameter by number.
 
-    >>> round(mean_diameter_number_length(class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]), 3)
+    >>> round(
+    ...     mean_diameter_number_length(
+    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     ),
+    ...     3,
+    ... )
     14.475
     """
     return _ratio(class_sizes, class_numbers, 1, 0)
 
 
-@formula(source="allen1997; iso9276-2", equation=r"X_{NS} = \sqrt{\frac{\sum N_i X_i^2}{\sum N_i}} = D_{2,0}",
-         title="Number–surface mean X_NS = D[2,0]")  # fmt: skip
+@formula(
+    source="allen1997; iso9276-2",
+    equation=r"X_{NS} = \sqrt{\frac{\sum N_i X_i^2}{\sum N_i}} = D_{2,0}",
+    title="Number–surface mean X_NS = D[2,0]",
+)
 def mean_diameter_number_surface(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Diameter of the particle that has the mean surface.
 
-    >>> round(mean_diameter_number_surface(class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]), 2)
+    >>> round(
+    ...     mean_diameter_number_surface(
+    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     ),
+    ...     2,
+    ... )
     17.19
     """
     return jnp.sqrt(_ratio(class_sizes, class_numbers, 2, 0))
 
 
-@formula(source="allen1997; iso9276-2", equation=r"X_{NV} = \sqrt[3]{\frac{\sum N_i X_i^3}{\sum N_i}} = D_{3,0}",
-         title="Number–volume mean X_NV = D[3,0]")  # fmt: skip
+@formula(
+    source="allen1997; iso9276-2",
+    equation=r"X_{NV} = \sqrt[3]{\frac{\sum N_i X_i^3}{\sum N_i}} = D_{3,0}",
+    title="Number–volume mean X_NV = D[3,0]",
+)
 def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Diameter of the particle that has the mean volume.
 
@@ -78,8 +112,11 @@ def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
     return _ratio(class_sizes, class_numbers, 3, 0) ** (1 / 3)
 
 
-@formula(source="sauter1926; iso9276-2", equation=r"X_{SV} = \frac{\sum N_i X_i^3}{\sum N_i X_i^2} = D_{3,2}",
-         title="Surface–volume (Sauter) mean X_SV = D[3,2]")  # fmt: skip
+@formula(
+    source="sauter1926; iso9276-2",
+    equation=r"X_{SV} = \frac{\sum N_i X_i^3}{\sum N_i X_i^2} = D_{3,2}",
+    title="Surface–volume (Sauter) mean X_SV = D[3,2]",
+)
 def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Sauter diameter: the size that has the specific surface of the whole.
 
@@ -89,8 +126,11 @@ def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> 
     return _ratio(class_sizes, class_numbers, 3, 2)
 
 
-@formula(source="allen1997; iso9276-2", equation=r"X_{LS} = \frac{\sum N_i X_i^2}{\sum N_i X_i} = D_{2,1}",
-         title="Length–surface mean X_LS = D[2,1]")  # fmt: skip
+@formula(
+    source="allen1997; iso9276-2",
+    equation=r"X_{LS} = \frac{\sum N_i X_i^2}{\sum N_i X_i} = D_{2,1}",
+    title="Length–surface mean X_LS = D[2,1]",
+)
 def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Mean diameter weighted by length.
 
@@ -100,8 +140,11 @@ def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
     return _ratio(class_sizes, class_numbers, 2, 1)
 
 
-@formula(source="allen1997; iso9276-2", equation=r"X_{LV} = \sqrt{\frac{\sum N_i X_i^3}{\sum N_i X_i}} = D_{3,1}",
-         title="Length–volume mean X_LV = D[3,1]")  # fmt: skip
+@formula(
+    source="allen1997; iso9276-2",
+    equation=r"X_{LV} = \sqrt{\frac{\sum N_i X_i^3}{\sum N_i X_i}} = D_{3,1}",
+    title="Length–volume mean X_LV = D[3,1]",
+)
 def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Root of the volume over the length of the whole.
 
@@ -111,7 +154,11 @@ def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
     return jnp.sqrt(_ratio(class_sizes, class_numbers, 3, 1))
 
 
-@formula(source="allen1997; iso9276-2", equation=r"D_{4,3} = \sum x_i\,d_i \Big/ \sum x_i", title="Mass mean D[4,3]")
+@formula(
+    source="allen1997; iso9276-2",
+    equation=r"D_{4,3} = \sum x_i\,d_i \Big/ \sum x_i",
+    title="Mass mean D[4,3]",
+)
 def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Arithmetic mean diameter by mass (or volume).
 
@@ -121,7 +168,9 @@ def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     return weighted(class_masses, class_sizes, "class_masses")
 
 
-@formula(source="allen1997; iso9276-2", equation=r"\bar d = \frac{1}{\sum x_i/d_i}", title="Harmonic mean by mass")
+@formula(
+    source="allen1997; iso9276-2", equation=r"\bar d = \frac{1}{\sum x_i/d_i}", title="Harmonic mean by mass"
+)
 def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Harmonic mean diameter by mass: the Sauter diameter of a mass analysis.
 
@@ -133,16 +182,23 @@ def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
 
 @formula(source="mccabe2005, ch. 28", equation=r"n = \frac{1}{k_v\,\rho_p}\,\frac{\sum m_i/X_i^3}{\sum m_i}")
 def number_per_mass(
-    class_sizes: Sizes, class_masses: Masses, particle_density: Density, volume_shape_factor: PositiveNumber = pi / 6
+    class_sizes: Sizes,
+    class_masses: Masses,
+    particle_density: Density,
+    volume_shape_factor: PositiveNumber = pi / 6,
 ) -> NumberPerMass:
     """Number of particles in a unit of mass of a sieved powder.
 
     The volume of a particle of size X is k_v X³, π/6 for spheres.
 
-    >>> number_per_mass(class_sizes=[1.0, 2.0], class_masses=[1.0, 1.0], particle_density=0.5625, volume_shape_factor=1.0)
+    >>> number_per_mass(
+    ...     class_sizes=[1.0, 2.0], class_masses=[1.0, 1.0], particle_density=0.5625, volume_shape_factor=1.0
+    ... )
     1.0
     """
-    return weighted(class_masses, class_sizes**-3.0, "class_masses") / (volume_shape_factor * particle_density)
+    return weighted(class_masses, class_sizes**-3.0, "class_masses") / (
+        volume_shape_factor * particle_density
+    )
 
 
 @formula(source="astm_c125", equation=r"\mathrm{FM} = \sum_i R_i")
@@ -164,9 +220,12 @@ def fineness_modulus(cumulative_retained: Annotated[Fraction, Series("classes")]
     title="Mean diameter D[p,q]",
 )
 def mean_diameter_moment_ratio(
-    class_sizes: Sizes, class_amounts: Masses, moment_order_upper: Number = 3.0, moment_order_lower: Number = 2.0,
+    class_sizes: Sizes,
+    class_amounts: Masses,
+    moment_order_upper: Number = 3.0,
+    moment_order_lower: Number = 2.0,
     basis: Literal["number", "length", "surface", "volume", "mass"] = "number",
-) -> Length:  # fmt: skip
+) -> Length:
     """Any moment-ratio mean of discrete sizes, from amounts on any basis; geometric for p = q.
 
     >>> mean_diameter_moment_ratio(class_sizes=[1.0, 2.0], class_amounts=[1.0, 8.0], basis="volume")
@@ -186,18 +245,30 @@ def mean_diameter_moment_ratio(
     typical={"moment_order_upper": (3.1, 4.0), "moment_order_lower": (1.0, 2.0)},
 )
 def mean_diameter_hatch_choate(
-    median_diameter: Length, geometric_standard_deviation: Annotated[PositiveNumber, Within(1.0)],
-    moment_order_upper: Number = 3.0, moment_order_lower: Number = 2.0,
+    median_diameter: Length,
+    geometric_standard_deviation: Annotated[PositiveNumber, Within(1.0)],
+    moment_order_upper: Number = 3.0,
+    moment_order_lower: Number = 2.0,
     basis: Literal["number", "length", "surface", "volume", "mass"] = "volume",
-) -> Length:  # fmt: skip
-    """Moment-ratio mean of a log-normal distribution from its median on one basis and its geometric standard deviation.
+) -> Length:
+    """Moment-ratio mean of a log-normal distribution from its median on one basis and its geometric standard
+    deviation.
 
-    >>> round(mean_diameter_hatch_choate(median_diameter=10.0, geometric_standard_deviation=2.718281828, moment_order_upper=3.0,
-    ...     moment_order_lower=2.0), 4)
+    >>> round(
+    ...     mean_diameter_hatch_choate(
+    ...         median_diameter=10.0,
+    ...         geometric_standard_deviation=2.718281828,
+    ...         moment_order_upper=3.0,
+    ...         moment_order_lower=2.0,
+    ...     ),
+    ...     4,
+    ... )
     6.0653
     """
     s = jnp.log(geometric_standard_deviation)
-    return median_diameter * jnp.exp(0.5 * (moment_order_upper + moment_order_lower - 2.0 * order_of(basis)) * s**2)
+    return median_diameter * jnp.exp(
+        0.5 * (moment_order_upper + moment_order_lower - 2.0 * order_of(basis)) * s**2
+    )
 
 
 @formula(
@@ -206,10 +277,11 @@ def mean_diameter_hatch_choate(
     title="Median on another basis, log-normal (Hatch–Choate)",
 )
 def median_diameter_hatch_choate(
-    median_diameter_known: Length, geometric_standard_deviation: Annotated[PositiveNumber, Within(1.0)],
+    median_diameter_known: Length,
+    geometric_standard_deviation: Annotated[PositiveNumber, Within(1.0)],
     basis: Literal["number", "length", "surface", "volume", "mass"] = "number",
     wanted_basis: Literal["number", "length", "surface", "volume", "mass"] = "volume",
-) -> Length:  # fmt: skip
+) -> Length:
     """Median of a log-normal distribution on another basis; the geometric standard deviation stays the same.
 
     >>> round(median_diameter_hatch_choate(median_diameter_known=1.0, geometric_standard_deviation=2.0), 4)
@@ -240,7 +312,9 @@ def uniformity_coefficient(percentile_60: Length, percentile_10: Length) -> Posi
 
 
 @formula(source="astm_d2487", equation=r"C_c = \frac{d_{30}^2}{d_{10}\,d_{60}}")
-def curvature_coefficient(percentile_30: Length, percentile_60: Length, percentile_10: Length) -> PositiveNumber:
+def curvature_coefficient(
+    percentile_30: Length, percentile_60: Length, percentile_10: Length
+) -> PositiveNumber:
     """Coefficient of curvature of a grading; 1 to 3 for well-graded soils.
 
     >>> curvature_coefficient(percentile_30=2.0, percentile_60=4.0, percentile_10=1.0)
@@ -250,7 +324,9 @@ def curvature_coefficient(percentile_30: Length, percentile_60: Length, percenti
 
 
 @formula(
-    source="hatch1929", equation=r"\sigma_g = \sqrt{\frac{d_{84.13}}{d_{15.87}}}", title="Geometric standard deviation from percentiles"
+    source="hatch1929",
+    equation=r"\sigma_g = \sqrt{\frac{d_{84.13}}{d_{15.87}}}",
+    title="Geometric standard deviation from percentiles",
 )
 def geometric_standard_deviation(percentile_84: Length, percentile_16: Length) -> PositiveNumber:
     """Geometric standard deviation from the sizes one standard deviation either side of the median.

@@ -22,7 +22,11 @@ from granum.core.kinds import (
 from granum.numerics.smooth import safe_divide, safe_power, safe_sqrt
 
 
-@formula(source="allen1997; iso9276-6", equation=r"d_v = \left(\frac{6V}{\pi}\right)^{1/3}", title="Volume-equivalent diameter")
+@formula(
+    source="allen1997; iso9276-6",
+    equation=r"d_v = \left(\frac{6V}{\pi}\right)^{1/3}",
+    title="Volume-equivalent diameter",
+)
 def equivalent_diameter_volume(particle_volume: Volume) -> Length:
     """Diameter of the sphere that has the volume of the particle.
 
@@ -32,7 +36,11 @@ def equivalent_diameter_volume(particle_volume: Volume) -> Length:
     return safe_power(6.0 * particle_volume / jnp.pi, 1.0 / 3.0)
 
 
-@formula(source="allen1997; iso9276-6", equation=r"d_s = \left(\frac{S}{\pi}\right)^{1/2}", title="Surface-equivalent diameter")
+@formula(
+    source="allen1997; iso9276-6",
+    equation=r"d_s = \left(\frac{S}{\pi}\right)^{1/2}",
+    title="Surface-equivalent diameter",
+)
 def equivalent_diameter_surface(particle_surface: Area) -> Length:
     """Diameter of the sphere that has the surface of the particle.
 
@@ -46,7 +54,9 @@ def equivalent_diameter_surface(particle_surface: Area) -> Length:
 def equivalent_diameter_surface_volume(particle_volume: Volume, particle_surface: Area) -> Length:
     """Diameter of the sphere that has the surface per volume of the particle.
 
-    >>> round(equivalent_diameter_surface_volume(particle_volume="1 mm^3", particle_surface="6 mm^2") * 1e3, 6)
+    >>> round(
+    ...     equivalent_diameter_surface_volume(particle_volume="1 mm^3", particle_surface="6 mm^2") * 1e3, 6
+    ... )
     1.0
     """
     return 6.0 * particle_volume / particle_surface
@@ -62,7 +72,9 @@ def equivalent_diameter_specific_surface(specific_surface: SpecificSurface) -> L
     return 6.0 / specific_surface
 
 
-@formula(source="allen1997; iso9276-6", equation=r"d_a = \sqrt{\frac{4A_p}{\pi}}", title="Projected-area diameter")
+@formula(
+    source="allen1997; iso9276-6", equation=r"d_a = \sqrt{\frac{4A_p}{\pi}}", title="Projected-area diameter"
+)
 def equivalent_diameter_projected_area(projected_area: Area) -> Length:
     """Diameter of the circle that has the area of the particle's projection.
 
@@ -90,15 +102,28 @@ def equivalent_diameter_perimeter(projected_perimeter: Length) -> Length:
     title="Stokes diameter",
 )
 def equivalent_diameter_stokes(
-    terminal_velocity: Speed, particle_density: Density, fluid_density: Density, dynamic_viscosity: DynamicViscosity,
+    terminal_velocity: Speed,
+    particle_density: Density,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
     gravity: Acceleration = STANDARD_GRAVITY,
-) -> Length:  # fmt: skip
-    """Diameter of the sphere of the same density that falls (or rises) at the same speed in the Stokes regime.
+) -> Length:
+    """Diameter of the sphere of the same density that falls (or rises) at the same speed in the Stokes
+    regime.
 
-    The density difference counts without its sign, so rising particles have a diameter too; equal densities give none.
+    The density difference counts without its sign, so rising particles have a diameter too; equal densities
+    give none.
 
-    >>> round(equivalent_diameter_stokes(terminal_velocity="1 mm/s", particle_density=2650, fluid_density=998,
-    ...     dynamic_viscosity="1.002 mPa*s") * 1e6, 2)
+    >>> round(
+    ...     equivalent_diameter_stokes(
+    ...         terminal_velocity="1 mm/s",
+    ...         particle_density=2650,
+    ...         fluid_density=998,
+    ...         dynamic_viscosity="1.002 mPa*s",
+    ...     )
+    ...     * 1e6,
+    ...     2,
+    ... )
     33.37
     """
     difference = abs(particle_density - fluid_density)
@@ -107,8 +132,12 @@ def equivalent_diameter_stokes(
     return d
 
 
-@formula(source="hinds1999, chapter 3", equation=r"d_a = d_v\sqrt{\frac{\rho_p}{\rho_0\,\chi}},\quad \rho_0 = 1000\ \mathrm{kg/m^3}",
-         title="Aerodynamic diameter", typical={"shape_factor_dynamic": (1.0, 1.5)})  # fmt: skip
+@formula(
+    source="hinds1999, chapter 3",
+    equation=r"d_a = d_v\sqrt{\frac{\rho_p}{\rho_0\,\chi}},\quad \rho_0 = 1000\ \mathrm{kg/m^3}",
+    title="Aerodynamic diameter",
+    typical={"shape_factor_dynamic": (1.0, 1.5)},
+)
 def equivalent_diameter_aerodynamic(
     diameter_volume: Length, particle_density: Density, shape_factor_dynamic: PositiveNumber = 1.0
 ) -> Length:
@@ -122,7 +151,12 @@ def equivalent_diameter_aerodynamic(
     return diameter_volume * jnp.sqrt(particle_density / (1000.0 * shape_factor_dynamic))
 
 
-@formula(source="allen1997", equation=r"a_g = \frac{6}{\psi\,d}", title="Specific surface from a mean diameter", output="specific_surface")
+@formula(
+    source="allen1997",
+    equation=r"a_g = \frac{6}{\psi\,d}",
+    title="Specific surface from a mean diameter",
+    output="specific_surface",
+)
 def specific_surface_diameter(diameter_volume: Length, sphericity: Sphericity = 1.0) -> SpecificSurface:
     """Surface per volume of solid from the volume-equivalent diameter and the sphericity; 6/d for spheres.
 
@@ -134,9 +168,15 @@ def specific_surface_diameter(diameter_volume: Length, sphericity: Sphericity = 
     return 6.0 / (sphericity * diameter_volume)
 
 
-@formula(source="allen1997", equation=r"S_m = \frac{6}{\rho_s\,\psi\,d}", title="Specific surface per mass from a mean diameter",
-         output="specific_surface_mass")  # fmt: skip
-def specific_surface_mass_diameter(diameter_volume: Length, solid_density: Density, sphericity: Sphericity = 1.0) -> SpecificSurfaceMass:
+@formula(
+    source="allen1997",
+    equation=r"S_m = \frac{6}{\rho_s\,\psi\,d}",
+    title="Specific surface per mass from a mean diameter",
+    output="specific_surface_mass",
+)
+def specific_surface_mass_diameter(
+    diameter_volume: Length, solid_density: Density, sphericity: Sphericity = 1.0
+) -> SpecificSurfaceMass:
     """Surface per mass of solid from the volume-equivalent (Sauter) diameter, the density and the sphericity.
 
     >>> round(specific_surface_mass_diameter(diameter_volume="10 um", solid_density=3000), 6)

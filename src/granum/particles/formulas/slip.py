@@ -31,12 +31,20 @@ from granum.core.kinds import (
     equation=r"\lambda = \frac{\eta}{p}\sqrt{\frac{\pi R T}{2 M}}",
     typical={"dynamic_viscosity": (1e-5, 3e-5)},
 )
-def mean_free_path(temperature: Temperature, pressure: Pressure, dynamic_viscosity: DynamicViscosity, molar_mass: MolarMass) -> Length:
+def mean_free_path(
+    temperature: Temperature, pressure: Pressure, dynamic_viscosity: DynamicViscosity, molar_mass: MolarMass
+) -> Length:
     """Mean free path of the molecules of a gas from its viscosity.
 
     Air at 20 °C and 1 atm: 65 nm.
 
-    >>> round(1e9 * mean_free_path(temperature="20 degC", pressure="1 atm", dynamic_viscosity=1.81e-5, molar_mass="28.96 g/mol"), 1)
+    >>> round(
+    ...     1e9
+    ...     * mean_free_path(
+    ...         temperature="20 degC", pressure="1 atm", dynamic_viscosity=1.81e-5, molar_mass="28.96 g/mol"
+    ...     ),
+    ...     1,
+    ... )
     65.0
     """
     return dynamic_viscosity / pressure * jnp.sqrt(jnp.pi * GAS_CONSTANT * temperature / (2.0 * molar_mass))
@@ -61,7 +69,9 @@ def _slip(knudsen: Any, a: float, b: float, c: float) -> Any:
     return 1.0 + knudsen * (a + b * jnp.exp(-c / safe))
 
 
-@formula(source="davies1945", equation=r"C_c = 1 + \mathrm{Kn}\left(1.257 + 0.400\,e^{-1.10/\mathrm{Kn}}\right)")
+@formula(
+    source="davies1945", equation=r"C_c = 1 + \mathrm{Kn}\left(1.257 + 0.400\,e^{-1.10/\mathrm{Kn}}\right)"
+)
 def slip_factor_davies(knudsen_number: Ratio) -> PositiveNumber:
     """Cunningham's slip correction by Davies.
 
@@ -71,7 +81,9 @@ def slip_factor_davies(knudsen_number: Ratio) -> PositiveNumber:
     return _slip(knudsen_number, 1.257, 0.400, 1.10)
 
 
-@formula(source="allen1985", equation=r"C_c = 1 + \mathrm{Kn}\left(1.142 + 0.558\,e^{-0.999/\mathrm{Kn}}\right)")
+@formula(
+    source="allen1985", equation=r"C_c = 1 + \mathrm{Kn}\left(1.142 + 0.558\,e^{-0.999/\mathrm{Kn}}\right)"
+)
 def slip_factor_allen_raabe(knudsen_number: Ratio) -> PositiveNumber:
     """Cunningham's slip correction of solid spheres by Allen and Raabe.
 
@@ -120,11 +132,20 @@ def terminal_velocity_slip(
 ) -> Velocity:
     """Terminal velocity of a fine particle in a gas in creeping flow with slip, positive downwards.
 
-    A unit-density sphere of 1 µm in air at 20 °C falls at 3.5e-5 m/s. Stokes' law, whose drag is 4 % too low at a Reynolds number of 0.2
-    (Oseen).
+    A unit-density sphere of 1 µm in air at 20 °C falls at 3.5e-5 m/s. Stokes' law, whose drag is 4 % too low
+    at a Reynolds number of 0.2 (Oseen).
 
-    >>> round(1e6 * terminal_velocity_slip(particle_diameter="1 um", particle_density=1000, fluid_density=1.2,
-    ...                                    dynamic_viscosity=1.81e-5, mean_free_path="66 nm"), 1)
+    >>> round(
+    ...     1e6
+    ...     * terminal_velocity_slip(
+    ...         particle_diameter="1 um",
+    ...         particle_density=1000,
+    ...         fluid_density=1.2,
+    ...         dynamic_viscosity=1.81e-5,
+    ...         mean_free_path="66 nm",
+    ...     ),
+    ...     1,
+    ... )
     35.1
     """
     d = particle_diameter
@@ -140,11 +161,20 @@ def terminal_velocity_slip(
     typical={"particle_diameter": (1e-9, 1e-6)},
 )
 def brownian_diffusivity(
-    particle_diameter: Length, temperature: Temperature, dynamic_viscosity: DynamicViscosity, slip_factor: PositiveNumber = 1.0
+    particle_diameter: Length,
+    temperature: Temperature,
+    dynamic_viscosity: DynamicViscosity,
+    slip_factor: PositiveNumber = 1.0,
 ) -> Diffusivity:
     """Diffusivity of a particle by Brownian motion; the slip factor is one in a liquid.
 
-    >>> round(1e12 * brownian_diffusivity(particle_diameter="1 um", temperature="20 degC", dynamic_viscosity="1.002 cP"), 4)
+    >>> round(
+    ...     1e12
+    ...     * brownian_diffusivity(
+    ...         particle_diameter="1 um", temperature="20 degC", dynamic_viscosity="1.002 cP"
+    ...     ),
+    ...     4,
+    ... )
     0.4286
     """
     return BOLTZMANN * temperature * slip_factor / (3.0 * jnp.pi * dynamic_viscosity * particle_diameter)
@@ -174,18 +204,34 @@ def brownian_diameter(
     time: Time,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Length:
-    """Diameter at which Brownian motion displaces a particle as far as it settles in a given time: finer ones do not settle.
+    """Diameter at which Brownian motion displaces a particle as far as it settles in a given time: finer ones
+    do not settle.
 
-    Creeping flow without slip. Infinite at equal densities. Stokes' law, whose drag is 4 % too low at a Reynolds number of 0.2 (Oseen).
+    Creeping flow without slip. Infinite at equal densities. Stokes' law, whose drag is 4 % too low at a
+    Reynolds number of 0.2 (Oseen).
 
-    >>> round(1e6 * brownian_diameter(temperature="20 degC", particle_density=2650, fluid_density=998, dynamic_viscosity="1 cP",
-    ...                               time=1.0), 2)
+    >>> round(
+    ...     1e6
+    ...     * brownian_diameter(
+    ...         temperature="20 degC",
+    ...         particle_density=2650,
+    ...         fluid_density=998,
+    ...         dynamic_viscosity="1 cP",
+    ...         time=1.0,
+    ...     ),
+    ...     2,
+    ... )
     1.01
     """
     eta, t = dynamic_viscosity, jnp.maximum(time, 1e-30)
     weight = gravity * abs(particle_density - fluid_density)
     heavy = weight > 0.0
-    ratio = 18.0 * eta / jnp.where(heavy, weight, 1.0) * jnp.sqrt(2.0 * BOLTZMANN * temperature / (3.0 * jnp.pi * eta * t))
+    ratio = (
+        18.0
+        * eta
+        / jnp.where(heavy, weight, 1.0)
+        * jnp.sqrt(2.0 * BOLTZMANN * temperature / (3.0 * jnp.pi * eta * t))
+    )
     d = ratio**0.4
     watch(reynolds=jnp.where(heavy, fluid_density * weight * d**3 / (18.0 * eta**2), 0.0))
     return jnp.where(heavy, d, jnp.inf)

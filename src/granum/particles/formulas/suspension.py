@@ -1,4 +1,6 @@
-"""A suspension seen as one fluid: its apparent density and viscosity, and the fall of its particles through it."""
+"""A suspension seen as one fluid: its apparent density and viscosity, and the fall of its particles through
+it.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ Packed = Annotated[OpenFraction, Within(0.5, 1.0)]
 
 
 @formula(source="einstein1906", equation=r"\rho_a = \varphi\rho_p + (1-\varphi)\rho_f")
-def suspension_density(particle_density: Density, fluid_density: Density, solids_volume_fraction: VolumeFraction) -> Density:
+def suspension_density(
+    particle_density: Density, fluid_density: Density, solids_volume_fraction: VolumeFraction
+) -> Density:
     """Apparent density of a suspension: the volume-weighted mean of particle and fluid.
 
     >>> round(suspension_density(particle_density=2650, fluid_density=1000, solids_volume_fraction=0.1), 6)
@@ -63,7 +67,8 @@ def relative_viscosity_einstein(solids_volume_fraction: VolumeFraction) -> Posit
     typical={"solids_volume_fraction": (1e-3, 0.1)},
 )
 def relative_viscosity_batchelor(solids_volume_fraction: VolumeFraction) -> PositiveNumber:
-    """Viscosity of a dilute suspension of Brownian spheres over that of its fluid, to the second order, by Batchelor.
+    """Viscosity of a dilute suspension of Brownian spheres over that of its fluid, to the second order, by
+    Batchelor.
 
     >>> round(relative_viscosity_batchelor(solids_volume_fraction=0.1), 3)
     1.312
@@ -77,7 +82,9 @@ def relative_viscosity_batchelor(solids_volume_fraction: VolumeFraction) -> Posi
     fitted={"solids_volume_fraction": (0.0, 0.3)},
     typical={"viscosity_coefficient": (2.0, 6.0)},
 )
-def relative_viscosity_vand(solids_volume_fraction: VolumeFraction, viscosity_coefficient: PositiveNumber = 2.5) -> PositiveNumber:
+def relative_viscosity_vand(
+    solids_volume_fraction: VolumeFraction, viscosity_coefficient: PositiveNumber = 2.5
+) -> PositiveNumber:
     """Viscosity of a suspension over that of its fluid, an exponential of the volume fraction.
 
     The coefficient is found by experiment: 2 to 2.5 for dilute and up to 6 for concentrated suspensions.
@@ -95,12 +102,16 @@ def relative_viscosity_vand(solids_volume_fraction: VolumeFraction, viscosity_co
     typical={"viscosity_coefficient": (2.0, 5.0)},
 )
 def relative_viscosity_mooney(
-    solids_volume_fraction: VolumeFraction, viscosity_coefficient: PositiveNumber = 2.5, solids_fraction_maximum: Packed = 0.74
+    solids_volume_fraction: VolumeFraction,
+    viscosity_coefficient: PositiveNumber = 2.5,
+    solids_fraction_maximum: Packed = 0.74,
 ) -> PositiveNumber:
-    """Viscosity of a suspension over that of its fluid, with crowding towards the packed volume fraction, by Mooney.
+    """Viscosity of a suspension over that of its fluid, with crowding towards the packed volume fraction, by
+    Mooney.
 
-    The packed fraction is 0.74 in a hexagonal arrangement and 0.64 in a random one. Above it there is no flow: infinite, flagged.
-    Differs from the print: the course sets q = 1/0.74 = 1.35 and then writes exp(4.2φ/(1 − φ)), which is k = 4.2 with q = 1.
+    The packed fraction is 0.74 in a hexagonal arrangement and 0.64 in a random one. Above it there is no
+    flow: infinite, flagged. Differs from the print: the course sets q = 1/0.74 = 1.35 and then writes
+    exp(4.2φ/(1 − φ)), which is k = 4.2 with q = 1.
 
     >>> round(relative_viscosity_mooney(solids_volume_fraction=0.2), 4)
     1.9841
@@ -108,7 +119,9 @@ def relative_viscosity_mooney(
     free = 1.0 - solids_volume_fraction / solids_fraction_maximum
     flows = free > 0.0
     impossible(~flows, solids_volume_fraction, "solids_volume_fraction", 0.0, solids_fraction_maximum, PACKED)
-    return jnp.where(flows, jnp.exp(viscosity_coefficient * solids_volume_fraction / jnp.where(flows, free, 1.0)), jnp.inf)
+    return jnp.where(
+        flows, jnp.exp(viscosity_coefficient * solids_volume_fraction / jnp.where(flows, free, 1.0)), jnp.inf
+    )
 
 
 @formula(
@@ -118,9 +131,12 @@ def relative_viscosity_mooney(
     typical={"viscosity_coefficient": (2.0, 5.0)},
 )
 def relative_viscosity_krieger_dougherty(
-    solids_volume_fraction: VolumeFraction, viscosity_coefficient: PositiveNumber = 2.5, solids_fraction_maximum: Packed = 0.64
+    solids_volume_fraction: VolumeFraction,
+    viscosity_coefficient: PositiveNumber = 2.5,
+    solids_fraction_maximum: Packed = 0.64,
 ) -> PositiveNumber:
-    """Viscosity of a suspension over that of its fluid, with crowding towards the packed volume fraction, by Krieger and Dougherty.
+    """Viscosity of a suspension over that of its fluid, with crowding towards the packed volume fraction, by
+    Krieger and Dougherty.
 
     >>> round(relative_viscosity_krieger_dougherty(solids_volume_fraction=0.2), 4)
     1.8212
@@ -128,7 +144,9 @@ def relative_viscosity_krieger_dougherty(
     free = 1.0 - solids_volume_fraction / solids_fraction_maximum
     flows = free > 0.0
     impossible(~flows, solids_volume_fraction, "solids_volume_fraction", 0.0, solids_fraction_maximum, PACKED)
-    return jnp.where(flows, jnp.where(flows, free, 1.0) ** (-viscosity_coefficient * solids_fraction_maximum), jnp.inf)
+    return jnp.where(
+        flows, jnp.where(flows, free, 1.0) ** (-viscosity_coefficient * solids_fraction_maximum), jnp.inf
+    )
 
 
 @formula(
@@ -137,7 +155,8 @@ def relative_viscosity_krieger_dougherty(
     fitted={"solids_volume_fraction": (0.0, 0.6)},
 )
 def relative_viscosity_thomas(solids_volume_fraction: VolumeFraction) -> PositiveNumber:
-    """Viscosity of a suspension of spheres over that of its fluid, a fit to critically reviewed measurements, by Thomas.
+    """Viscosity of a suspension of spheres over that of its fluid, a fit to critically reviewed measurements,
+    by Thomas.
 
     >>> round(relative_viscosity_thomas(solids_volume_fraction=0.2), 4)
     1.9775
@@ -151,7 +170,9 @@ Viscosity = Annotated[Any, Law("relative_viscosity")]
 
 @formula(source="mooney1951; einstein1906", equation=r"\eta_a = \eta\,f(\varphi)")
 def suspension_viscosity(
-    dynamic_viscosity: DynamicViscosity, solids_volume_fraction: VolumeFraction, relative_viscosity: Viscosity = relative_viscosity_mooney
+    dynamic_viscosity: DynamicViscosity,
+    solids_volume_fraction: VolumeFraction,
+    relative_viscosity: Viscosity = relative_viscosity_mooney,
 ) -> DynamicViscosity:
     """Apparent viscosity of a suspension by any law of relative viscosity.
 
@@ -163,7 +184,11 @@ def suspension_viscosity(
 
 @formula(
     source="mooney1951; wallis1969",
-    equation=r"\frac{v}{v_t} = \left[\frac{1-\varphi}{(\rho_a/\rho_f)^{1-n}\,(\eta_a/\eta)^{n}}\right]^{1/(2-n)},\quad C_D = a\,\mathrm{Re}^{-n}",
+    equation=(
+        r"\frac{v}{v_t} = "
+        r"\left[\frac{1-\varphi}{(\rho_a/\rho_f)^{1-n}\,(\eta_a/\eta)^{n}}\right]^{1/(2-n)},\quad C_D = "
+        r"a\,\mathrm{Re}^{-n}"
+    ),
     family="hindrance",
     typical={"drag_exponent": (0.0, 1.0), "density_ratio": (1.2, 4.0)},
 )
@@ -174,11 +199,12 @@ def hindrance_apparent_medium(
     density_ratio: PositiveNumber = 2.65,
     relative_viscosity: Viscosity = relative_viscosity_mooney,
 ) -> Ratio:
-    """Velocity of a crowd in its own apparent density and viscosity over the terminal velocity, for a drag law a Re⁻ⁿ.
+    """Velocity of a crowd in its own apparent density and viscosity over the terminal velocity, for a drag
+    law a Re⁻ⁿ.
 
-    With n = 1 (creeping flow) it is (1 − φ)η/η_a. It is the velocity relative to the liquid; multiply by 1 − φ for a vessel
-    without net flow. Differs from the print: the course's ratio has exp(+4.2nφ/(1 − φ)), which would speed the crowd up, and
-    applies the exponent 2 − n to one side only.
+    With n = 1 (creeping flow) it is (1 − φ)η/η_a. It is the velocity relative to the liquid; multiply by 1 −
+    φ for a vessel without net flow. Differs from the print: the course's ratio has exp(+4.2nφ/(1 − φ)), which
+    would speed the crowd up, and applies the exponent 2 − n to one side only.
 
     >>> round(hindrance_apparent_medium(solids_volume_fraction=0.1, reynolds=0.01), 4)
     0.6741
@@ -201,12 +227,22 @@ def terminal_velocity_collective(
     drag: Drag = drag_coefficient_brown_lawler,
     relative_viscosity: Viscosity = relative_viscosity_mooney,
 ) -> Velocity:
-    """Velocity of a crowd of particles relative to the liquid: terminal velocity in the apparent density and viscosity.
+    """Velocity of a crowd of particles relative to the liquid: terminal velocity in the apparent density and
+    viscosity.
 
     Any regime and any drag law. Multiply by 1 − φ for the velocity relative to a vessel without net flow.
 
-    >>> round(1e3 * terminal_velocity_collective(particle_diameter="10 um", particle_density=2650, fluid_density=1000,
-    ...                                          dynamic_viscosity="1 cP", solids_volume_fraction=0.1), 4)
+    >>> round(
+    ...     1e3
+    ...     * terminal_velocity_collective(
+    ...         particle_diameter="10 um",
+    ...         particle_density=2650,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...         solids_volume_fraction=0.1,
+    ...     ),
+    ...     4,
+    ... )
     0.0605
     """
     phi = solids_volume_fraction
@@ -239,15 +275,22 @@ def diluted_suspension(
     dilution_limit: VolumePerMass,
     gravity: Acceleration = STANDARD_GRAVITY,
 ) -> DilutedSuspension:
-    """Apparent density and kinematic viscosity of a suspension from its dilution, and the creeping velocity in them.
+    """Apparent density and kinematic viscosity of a suspension from its dilution, and the creeping velocity
+    in them.
 
-    Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where compression starts). At the
-    limit the viscosity is infinite and the velocity zero; below it there is no value. Differs from the print: the course writes the last
-    bracket as D + (1 + ρ_p) where D + 1/ρ_p follows from its own ν_a and ρ_a. For creeping flow, in the course
-    Reynolds numbers below 1.
+    Dilution is liquid volume per mass of solid; its limit is that of the settled sludge (or, for flocs, where
+    compression starts). At the limit the viscosity is infinite and the velocity zero; below it there is no
+    value. Differs from the print: the course writes the last bracket as D + (1 + ρ_p) where D + 1/ρ_p follows
+    from its own ν_a and ρ_a. For creeping flow, in the course Reynolds numbers below 1.
 
-    >>> found = diluted_suspension(particle_diameter="20 um", particle_density=2650, fluid_density=1000, kinematic_viscosity=1e-6,
-    ...                            liquid_volume_per_solid_mass=2e-3, dilution_limit=2e-4)
+    >>> found = diluted_suspension(
+    ...     particle_diameter="20 um",
+    ...     particle_density=2650,
+    ...     fluid_density=1000,
+    ...     kinematic_viscosity=1e-6,
+    ...     liquid_volume_per_solid_mass=2e-3,
+    ...     dilution_limit=2e-4,
+    ... )
     >>> round(found.density, 1), round(1e6 * found.kinematic_viscosity, 4)
     (1261.9, 1.3208)
     """
@@ -256,7 +299,9 @@ def diluted_suspension(
     room = D - dilution_limit
     open_ = room > 0.0
     impossible(~open_, D, "liquid_volume_per_solid_mass", dilution_limit, jnp.inf, PACKED)
-    viscosity = jnp.where(open_, kinematic_viscosity * (D + 1.0 / rho_p) / jnp.where(open_, room, 1.0), jnp.nan)
+    viscosity = jnp.where(
+        open_, kinematic_viscosity * (D + 1.0 / rho_p) / jnp.where(open_, room, 1.0), jnp.nan
+    )
     velocity = gravity * particle_diameter**2 * (rho_p - density) / (18.0 * viscosity * density)
     watch(reynolds=abs(velocity) * particle_diameter / viscosity)
     return DilutedSuspension(density, viscosity, velocity)

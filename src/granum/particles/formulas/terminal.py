@@ -1,4 +1,6 @@
-"""Terminal velocity of a single particle and the size that has a given one, under any drag law, falling or rising."""
+"""Terminal velocity of a single particle and the size that has a given one, under any drag law, falling or
+rising.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,14 @@ import jax.numpy as jnp
 from granum.core import formula, impossible, limit_active, unconverged
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Acceleration, Density, DynamicViscosity, Law, Length, Sphericity, Velocity
-from granum.particles.falling import EQUAL_DENSITIES, LEAST, WRONG_WAY, drag_of_shape, reynolds_from_size, reynolds_from_velocity
+from granum.particles.falling import (
+    EQUAL_DENSITIES,
+    LEAST,
+    WRONG_WAY,
+    drag_of_shape,
+    reynolds_from_size,
+    reynolds_from_velocity,
+)
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
 
 Drag = Annotated[Any, Law("drag_coefficient")]
@@ -17,7 +26,10 @@ Drag = Annotated[Any, Law("drag_coefficient")]
 
 @formula(
     source="brown2003; haider1989; clift1978, chapter 5",
-    equation=r"v_t = \mathrm{sgn}(\rho_p - \rho_f)\sqrt{\frac{4 g d_p |\rho_p - \rho_f|}{3\, C_D(\mathrm{Re})\, \rho_f}}",
+    equation=(
+        r"v_t = \mathrm{sgn}(\rho_p - \rho_f)\sqrt{\frac{4 g d_p |\rho_p - \rho_f|}{3\, C_D(\mathrm{Re})\, "
+        r"\rho_f}}"
+    ),
 )
 def terminal_velocity(
     particle_diameter: Length,
@@ -28,21 +40,33 @@ def terminal_velocity(
     drag: Drag = drag_coefficient_brown_lawler,
     sphericity: Sphericity | None = None,
 ) -> Velocity:
-    """Terminal velocity of a single particle in a fluid at rest: positive downwards, negative for a particle that rises.
+    """Terminal velocity of a single particle in a fluid at rest: positive downwards, negative for a particle
+    that rises.
 
-    The diameter is that of the sphere of equal volume. Any drag law serves; its range is checked at the Reynolds number
-    found. A law that knows the sphericity uses it; a law for spheres is scaled by Haider and Levenspiel's ratio of shape to sphere.
-    With equal densities the velocity is zero and flagged. Put ω²r in place of gravity for a centrifuge.
+    The diameter is that of the sphere of equal volume. Any drag law serves; its range is checked at the
+    Reynolds number found. A law that knows the sphericity uses it; a law for spheres is scaled by Haider and
+    Levenspiel's ratio of shape to sphere. With equal densities the velocity is zero and flagged. Put ω²r in
+    place of gravity for a centrifuge.
 
-    >>> round(1000 * terminal_velocity(particle_diameter="85 um", particle_density=2630, fluid_density=1020,
-    ...                                dynamic_viscosity="1.2 cP"), 2)
+    >>> round(
+    ...     1000
+    ...     * terminal_velocity(
+    ...         particle_diameter="85 um",
+    ...         particle_density=2630,
+    ...         fluid_density=1020,
+    ...         dynamic_viscosity="1.2 cP",
+    ...     ),
+    ...     2,
+    ... )
     4.92
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
     limit_active(excess == 0.0, particle_density, "particle_density", EQUAL_DENSITIES)
     creeping = gravity * excess * d**2 / (18.0 * eta)
-    X = jnp.maximum(4.0 / 3.0 * rho * jnp.where(excess < 0.0, -excess, excess) * gravity * d**3 / eta**2, LEAST)
+    X = jnp.maximum(
+        4.0 / 3.0 * rho * jnp.where(excess < 0.0, -excess, excess) * gravity * d**3 / eta**2, LEAST
+    )
     law = drag_of_shape(drag, sphericity)
     Re, found = reynolds_from_size(law, X)
     law(Re)  # for its flags at the Reynolds number found
@@ -52,7 +76,10 @@ def terminal_velocity(
 
 @formula(
     source="brown2003; haider1989; clift1978, chapter 5",
-    equation=r"Y = \frac{\mathrm{Re}}{C_D} = \frac{3 \rho_f^2 v^3}{4 \eta g |\rho_p - \rho_f|},\quad d_p = \frac{\mathrm{Re}(Y)\,\eta}{\rho_f v}",
+    equation=(
+        r"Y = \frac{\mathrm{Re}}{C_D} = \frac{3 \rho_f^2 v^3}{4 \eta g |\rho_p - \rho_f|},\quad d_p = "
+        r"\frac{\mathrm{Re}(Y)\,\eta}{\rho_f v}"
+    ),
 )
 def terminal_diameter(
     velocity: Velocity,
@@ -65,11 +92,17 @@ def terminal_diameter(
 ) -> Length:
     """Diameter of the particle that has a given terminal velocity: the inverse of the terminal velocity.
 
-    A rising particle may be given by its speed or by the negative velocity of the convention "positive downwards". A negative
-    velocity of a particle heavier than the fluid, and any velocity at equal densities, have no size: no value, flagged.
+    A rising particle may be given by its speed or by the negative velocity of the convention "positive
+    downwards". A negative velocity of a particle heavier than the fluid, and any velocity at equal densities,
+    have no size: no value, flagged.
 
-    >>> round(1e6 * terminal_diameter(velocity="4.92 mm/s", particle_density=2630, fluid_density=1020,
-    ...                               dynamic_viscosity="1.2 cP"), 1)
+    >>> round(
+    ...     1e6
+    ...     * terminal_diameter(
+    ...         velocity="4.92 mm/s", particle_density=2630, fluid_density=1020, dynamic_viscosity="1.2 cP"
+    ...     ),
+    ...     1,
+    ... )
     85.0
     """
     rho, eta = fluid_density, dynamic_viscosity

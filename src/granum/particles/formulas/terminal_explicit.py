@@ -1,4 +1,6 @@
-"""Terminal velocity without iteration: one regime at a time, and explicit fits to the whole curve. Positive downwards."""
+"""Terminal velocity without iteration: one regime at a time, and explicit fits to the whole curve. Positive
+downwards.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,17 @@ import jax.numpy as jnp
 
 from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Sphericity, Velocity, Within
+from granum.core.kinds import (
+    Acceleration,
+    Density,
+    DynamicViscosity,
+    Length,
+    PositiveNumber,
+    Ratio,
+    Sphericity,
+    Velocity,
+    Within,
+)
 
 
 def _reynolds(velocity: Any, d: Any, rho: Any, eta: Any) -> Any:
@@ -19,7 +31,11 @@ def _archimedes(d: Any, rho_p: Any, rho: Any, eta: Any, g: Any) -> Any:
     return jnp.maximum(rho * abs(rho_p - rho) * g * d**3 / eta**2, 1e-30)
 
 
-@formula(source="stokes1851; clift1978, eq. 3-18", equation=r"v_t = \frac{g(\rho_p-\rho_f)d_p^2}{18\eta}", fitted={"reynolds": (0.0, 0.2)})
+@formula(
+    source="stokes1851; clift1978, eq. 3-18",
+    equation=r"v_t = \frac{g(\rho_p-\rho_f)d_p^2}{18\eta}",
+    fitted={"reynolds": (0.0, 0.2)},
+)
 def terminal_velocity_stokes(
     particle_diameter: Length,
     particle_density: Density,
@@ -29,11 +45,18 @@ def terminal_velocity_stokes(
 ) -> Velocity:
     """Terminal velocity of a sphere in creeping flow by Stokes.
 
-    >>> round(1000 * terminal_velocity_stokes(particle_diameter="20 um", particle_density=2650, fluid_density=1000,
-    ...                                       dynamic_viscosity="1 cP"), 4)
+    >>> round(
+    ...     1000
+    ...     * terminal_velocity_stokes(
+    ...         particle_diameter="20 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     4,
+    ... )
     0.3596
     """
-    velocity = gravity * (particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
+    velocity = (
+        gravity * (particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
+    )
     watch(reynolds=_reynolds(velocity, particle_diameter, fluid_density, dynamic_viscosity))
     return velocity
 
@@ -55,11 +78,21 @@ def terminal_velocity_power_law(
     """Terminal velocity of a sphere for any drag law of the form C_D = a Re⁻ⁿ.
 
     Stokes a = 24, n = 1; Allen 18.5, 0.6; Newton 0.44, 0; and the five rows of the course's table III.2.
-    Differs from the print: that table gives U_lim without the fluid density to the power −(1 − n)/(2 − n), so its numbers
-    hold for no liquid in SI units except in the Stokes row; the last row writes 5.40 √(Δρ d) for 5.45 √(Δρ d/ρ_f).
+    Differs from the print: that table gives U_lim without the fluid density to the power −(1 − n)/(2 − n), so
+    its numbers hold for no liquid in SI units except in the Stokes row; the last row writes 5.40 √(Δρ d) for
+    5.45 √(Δρ d/ρ_f).
 
-    >>> round(terminal_velocity_power_law(particle_diameter="10 mm", particle_density=2650, fluid_density=1000,
-    ...                                   dynamic_viscosity="1 cP", drag_factor=0.44, drag_exponent=0.0), 3)
+    >>> round(
+    ...     terminal_velocity_power_law(
+    ...         particle_diameter="10 mm",
+    ...         particle_density=2650,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...         drag_factor=0.44,
+    ...         drag_exponent=0.0,
+    ...     ),
+    ...     3,
+    ... )
     0.7
     """
     n, d, rho, eta = drag_exponent, particle_diameter, fluid_density, dynamic_viscosity
@@ -84,11 +117,21 @@ def terminal_velocity_allen(
 ) -> Velocity:
     """Terminal velocity of a sphere in the intermediate regime with Allen's drag.
 
-    >>> round(1000 * terminal_velocity_allen(particle_diameter="500 um", particle_density=2650, fluid_density=1000,
-    ...                                      dynamic_viscosity="1 cP"), 1)
+    >>> round(
+    ...     1000
+    ...     * terminal_velocity_allen(
+    ...         particle_diameter="500 um",
+    ...         particle_density=2650,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...     ),
+    ...     1,
+    ... )
     70.2
     """
-    velocity = terminal_velocity_power_law(particle_diameter, particle_density, fluid_density, dynamic_viscosity, 18.5, 0.6, gravity)
+    velocity = terminal_velocity_power_law(
+        particle_diameter, particle_density, fluid_density, dynamic_viscosity, 18.5, 0.6, gravity
+    )
     watch(reynolds=_reynolds(velocity, particle_diameter, fluid_density, dynamic_viscosity))
     return velocity
 
@@ -109,10 +152,17 @@ def terminal_velocity_newton(
 
     Differs from the print: the course writes the factor 4/(3·0.44) = 3.03 as 3 and once ρ_f as ρ_f^1.44.
 
-    >>> round(terminal_velocity_newton(particle_diameter="10 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"), 3)
+    >>> round(
+    ...     terminal_velocity_newton(
+    ...         particle_diameter="10 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     3,
+    ... )
     0.7
     """
-    velocity = terminal_velocity_power_law(particle_diameter, particle_density, fluid_density, dynamic_viscosity, 0.44, 0.0, gravity)
+    velocity = terminal_velocity_power_law(
+        particle_diameter, particle_density, fluid_density, dynamic_viscosity, 0.44, 0.0, gravity
+    )
     watch(reynolds=_reynolds(velocity, particle_diameter, fluid_density, dynamic_viscosity))
     return velocity
 
@@ -135,8 +185,12 @@ def terminal_velocity_khan_richardson(
 ) -> Velocity:
     """Terminal velocity of a sphere, explicit in the Archimedes number, by Khan and Richardson.
 
-    >>> round(terminal_velocity_khan_richardson(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                         dynamic_viscosity="1 cP"), 3)
+    >>> round(
+    ...     terminal_velocity_khan_richardson(
+    ...         particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     3,
+    ... )
     0.159
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
@@ -150,7 +204,7 @@ def terminal_velocity_khan_richardson(
 
 @formula(
     source="brown2003",
-    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.898\frac{0.936 d_*+1}{d_*+1}} + \left(\frac{0.317}{d_*}\right)^{0.449}\right]^{-1.114},"
+    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.898\frac{0.936 d_*+1}{d_*+1}} + \left(\frac{0.317}{d_*}\right)^{0.449}\right]^{-1.114},"  # noqa: E501
     r"\quad d_* = \mathrm{Ar}^{1/3},\ u_* = \mathrm{Re}\,\mathrm{Ar}^{-1/3}",
     fitted={"reynolds": (0.0, 4000.0)},
 )
@@ -163,8 +217,12 @@ def terminal_velocity_brown_lawler(
 ) -> Velocity:
     """Terminal velocity of a sphere, explicit in the dimensionless diameter, by Brown and Lawler.
 
-    >>> round(terminal_velocity_brown_lawler(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                      dynamic_viscosity="1 cP"), 3)
+    >>> round(
+    ...     terminal_velocity_brown_lawler(
+    ...         particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     3,
+    ... )
     0.162
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
@@ -190,8 +248,16 @@ def terminal_velocity_haider_levenspiel(
 ) -> Velocity:
     """Terminal velocity of a particle of any sphericity above one half, explicit, by Haider and Levenspiel.
 
-    >>> round(terminal_velocity_haider_levenspiel(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                           dynamic_viscosity="1 cP", sphericity=0.8), 3)
+    >>> round(
+    ...     terminal_velocity_haider_levenspiel(
+    ...         particle_diameter="1 mm",
+    ...         particle_density=2650,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...         sphericity=0.8,
+    ...     ),
+    ...     3,
+    ... )
     0.118
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
@@ -202,7 +268,7 @@ def terminal_velocity_haider_levenspiel(
 
 @formula(
     source="turton1987",
-    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.824} + \left(\frac{0.321}{d_*}\right)^{0.412}\right]^{-1.214}",
+    equation=r"u_* = \left[\left(\frac{18}{d_*^2}\right)^{0.824} + \left(\frac{0.321}{d_*}\right)^{0.412}\right]^{-1.214}",  # noqa: E501
     fitted={"reynolds": (0.0, 2.6e5)},
 )
 def terminal_velocity_turton_clark(
@@ -214,8 +280,12 @@ def terminal_velocity_turton_clark(
 ) -> Velocity:
     """Terminal velocity of a sphere, explicit in the dimensionless diameter, by Turton and Clark.
 
-    >>> round(terminal_velocity_turton_clark(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                      dynamic_viscosity="1 cP"), 3)
+    >>> round(
+    ...     terminal_velocity_turton_clark(
+    ...         particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     3,
+    ... )
     0.161
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
@@ -241,8 +311,12 @@ def terminal_velocity_zigrang_sylvester(
 
     The two constants do not cancel exactly, which spoils it for very small particles (Ar below 1e-2).
 
-    >>> round(terminal_velocity_zigrang_sylvester(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                           dynamic_viscosity="1 cP"), 3)
+    >>> round(
+    ...     terminal_velocity_zigrang_sylvester(
+    ...         particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     3,
+    ... )
     0.142
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
@@ -253,7 +327,7 @@ def terminal_velocity_zigrang_sylvester(
 
 @formula(
     source="ferguson2004, eq. 4",
-    equation=r"v_t = \frac{R g d_p^2}{C_1\nu + \sqrt{0.75\,C_2 R g d_p^3}},\quad R = \frac{\rho_p-\rho_f}{\rho_f}",
+    equation=r"v_t = \frac{R g d_p^2}{C_1\nu + \sqrt{0.75\,C_2 R g d_p^3}},\quad R = \frac{\rho_p-\rho_f}{\rho_f}",  # noqa: E501
     typical={"newton_drag": (0.4, 1.2)},
 )
 def terminal_velocity_ferguson_church(
@@ -266,11 +340,16 @@ def terminal_velocity_ferguson_church(
 ) -> Velocity:
     """Terminal velocity of sediment grains by Ferguson and Church.
 
-    The drag at high Reynolds number is 0.4 for smooth spheres, 1.0 for natural sand by sieve diameter, 1.2 for angular grains;
-    Stokes' constant is 18.
+    The drag at high Reynolds number is 0.4 for smooth spheres, 1.0 for natural sand by sieve diameter,
+    1.2 for angular grains; Stokes' constant is 18.
 
-    >>> round(1000 * terminal_velocity_ferguson_church(particle_diameter="1 mm", particle_density=2650, fluid_density=1000,
-    ...                                                dynamic_viscosity="1 cP"), 0)
+    >>> round(
+    ...     1000
+    ...     * terminal_velocity_ferguson_church(
+    ...         particle_diameter="1 mm", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     0,
+    ... )
     126.0
     """
     d = particle_diameter

@@ -14,7 +14,8 @@ from granum.core.kinds import PositiveNumber, Ratio
     fitted={"reynolds": (0.0, 200.0)},
 )
 def nusselt_number_ranz_marshall(reynolds: Ratio, prandtl_number: PositiveNumber) -> PositiveNumber:
-    """Nusselt number of a sphere in a stream, from evaporating drops; with Schmidt for Prandtl it is the Sherwood number.
+    """Nusselt number of a sphere in a stream, from evaporating drops; with Schmidt for Prandtl it is the
+    Sherwood number.
 
     Still fluid gives the exact limit of conduction into an infinite medium:
 

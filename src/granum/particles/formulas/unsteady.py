@@ -1,7 +1,8 @@
 """Unsteady fall in a fluid at rest: closed forms for Stokes and Newton drag, quadrature for any other.
 
-The inertia is that of the particle plus ``added_mass_coefficient`` times that of the displaced fluid: zero in the courses, one half
-for a sphere in a liquid. The history force is left out. Velocities and distances are positive downwards.
+The inertia is that of the particle plus ``added_mass_coefficient`` times that of the displaced fluid: zero in
+the courses, one half for a sphere in a liquid. The history force is left out. Velocities and distances are
+positive downwards.
 """
 
 from __future__ import annotations
@@ -47,10 +48,20 @@ def relaxation_time(
 ) -> Time:
     """Relaxation time of a particle in creeping flow: after it, 63 % of the terminal velocity is reached.
 
-    >>> round(1e6 * relaxation_time(particle_diameter="10 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"), 2)
+    >>> round(
+    ...     1e6
+    ...     * relaxation_time(
+    ...         particle_diameter="10 um", particle_density=2650, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     ),
+    ...     2,
+    ... )
     14.72
     """
-    return (particle_density + added_mass_coefficient * fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
+    return (
+        (particle_density + added_mass_coefficient * fluid_density)
+        * particle_diameter**2
+        / (18.0 * dynamic_viscosity)
+    )
 
 
 class FallState(NamedTuple):
@@ -62,7 +73,7 @@ class FallState(NamedTuple):
 
 @formula(
     source="clift1978, chapter 11; clift1978, eq. 3-40",
-    equation=r"v = v_t + (v_0 - v_t)e^{-t/\tau},\quad z = v_t t + (v_0 - v_t)\tau\left(1 - e^{-t/\tau}\right)",
+    equation=r"v = v_t + (v_0 - v_t)e^{-t/\tau},\quad z = v_t t + (v_0 - v_t)\tau\left(1 - e^{-t/\tau}\right)",  # noqa: E501
     fitted={"reynolds": (0.0, 0.2)},
     typical={"time": (1e-4, 1e-2), "initial_velocity": (0.0, 0.1), "added_mass_coefficient": (0.0, 0.5)},
 )
@@ -80,22 +91,37 @@ def fall_stokes(
 
     Stokes' law, whose drag is 4 % too low at a Reynolds number of 0.2 (Oseen).
 
-    >>> found = fall_stokes(particle_diameter="18 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP",
-    ...                     time=36e-6, gravity=10.0)
+    >>> found = fall_stokes(
+    ...     particle_diameter="18 um",
+    ...     particle_density=2000,
+    ...     fluid_density=1000,
+    ...     dynamic_viscosity="1 cP",
+    ...     time=36e-6,
+    ...     gravity=10.0,
+    ... )
     >>> round(found.velocity / (10.0 * 1000 * 18e-6**2 / 18e-3), 4)
     0.6321
     """
-    tau = relaxation_time(particle_diameter, particle_density, fluid_density, dynamic_viscosity, added_mass_coefficient)
-    terminal = gravity * (particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
+    tau = relaxation_time(
+        particle_diameter, particle_density, fluid_density, dynamic_viscosity, added_mass_coefficient
+    )
+    terminal = (
+        gravity * (particle_density - fluid_density) * particle_diameter**2 / (18.0 * dynamic_viscosity)
+    )
     approach = -jnp.expm1(-time / tau)
     velocity = initial_velocity + (terminal - initial_velocity) * approach
-    watch(reynolds=jnp.maximum(abs(initial_velocity), abs(terminal)) * particle_diameter * fluid_density / dynamic_viscosity)
+    watch(
+        reynolds=jnp.maximum(abs(initial_velocity), abs(terminal))
+        * particle_diameter
+        * fluid_density
+        / dynamic_viscosity
+    )
     return FallState(velocity, terminal * time + (initial_velocity - terminal) * tau * approach)
 
 
 @formula(
     source="clift1978, chapter 11; newton1687",
-    equation=r"v = v_t\tanh\frac{t}{\tau_N},\quad z = v_t\tau_N\ln\cosh\frac{t}{\tau_N},\quad \tau_N = \frac{(\rho_p + C_A\rho_f)\,v_t}{g(\rho_p-\rho_f)}",
+    equation=r"v = v_t\tanh\frac{t}{\tau_N},\quad z = v_t\tau_N\ln\cosh\frac{t}{\tau_N},\quad \tau_N = \frac{(\rho_p + C_A\rho_f)\,v_t}{g(\rho_p-\rho_f)}",  # noqa: E501
     typical={"time": (1e-3, 1.0), "added_mass_coefficient": (0.0, 0.5), "particle_diameter": (5e-3, 5e-2)},
 )
 def fall_newton(
@@ -134,8 +160,8 @@ class Approach(NamedTuple):
 
 @formula(
     source="clift1978, chapter 11; brown2003",
-    equation=r"t = \int_{v_0}^{v_1}\frac{\mathrm dv}{a(v)},\ z = \int_{v_0}^{v_1}\frac{v\,\mathrm dv}{a(v)},\quad"
-    r"a = \frac{\rho_p-\rho_f}{\rho_p+C_A\rho_f}g\left[1 - \frac{v|v|C_D(\mathrm{Re})}{v_t^2C_D(\mathrm{Re}_t)}\right],\ v_1 = v_0 + f(v_t - v_0)",
+    equation=r"t = \int_{v_0}^{v_1}\frac{\mathrm dv}{a(v)},\ z = \int_{v_0}^{v_1}\frac{v\,\mathrm dv}{a(v)},\quad"  # noqa: E501
+    r"a = \frac{\rho_p-\rho_f}{\rho_p+C_A\rho_f}g\left[1 - \frac{v|v|C_D(\mathrm{Re})}{v_t^2C_D(\mathrm{Re}_t)}\right],\ v_1 = v_0 + f(v_t - v_0)",  # noqa: E501
     typical={"approach_fraction": (0.5, 0.99), "added_mass_coefficient": (0.0, 0.5)},
 )
 def approach_to_terminal(
@@ -148,13 +174,22 @@ def approach_to_terminal(
     drag: Drag = drag_coefficient_brown_lawler,
     added_mass_coefficient: Ratio = 0.0,
 ) -> Approach:
-    """Time and distance from rest until a fraction of the terminal velocity is reached, under any drag law.
+    """Time and distance from rest until a fraction of the terminal velocity is reached, under any drag
+    law.
 
-    With equal densities nothing moves: the velocity is zero, the time has no meaning and is not a number, flagged.
+    With equal densities nothing moves: the velocity is zero, the time has no meaning and is not a number,
+    flagged.
 
-    >>> found = approach_to_terminal(particle_diameter="1 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP",
-    ...                              approach_fraction=0.99)
-    >>> tau = relaxation_time(particle_diameter="1 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP")
+    >>> found = approach_to_terminal(
+    ...     particle_diameter="1 um",
+    ...     particle_density=2000,
+    ...     fluid_density=1000,
+    ...     dynamic_viscosity="1 cP",
+    ...     approach_fraction=0.99,
+    ... )
+    >>> tau = relaxation_time(
+    ...     particle_diameter="1 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP"
+    ... )
     >>> round(found.time / tau, 3)
     4.605
     """
@@ -183,12 +218,16 @@ def approach_to_terminal(
     time = speed / start * gauss_legendre(time_density, 0.0, end, order=NODES)
     distance = speed**2 / start * gauss_legendre(lambda u: share(u) * time_density(u), 0.0, end, order=NODES)
     sign = jnp.sign(excess)
-    return Approach(jnp.where(heavy, time, jnp.nan), sign * distance, sign * jnp.where(heavy, speed, 0.0) * approach_fraction)
+    return Approach(
+        jnp.where(heavy, time, jnp.nan),
+        sign * distance,
+        sign * jnp.where(heavy, speed, 0.0) * approach_fraction,
+    )
 
 
 @formula(
     source="clift1978, chapter 11; hinds1999, chapter 5",
-    equation=r"s = \frac{4(\rho_p + C_A\rho_f)d_p}{3\rho_f}\int_0^{\mathrm{Re}_0}\frac{\mathrm d\mathrm{Re}}{\mathrm{Re}\,C_D(\mathrm{Re})}",
+    equation=r"s = \frac{4(\rho_p + C_A\rho_f)d_p}{3\rho_f}\int_0^{\mathrm{Re}_0}\frac{\mathrm d\mathrm{Re}}{\mathrm{Re}\,C_D(\mathrm{Re})}",  # noqa: E501
     typical={"initial_velocity": (0.01, 10.0), "added_mass_coefficient": (0.0, 0.5)},
 )
 def stopping_distance(
@@ -204,8 +243,17 @@ def stopping_distance(
 
     The law must tend to Stokes' law at small Reynolds numbers; a constant drag never stops a particle.
 
-    >>> round(1e3 * stopping_distance(particle_diameter="1 um", particle_density=1000, fluid_density=1.2, dynamic_viscosity=1.81e-5,
-    ...                               initial_velocity=0.01), 8)
+    >>> round(
+    ...     1e3
+    ...     * stopping_distance(
+    ...         particle_diameter="1 um",
+    ...         particle_density=1000,
+    ...         fluid_density=1.2,
+    ...         dynamic_viscosity=1.81e-5,
+    ...         initial_velocity=0.01,
+    ...     ),
+    ...     8,
+    ... )
     3.067e-05
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity

@@ -1,4 +1,6 @@
-"""Slowing of a sphere on the axis of a cylinder: velocity in the vessel over velocity in an unbounded fluid."""
+"""Slowing of a sphere on the axis of a cylinder: velocity in the vessel over velocity in an unbounded
+fluid.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ WallRatio = Annotated[Ratio, Within(0.0, 0.999)]
 
 @formula(
     source="haberman1958; clift1978, table 9.2",
-    equation=r"k = \frac{1 - 2.105\lambda + 2.0865\lambda^3 - 1.7068\lambda^5 + 0.72603\lambda^6}{1 - 0.75857\lambda^5}",
+    equation=r"k = \frac{1 - 2.105\lambda + 2.0865\lambda^3 - 1.7068\lambda^5 + 0.72603\lambda^6}{1 - 0.75857\lambda^5}",  # noqa: E501
     fitted={"wall_ratio": (0.0, 0.8), "reynolds": (0.0, 0.1)},
 )
 def wall_factor_haberman_sayre(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01) -> Ratio:
@@ -101,16 +103,19 @@ def wall_factor_munroe(wall_ratio: WallRatio, reynolds: PositiveNumber = 1e4) ->
     0.875
     """
     positive = wall_ratio > 0.0
-    return jnp.broadcast_arrays(1.0 - jnp.where(positive, jnp.where(positive, wall_ratio, 1.0) ** 1.5, 0.0), reynolds)[0]
+    return jnp.broadcast_arrays(
+        1.0 - jnp.where(positive, jnp.where(positive, wall_ratio, 1.0) ** 1.5, 0.0), reynolds
+    )[0]
 
 
 @formula(
     source="difelice1996",
-    equation=r"k = \left(\frac{1-\lambda}{1-0.33\lambda}\right)^{\alpha},\quad \frac{3.3-\alpha}{\alpha-0.85} = 0.1\,\mathrm{Re}",
+    equation=r"k = \left(\frac{1-\lambda}{1-0.33\lambda}\right)^{\alpha},\quad \frac{3.3-\alpha}{\alpha-0.85} = 0.1\,\mathrm{Re}",  # noqa: E501
     fitted={"wall_ratio": (0.0, 0.97), "reynolds": (0.0, 3e4)},
 )
 def wall_factor_di_felice(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01) -> Ratio:
-    """Wall factor of a rigid sphere from creeping to turbulent flow by Di Felice, on the unbounded Reynolds number.
+    """Wall factor of a rigid sphere from creeping to turbulent flow by Di Felice, on the unbounded Reynolds
+    number.
 
     >>> round(wall_factor_di_felice(wall_ratio=0.25, reynolds=1e-9), 4)
     0.5142
@@ -121,13 +126,14 @@ def wall_factor_di_felice(wall_ratio: WallRatio, reynolds: PositiveNumber = 0.01
 
 @formula(
     source="kehlenbeck1999",
-    equation=r"k = \frac{1-\lambda^p}{1+(\lambda/\lambda_0)^p},\ \frac{\lambda_0-0.283}{1.2-\lambda_0} = 0.041\,\mathrm{Re}^{0.524},"
+    equation=r"k = \frac{1-\lambda^p}{1+(\lambda/\lambda_0)^p},\ \frac{\lambda_0-0.283}{1.2-\lambda_0} = 0.041\,\mathrm{Re}^{0.524},"  # noqa: E501
     r"\ p = 1.44+0.5466\,\mathrm{Re}^{0.434}\ (\mathrm{Re}\le35),\ 2.3+37.3\,\mathrm{Re}^{-0.8686}",
     fitted={"wall_ratio": (0.0, 0.9), "reynolds": (2.0, 185.0)},
     typical={"wall_ratio": (0.05, 0.8)},
 )
 def wall_factor_kehlenbeck_di_felice(wall_ratio: WallRatio, reynolds: PositiveNumber = 20.0) -> Ratio:
-    """Wall factor of a rigid sphere in the intermediate regime by Kehlenbeck and Di Felice, on the unbounded Reynolds number.
+    """Wall factor of a rigid sphere in the intermediate regime by Kehlenbeck and Di Felice, on the unbounded
+    Reynolds number.
 
     >>> round(wall_factor_kehlenbeck_di_felice(wall_ratio=0.001, reynolds=20.0), 4)
     1.0

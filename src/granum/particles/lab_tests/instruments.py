@@ -23,7 +23,8 @@ from granum.particles.lab_tests.size_test import SizeLawName, SizeTest
 class LaserDiffraction(SizeTest):
     """Size distribution from a cumulative curve, as laser instruments and sedimentation give it.
 
-    The last point must be 100 %. When the first is above 0 % the material below it has no measured lower limit and is flagged.
+    The last point must be 100 %. When the first is above 0 % the material below it has no measured lower
+    limit and is flagged.
 
     >>> test = LaserDiffraction([1e-6, 10e-6, 100e-6], [0.0, 0.4, 1.0])
     >>> round(float(test.distribution().percentile(0.7)) * 1e6, 3)
@@ -44,7 +45,9 @@ class LaserDiffraction(SizeTest):
         sizes, below = np.asarray(self.particle_diameter), np.asarray(self.cumulative_fraction)
         if below[-1] < 1.0 - SUM_TOLERANCE:
             raise InputError(
-                _("The curve ends at {last} %: add the size below which everything lies.").format(last=f"{100 * below[-1]:.4g}"),
+                _("The curve ends at {last} %: add the size below which everything lies.").format(
+                    last=f"{100 * below[-1]:.4g}"
+                ),
                 name="cumulative_fraction",
             )
         if below[0] > 0.0:
@@ -65,13 +68,17 @@ class LaserDiffraction(SizeTest):
         first = float(np.asarray(self.cumulative_fraction)[0])
         if first == 0.0 or self.smallest_size is not None:
             return []
-        text = _("{share} % lies below the first point, whose smallest size was not measured: figures that depend on it are extrapolated.")
+        text = _(
+            "{share} % lies below the first point, whose smallest size was not measured: figures that "
+            "depend on it are extrapolated."
+        )
         return [self.note("extrapolated", text.format(share=f"{100 * first:.3g}"), "smallest_size")]
 
 
 @lab_test("particle_counter", source="iso9276-2; iso13319", title="Particle counter (numbers by class)")
 class ParticleCounter(SizeTest):
-    """Size distribution from counts, one per class between neighboring limits; the class of a limit is the one below it.
+    """Size distribution from counts, one per class between neighboring limits; the class of a limit is the
+    one below it.
 
     >>> test = ParticleCounter([2e-6, 4e-6, 8e-6, 16e-6], [0, 10, 30, 10])
     >>> [round(float(f), 2) for f in test.distribution().fractions]
@@ -88,7 +95,10 @@ class ParticleCounter(SizeTest):
         edges, numbers = np.asarray(self.class_edges), np.asarray(self.class_numbers)
         if numbers[0] > 0.0:
             raise InputError(
-                _("The first limit only opens the first class: its count must be 0. Add a smaller limit below which nothing was counted."),
+                _(
+                    "The first limit only opens the first class: its count must be 0. Add a smaller "
+                    "limit below which nothing was counted."
+                ),
                 name="class_numbers",
                 value=float(numbers[0]),
             )
@@ -108,8 +118,8 @@ class ParticleCounter(SizeTest):
 class ImageAnalysis(SizeTest):
     """Means of particles measured one by one, with the intervals that the number of particles allows.
 
-    The standard errors of the means follow from the scatter of the particles by the delta method, so they say whether enough particles
-    were measured: a few coarse ones rule D[4,3].
+    The standard errors of the means follow from the scatter of the particles by the delta method, so they say
+    whether enough particles were measured: a few coarse ones rule D[4,3].
 
     >>> test = ImageAnalysis([10e-6, 20e-6, 20e-6, 30e-6])
     >>> round(test.fit()["mean_diameter_number_length"].value * 1e6, 3)
@@ -123,7 +133,9 @@ class ImageAnalysis(SizeTest):
         """Classes between neighboring sizes, by number: half of each particle on either side."""
         sizes, counts = np.unique(np.asarray(self.particle_diameter), return_counts=True)
         if sizes.size < 2:
-            raise InputError(_("All particles have one size: there is no distribution to fit."), name="particle_diameter")
+            raise InputError(
+                _("All particles have one size: there is no distribution to fit."), name="particle_diameter"
+            )
         return SizeDistribution.from_amounts(sizes, 0.5 * (counts[1:] + counts[:-1]), "number")
 
     def points(self) -> tuple[Any, Any]:
@@ -147,11 +159,17 @@ class ImageAnalysis(SizeTest):
         if not far or found.diagnostics is None or x.size - len(far) < 2:
             return []
         without = {name: e.value for name, e in _means(np.delete(x, list(far))).items()}
-        told = replace(found.diagnostics, stray=tuple(far), deviations=tuple(far.values()), without=without, robust={})
+        told = replace(
+            found.diagnostics, stray=tuple(far), deviations=tuple(far.values()), without=without, robust={}
+        )
         return stray_note(told, found, self.rows(x, x))
 
 
-MEANS = {"mean_diameter_number_length": (1, 0), "mean_diameter_surface_volume": (3, 2), "mean_diameter_mass": (4, 3)}
+MEANS = {
+    "mean_diameter_number_length": (1, 0),
+    "mean_diameter_surface_volume": (3, 2),
+    "mean_diameter_mass": (4, 3),
+}
 
 
 def _means(x: np.ndarray) -> dict[str, Estimate]:

@@ -20,10 +20,11 @@ from granum.particles.lab_tests.size_test import SizeLawName, SizeTest
 class SieveAnalysis(SizeTest):
     """Size distribution from the mass retained on each sieve of a stack.
 
-    Sieves are given from coarse to fine or from fine to coarse. Material in the pan has no measured lower limit: give the smallest size,
-    or it counts from 0 and is flagged. Material on the top sieve ends at the largest size; without one, the class above is taken
-    as wide as the one below it, by ratio, and flagged. The loss is the sample mass less all that was found; in wet sieving
-    (``washed``) it went through the finest sieve and counts as pan.
+    Sieves are given from coarse to fine or from fine to coarse. Material in the pan has no measured lower
+    limit: give the smallest size, or it counts from 0 and is flagged. Material on the top sieve ends at the
+    largest size; without one, the class above is taken as wide as the one below it, by ratio, and flagged.
+    The loss is the sample mass less all that was found; in wet sieving (``washed``) it went through the
+    finest sieve and counts as pan.
 
     >>> test = SieveAnalysis([500e-6, 250e-6, 125e-6], [0.0, 0.06, 0.03], pan_mass=0.01)
     >>> [round(float(f), 3) for f in test.distribution().fractions]
@@ -48,9 +49,10 @@ class SieveAnalysis(SizeTest):
         step = np.diff(aperture)
         if not (np.all(step > 0) or np.all(step < 0)):
             raise InputError(
-                _("Sieves must run from coarse to fine or from fine to coarse, each aperture once; check sieve {place}.").format(
-                    place=int(np.argmax(np.sign(step) != np.sign(step[0]))) + 2
-                ),
+                _(
+                    "Sieves must run from coarse to fine or from fine to coarse, each aperture once; "
+                    "check sieve {place}."
+                ).format(place=int(np.argmax(np.sign(step) != np.sign(step[0]))) + 2),
                 name="aperture",
             )
         order = np.argsort(aperture)
@@ -62,7 +64,10 @@ class SieveAnalysis(SizeTest):
         if not self.washed:
             return self.pan_mass
         if self.sample_mass is None:
-            raise InputError(_("Wet sieving needs the dry mass of the sample: what was washed away follows from it."), name="sample_mass")
+            raise InputError(
+                _("Wet sieving needs the dry mass of the sample: what was washed away follows from it."),
+                name="sample_mass",
+            )
         return max(self.sample_mass - float(np.sum(self.retained_mass)), self.pan_mass)
 
     @property
@@ -83,20 +88,29 @@ class SieveAnalysis(SizeTest):
             edges = np.concatenate([[self._smallest(aperture[0])], edges])
             amounts = np.concatenate([[self.fine_mass], amounts])
         if mass[-1] > 0.0:
-            edges, amounts = np.concatenate([edges, [self._largest(aperture)]]), np.concatenate([amounts, mass[-1:]])
+            edges, amounts = (
+                np.concatenate([edges, [self._largest(aperture)]]),
+                np.concatenate([amounts, mass[-1:]]),
+            )
         return SizeDistribution.from_amounts(edges, amounts, "mass", self.in_class)
 
     def _smallest(self, finest: float) -> float:
         size = 0.0 if self.smallest_size is None else self.smallest_size
         if size >= finest:
-            raise InputError(_("The smallest size must lie below the finest sieve."), name="smallest_size", value=size)
+            raise InputError(
+                _("The smallest size must lie below the finest sieve."), name="smallest_size", value=size
+            )
         return size
 
     def _largest(self, aperture: np.ndarray) -> float:
         if self.largest_size is None:
             return float(aperture[-1] ** 2 / aperture[-2])
         if self.largest_size <= aperture[-1]:
-            raise InputError(_("The largest size must lie above the coarsest sieve."), name="largest_size", value=self.largest_size)
+            raise InputError(
+                _("The largest size must lie above the coarsest sieve."),
+                name="largest_size",
+                value=self.largest_size,
+            )
         return self.largest_size
 
     def class_rows(self) -> np.ndarray:
@@ -107,7 +121,9 @@ class SieveAnalysis(SizeTest):
         """Apertures and the mass fractions that pass them."""
         aperture, mass = self._sorted()
         below = self.fine_mass + np.concatenate([[0.0], np.cumsum(mass[:-1])])
-        return aperture, np.minimum(below / self.found_mass, 1.0)  # a sum may exceed the whole by its rounding
+        return aperture, np.minimum(
+            below / self.found_mass, 1.0
+        )  # a sum may exceed the whole by its rounding
 
     def notices(self) -> list[dict[str, Any]]:
         """Pan without a lower limit, top class without an upper one, loss above what is allowed."""
@@ -115,14 +131,23 @@ class SieveAnalysis(SizeTest):
         top = self._sorted()[1][-1]
         if self.fine_mass > 0.0 and self.smallest_size is None:
             share = format_number(100.0 * self.fine_mass / self.found_mass)
-            text = _("{share} % lies in the pan, whose smallest size was not measured: figures that depend on it are extrapolated.")
+            text = _(
+                "{share} % lies in the pan, whose smallest size was not measured: figures that depend "
+                "on it are extrapolated."
+            )
             found.append(self.note("extrapolated", text.format(share=share), "pan_mass"))
         if top > 0.0 and self.largest_size is None:
             share = format_number(100.0 * top / self.found_mass)
-            text = _("{share} % stays on the top sieve; its largest size was not given and is assumed by the ratio of the class below.")
+            text = _(
+                "{share} % stays on the top sieve; its largest size was not given and is assumed by the "
+                "ratio of the class below."
+            )
             found.append(self.note("extrapolated", text.format(share=share), "largest_size"))
         if abs(self.loss_fraction) > self.loss_allowed:
-            text = _("The masses found differ from the sample by {loss} %, more than the {allowed} % allowed: repeat the test.")
+            text = _(
+                "The masses found differ from the sample by {loss} %, more than the {allowed} % "
+                "allowed: repeat the test."
+            )
             loss, allowed = (format_number(100.0 * x) for x in (self.loss_fraction, self.loss_allowed))
             found.append(self.note("limit active", text.format(loss=loss, allowed=allowed), "sample_mass"))
         return found

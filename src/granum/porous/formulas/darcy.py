@@ -28,11 +28,18 @@ AGAINST = "Velocity and pressure drop have opposite signs, or one of them is zer
 
 @formula(source="darcy1856; scheidegger1974", equation=r"\Delta p = \frac{\eta L}{B}U")
 def pressure_drop_darcy(
-    superficial_velocity: Velocity, permeability: Permeability, dynamic_viscosity: DynamicViscosity, length: Length
+    superficial_velocity: Velocity,
+    permeability: Permeability,
+    dynamic_viscosity: DynamicViscosity,
+    length: Length,
 ) -> PressureDifference:
     """Pressure drop of a layer in creeping flow by Darcy.
 
-    >>> round(pressure_drop_darcy(superficial_velocity="1 cm/s", permeability="1 darcy", dynamic_viscosity="1 cP", length="1 cm"))
+    >>> round(
+    ...     pressure_drop_darcy(
+    ...         superficial_velocity="1 cm/s", permeability="1 darcy", dynamic_viscosity="1 cP", length="1 cm"
+    ...     )
+    ... )
     101325
     """
     return dynamic_viscosity * length / permeability * superficial_velocity
@@ -40,11 +47,20 @@ def pressure_drop_darcy(
 
 @formula(source="darcy1856; scheidegger1974", equation=r"U = \frac{B}{\eta}\frac{\Delta p}{L}")
 def superficial_velocity_darcy(
-    pressure_drop: PressureDifference, permeability: Permeability, dynamic_viscosity: DynamicViscosity, length: Length
+    pressure_drop: PressureDifference,
+    permeability: Permeability,
+    dynamic_viscosity: DynamicViscosity,
+    length: Length,
 ) -> Velocity:
     """Superficial velocity through a layer in creeping flow by Darcy.
 
-    >>> round(100 * superficial_velocity_darcy(pressure_drop="1 atm", permeability="1 darcy", dynamic_viscosity="1 cP", length="1 cm"), 6)
+    >>> round(
+    ...     100
+    ...     * superficial_velocity_darcy(
+    ...         pressure_drop="1 atm", permeability="1 darcy", dynamic_viscosity="1 cP", length="1 cm"
+    ...     ),
+    ...     6,
+    ... )
     1.0
     """
     return permeability * pressure_drop / (dynamic_viscosity * length)
@@ -52,13 +68,19 @@ def superficial_velocity_darcy(
 
 @formula(source="darcy1856; scheidegger1974", equation=r"B = \frac{\eta L U}{\Delta p}")
 def permeability_darcy(
-    superficial_velocity: Velocity, pressure_drop: PressureDifference, dynamic_viscosity: DynamicViscosity, length: Length
+    superficial_velocity: Velocity,
+    pressure_drop: PressureDifference,
+    dynamic_viscosity: DynamicViscosity,
+    length: Length,
 ) -> Permeability:
     """Permeability of a layer from one measured velocity and pressure drop in creeping flow.
 
-    One darcy is 0.9869e-12 m²: 1 cP, 1 cm/s, 1 atm per cm. Velocity and pressure drop must have the same sign.
+    One darcy is 0.9869e-12 m²: 1 cP, 1 cm/s, 1 atm per cm. Velocity and pressure drop must have the same
+    sign.
 
-    >>> permeability_darcy(superficial_velocity="1 cm/s", pressure_drop="1 atm", dynamic_viscosity="1 cP", length="1 cm")
+    >>> permeability_darcy(
+    ...     superficial_velocity="1 cm/s", pressure_drop="1 atm", dynamic_viscosity="1 cP", length="1 cm"
+    ... )
     9.869232667160...e-13
     """
     measured = pressure_drop * superficial_velocity > 0.0
@@ -69,19 +91,30 @@ def permeability_darcy(
 
 @formula(source="darcy1856; bear1972", equation=r"K = \frac{B\rho g}{\eta}")
 def hydraulic_conductivity(
-    permeability: Permeability, fluid_density: Density, dynamic_viscosity: DynamicViscosity, gravity: Acceleration = STANDARD_GRAVITY
+    permeability: Permeability,
+    fluid_density: Density,
+    dynamic_viscosity: DynamicViscosity,
+    gravity: Acceleration = STANDARD_GRAVITY,
 ) -> Velocity:
     """Hydraulic conductivity: velocity of a liquid through a layer under a head loss equal to its length.
 
     One darcy with water at 20 °C is about 0.83 m a day.
 
-    >>> round(86400 * hydraulic_conductivity(permeability="1 darcy", fluid_density=998, dynamic_viscosity="1.002 cP"), 2)
+    >>> round(
+    ...     86400
+    ...     * hydraulic_conductivity(permeability="1 darcy", fluid_density=998, dynamic_viscosity="1.002 cP"),
+    ...     2,
+    ... )
     0.83
     """
     return permeability * fluid_density * gravity / dynamic_viscosity
 
 
-@formula(source="darcy1856; bear1972", equation=r"B = \frac{K\eta}{\rho g}", typical={"hydraulic_conductivity": (1e-6, 1e-2)})
+@formula(
+    source="darcy1856; bear1972",
+    equation=r"B = \frac{K\eta}{\rho g}",
+    typical={"hydraulic_conductivity": (1e-6, 1e-2)},
+)
 def permeability_from_conductivity(
     hydraulic_conductivity: Velocity,
     fluid_density: Density,
@@ -90,14 +123,18 @@ def permeability_from_conductivity(
 ) -> Permeability:
     """Permeability from the hydraulic conductivity that hydrology uses.
 
-    >>> permeability_from_conductivity(hydraulic_conductivity=1e-4, fluid_density=1000, dynamic_viscosity="1 cP", gravity=10.0)
+    >>> permeability_from_conductivity(
+    ...     hydraulic_conductivity=1e-4, fluid_density=1000, dynamic_viscosity="1 cP", gravity=10.0
+    ... )
     1.0...e-11
     """
     impossible(~(hydraulic_conductivity > 0), hydraulic_conductivity, "hydraulic_conductivity", 0.0, jnp.inf)
     return hydraulic_conductivity * dynamic_viscosity / (fluid_density * gravity)
 
 
-@formula(source="forchheimer1901; bear1972", equation=r"\frac{\Delta p}{L} = \frac{\eta}{B}U + \beta\rho U|U|")
+@formula(
+    source="forchheimer1901; bear1972", equation=r"\frac{\Delta p}{L} = \frac{\eta}{B}U + \beta\rho U|U|"
+)
 def pressure_drop_forchheimer(
     superficial_velocity: Velocity,
     permeability: Permeability,
@@ -108,8 +145,16 @@ def pressure_drop_forchheimer(
 ) -> PressureDifference:
     """Pressure drop of a layer with inertia by Forchheimer; the inertial coefficient is in 1/m.
 
-    >>> round(pressure_drop_forchheimer(superficial_velocity=0.1, permeability=1e-9, inertial_coefficient=1e4, fluid_density=1000,
-    ...                                 dynamic_viscosity="1 cP", length=0.1))
+    >>> round(
+    ...     pressure_drop_forchheimer(
+    ...         superficial_velocity=0.1,
+    ...         permeability=1e-9,
+    ...         inertial_coefficient=1e4,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...         length=0.1,
+    ...     )
+    ... )
     20000
     """
     U = superficial_velocity
@@ -128,15 +173,29 @@ def superficial_velocity_forchheimer(
     dynamic_viscosity: DynamicViscosity,
     length: Length,
 ) -> Velocity:
-    """Superficial velocity through a layer with inertia from the pressure drop: Forchheimer's quadratic solved.
+    """Superficial velocity through a layer with inertia from the pressure drop: Forchheimer's quadratic
+    solved.
 
-    >>> round(superficial_velocity_forchheimer(pressure_drop=20000.0, permeability=1e-9, inertial_coefficient=1e4, fluid_density=1000,
-    ...                                        dynamic_viscosity="1 cP", length=0.1), 9)
+    >>> round(
+    ...     superficial_velocity_forchheimer(
+    ...         pressure_drop=20000.0,
+    ...         permeability=1e-9,
+    ...         inertial_coefficient=1e4,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...         length=0.1,
+    ...     ),
+    ...     9,
+    ... )
     0.1
     """
     viscous = dynamic_viscosity / permeability
     gradient = pressure_drop / length
-    return 2.0 * gradient / (viscous + jnp.sqrt(viscous**2 + 4.0 * inertial_coefficient * fluid_density * abs(gradient)))
+    return (
+        2.0
+        * gradient
+        / (viscous + jnp.sqrt(viscous**2 + 4.0 * inertial_coefficient * fluid_density * abs(gradient)))
+    )
 
 
 @formula(source="bear1972; forchheimer1901", equation=r"\mathrm{Fo} = \frac{B\beta\rho U}{\eta}")
@@ -147,10 +206,16 @@ def forchheimer_number(
     fluid_density: Density,
     dynamic_viscosity: DynamicViscosity,
 ) -> Ratio:
-    """Forchheimer number: inertial over viscous part of the pressure drop. Darcy's law holds within 10 % below 0.1.
+    """Forchheimer number: inertial over viscous part of the pressure drop. Darcy's law holds within 10 %
+    below 0.1.
 
-    >>> forchheimer_number(superficial_velocity=0.1, permeability=1e-9, inertial_coefficient=1e4, fluid_density=1000,
-    ...                    dynamic_viscosity="1 cP")
+    >>> forchheimer_number(
+    ...     superficial_velocity=0.1,
+    ...     permeability=1e-9,
+    ...     inertial_coefficient=1e4,
+    ...     fluid_density=1000,
+    ...     dynamic_viscosity="1 cP",
+    ... )
     1.0
     """
     return permeability * inertial_coefficient * fluid_density * abs(superficial_velocity) / dynamic_viscosity
@@ -172,7 +237,12 @@ def pressure_drop_poiseuille(
 
     The factor is 1 for a circle, 0.83 for an equilateral triangle, 0.89 for a square and 1.5 for a slit.
 
-    >>> round(pressure_drop_poiseuille(velocity=0.01, pore_diameter="100 um", dynamic_viscosity="1 cP", length="1 cm"), 3)
+    >>> round(
+    ...     pressure_drop_poiseuille(
+    ...         velocity=0.01, pore_diameter="100 um", dynamic_viscosity="1 cP", length="1 cm"
+    ...     ),
+    ...     3,
+    ... )
     320.0
     """
     return 32.0 * noncircularity * dynamic_viscosity * length * velocity / pore_diameter**2
@@ -184,7 +254,8 @@ def pressure_drop_poiseuille(
     typical={"side_ratio": (0.0, 1.0)},
 )
 def noncircularity_rectangle(side_ratio: Annotated[Ratio, Within(0.0, 1.0)]) -> PositiveNumber:
-    """Non-circularity factor of a rectangle from its short over long side: 1.5 for a slit, 0.889 for a square.
+    """Non-circularity factor of a rectangle from its short over long side: 1.5 for a slit, 0.889 for a
+    square.
 
     >>> round(noncircularity_rectangle(side_ratio=0.0), 3), round(noncircularity_rectangle(side_ratio=1.0), 3)
     (1.5, 0.889)
@@ -199,7 +270,9 @@ def noncircularity_rectangle(side_ratio: Annotated[Ratio, Within(0.0, 1.0)]) -> 
     fitted={"klinkenberg_ratio": (0.0, 0.4)},
     typical={"klinkenberg_pressure": (1e3, 1e5)},
 )
-def permeability_klinkenberg(permeability: Permeability, pressure: PressureDrop, klinkenberg_pressure: PressureDrop) -> Permeability:
+def permeability_klinkenberg(
+    permeability: Permeability, pressure: PressureDrop, klinkenberg_pressure: PressureDrop
+) -> Permeability:
     """Apparent permeability to a gas with slip on the pore walls, at the mean pressure.
 
     For mean free paths up to a tenth of the pore radius (Ziarani and Aguilera), where b/p is 0.4.

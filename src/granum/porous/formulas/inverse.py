@@ -1,4 +1,6 @@
-"""Packed beds turned round: pressure drop of a bed, and velocity, particle size or porosity from it, under any law."""
+"""Packed beds turned round: pressure drop of a bed, and velocity, particle size or porosity from it, under
+any law.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,16 @@ from typing import Annotated, Any
 import jax.numpy as jnp
 
 from granum.core import formula, impossible, unconverged
-from granum.core.kinds import Density, DynamicViscosity, Law, Length, PressureDrop, Speed, Sphericity, VoidFraction
+from granum.core.kinds import (
+    Density,
+    DynamicViscosity,
+    Law,
+    Length,
+    PressureDrop,
+    Speed,
+    Sphericity,
+    VoidFraction,
+)
 from granum.numerics import find_root
 from granum.porous.formulas.packed_beds import pressure_gradient_ergun
 
@@ -17,7 +28,10 @@ BedLaw = Annotated[Any, Law("pressure_gradient")]
 LOGIT = 16.0  # porosities searched: 1e-7 to 1 − 1e-7
 
 
-@formula(source="ergun1952; macdonald1979", equation=r"\Delta p = L\,\frac{\mathrm dp}{\mathrm dz}(U, d_p, \varepsilon, \rho, \eta)")
+@formula(
+    source="ergun1952; macdonald1979",
+    equation=r"\Delta p = L\,\frac{\mathrm dp}{\mathrm dz}(U, d_p, \varepsilon, \rho, \eta)",
+)
 def pressure_drop_packed_bed(
     superficial_velocity: Speed,
     length: Length,
@@ -30,16 +44,29 @@ def pressure_drop_packed_bed(
 ) -> PressureDrop:
     """Pressure drop of a packed bed under any law, for a liquid or a gas whose density hardly changes.
 
-    >>> round(pressure_drop_packed_bed(superficial_velocity=1e-3, length=1.0, particle_diameter="0.8 mm", void_fraction=0.4,
-    ...                                fluid_density=1000, dynamic_viscosity="1 cP"), 2)
+    >>> round(
+    ...     pressure_drop_packed_bed(
+    ...         superficial_velocity=1e-3,
+    ...         length=1.0,
+    ...         particle_diameter="0.8 mm",
+    ...         void_fraction=0.4,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...     ),
+    ...     2,
+    ... )
     1338.87
     """
-    gradient = pressure_gradient(superficial_velocity, particle_diameter, void_fraction, fluid_density, dynamic_viscosity, sphericity)
+    gradient = pressure_gradient(
+        superficial_velocity, particle_diameter, void_fraction, fluid_density, dynamic_viscosity, sphericity
+    )
     return length * gradient
 
 
 @formula(
-    source="ergun1952; macdonald1979", equation=r"\frac{\mathrm dp}{\mathrm dz}(U) = \frac{\Delta p}{L}", typical={"length": (0.1, 2.0)}
+    source="ergun1952; macdonald1979",
+    equation=r"\frac{\mathrm dp}{\mathrm dz}(U) = \frac{\Delta p}{L}",
+    typical={"length": (0.1, 2.0)},
 )
 def superficial_velocity_packed_bed(
     pressure_drop: PressureDrop,
@@ -53,8 +80,17 @@ def superficial_velocity_packed_bed(
 ) -> Speed:
     """Superficial velocity that a pressure drop drives through a packed bed under any law.
 
-    >>> round(superficial_velocity_packed_bed(pressure_drop=1338.8671875, length=1.0, particle_diameter="0.8 mm", void_fraction=0.4,
-    ...                                       fluid_density=1000, dynamic_viscosity="1 cP"), 9)
+    >>> round(
+    ...     superficial_velocity_packed_bed(
+    ...         pressure_drop=1338.8671875,
+    ...         length=1.0,
+    ...         particle_diameter="0.8 mm",
+    ...         void_fraction=0.4,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...     ),
+    ...     9,
+    ... )
     0.001
     """
     d, e, rho, eta = sphericity * particle_diameter, void_fraction, fluid_density, dynamic_viscosity
@@ -64,7 +100,9 @@ def superficial_velocity_packed_bed(
     start = jnp.log(1.0 / (1.0 / creeping + 1.0 / turbulent))
 
     def balance(y: Any) -> Any:
-        return jnp.log(pressure_gradient(jnp.exp(y), particle_diameter, e, rho, eta, sphericity)) - jnp.log(wanted)
+        return jnp.log(pressure_gradient(jnp.exp(y), particle_diameter, e, rho, eta, sphericity)) - jnp.log(
+            wanted
+        )
 
     root = find_root(balance, start - 12.0, start + 12.0, start=start)
     unconverged(root.converged)
@@ -74,7 +112,9 @@ def superficial_velocity_packed_bed(
 
 
 @formula(
-    source="ergun1952; macdonald1979", equation=r"\frac{\mathrm dp}{\mathrm dz}(d_p) = \frac{\Delta p}{L}", typical={"length": (0.1, 2.0)}
+    source="ergun1952; macdonald1979",
+    equation=r"\frac{\mathrm dp}{\mathrm dz}(d_p) = \frac{\Delta p}{L}",
+    typical={"length": (0.1, 2.0)},
 )
 def particle_diameter_packed_bed(
     superficial_velocity: Speed,
@@ -88,8 +128,18 @@ def particle_diameter_packed_bed(
 ) -> Length:
     """Particle diameter of the bed that has a given pressure drop at a given velocity, under any law.
 
-    >>> round(1e6 * particle_diameter_packed_bed(superficial_velocity=1e-3, pressure_drop=1338.8671875, length=1.0, void_fraction=0.4,
-    ...                                          fluid_density=1000, dynamic_viscosity="1 cP"), 4)
+    >>> round(
+    ...     1e6
+    ...     * particle_diameter_packed_bed(
+    ...         superficial_velocity=1e-3,
+    ...         pressure_drop=1338.8671875,
+    ...         length=1.0,
+    ...         void_fraction=0.4,
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...     ),
+    ...     4,
+    ... )
     800.0
     """
     U, e, rho, eta = superficial_velocity, void_fraction, fluid_density, dynamic_viscosity
@@ -128,8 +178,17 @@ def void_fraction_packed_bed(
 ) -> VoidFraction:
     """Porosity of the bed that has a given pressure drop at a given velocity, under any law.
 
-    >>> round(void_fraction_packed_bed(superficial_velocity=1e-3, pressure_drop=1338.8671875, length=1.0, particle_diameter="0.8 mm",
-    ...                                fluid_density=1000, dynamic_viscosity="1 cP"), 6)
+    >>> round(
+    ...     void_fraction_packed_bed(
+    ...         superficial_velocity=1e-3,
+    ...         pressure_drop=1338.8671875,
+    ...         length=1.0,
+    ...         particle_diameter="0.8 mm",
+    ...         fluid_density=1000,
+    ...         dynamic_viscosity="1 cP",
+    ...     ),
+    ...     6,
+    ... )
     0.4
     """
     wanted = pressure_drop / length
@@ -141,7 +200,9 @@ def void_fraction_packed_bed(
         return 1.0 / (1.0 + jnp.exp(-y))
 
     def balance(y: Any) -> Any:
-        gradient = pressure_gradient(speed, particle_diameter, porosity(y), fluid_density, dynamic_viscosity, sphericity)
+        gradient = pressure_gradient(
+            speed, particle_diameter, porosity(y), fluid_density, dynamic_viscosity, sphericity
+        )
         return jnp.log(gradient) - jnp.log(wanted)
 
     root = find_root(balance, -LOGIT, LOGIT, start=-0.4)

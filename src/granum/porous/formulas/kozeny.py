@@ -1,4 +1,6 @@
-"""Permeability from structure: Kozeny's bundle of pores, the obstacle model, and the way back to surface, size and porosity."""
+"""Permeability from structure: Kozeny's bundle of pores, the obstacle model, and the way back to surface,
+size and porosity.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,7 @@ class KozenyBundle(NamedTuple):
 
 @formula(
     source="kozeny1927; carman1937",
-    equation=r"d_p = \frac{4\varepsilon}{a_g(1-\varepsilon)},\ N_p = \frac{a_g^2(1-\varepsilon)^2D^2}{16\,\varepsilon T},\ U_p = \frac{T U}{\varepsilon},"
+    equation=r"d_p = \frac{4\varepsilon}{a_g(1-\varepsilon)},\ N_p = \frac{a_g^2(1-\varepsilon)^2D^2}{16\,\varepsilon T},\ U_p = \frac{T U}{\varepsilon},"  # noqa: E501
     r"\ h_K = 2\gamma T^2",
     fitted={"kozeny_coefficient": (3.0, 6.0)},
     typical={"noncircularity": (0.83, 1.5), "tortuosity": (1.2, 2.0)},
@@ -48,12 +50,15 @@ def kozeny_bundle(
     tortuosity: Tortuosity = 1.5,
     noncircularity: PositiveNumber = 1.0,
 ) -> KozenyBundle:
-    """Kozeny's bundle in a round column: pore diameter, number of pores, velocity in them, and the coefficient h_K.
+    """Kozeny's bundle in a round column: pore diameter, number of pores, velocity in them, and the
+    coefficient h_K.
 
-    The specific surface is that of the grains, per volume of solid; the pores are inclined, their length T times that of the column.
-    Measured coefficients are 4.5 ± 1.5.
+    The specific surface is that of the grains, per volume of solid; the pores are inclined, their length T
+    times that of the column. Measured coefficients are 4.5 ± 1.5.
 
-    >>> found = kozeny_bundle(void_fraction=0.4, specific_surface=6e4, diameter=0.05, superficial_velocity=1e-3)
+    >>> found = kozeny_bundle(
+    ...     void_fraction=0.4, specific_surface=6e4, diameter=0.05, superficial_velocity=1e-3
+    ... )
     >>> round(1e6 * found.pore_diameter, 2), round(1000 * found.pore_velocity, 2), found.kozeny_coefficient
     (44.44, 3.75, 4.5)
     """
@@ -74,7 +79,8 @@ def permeability_kozeny_carman(
 ) -> Permeability:
     """Permeability from porosity and the specific surface of the grains by Kozeny and Carman.
 
-    The coefficient is 4.5 ± 1.5; 5 for equal isometric grains with a porosity from 0.3 to 0.6; fibers have more.
+    The coefficient is 4.5 ± 1.5; 5 for equal isometric grains with a porosity from 0.3 to 0.6; fibers have
+    more.
 
     >>> permeability_kozeny_carman(void_fraction=0.4, specific_surface=6e4)
     9.876...e-12
@@ -89,12 +95,15 @@ def permeability_kozeny_carman(
     typical={"void_fraction": (0.3, 0.6)},
 )
 def permeability_carman(
-    particle_diameter: Length, void_fraction: VoidFraction, sphericity: Sphericity = 1.0, kozeny_coefficient: PositiveNumber = 5.0
+    particle_diameter: Length,
+    void_fraction: VoidFraction,
+    sphericity: Sphericity = 1.0,
+    kozeny_coefficient: PositiveNumber = 5.0,
 ) -> Permeability:
     """Permeability of a bed of grains from their diameter: 36 h_K is 180 with the usual coefficient.
 
-    The diameter is that of the sphere of equal volume; sphericity times it is the surface–volume diameter 6/a_g. For equal isometric grains
-    with a porosity from 0.3 to 0.6.
+    The diameter is that of the sphere of equal volume; sphericity times it is the surface–volume diameter
+    6/a_g. For equal isometric grains with a porosity from 0.3 to 0.6.
 
     >>> permeability_carman(particle_diameter="100 um", void_fraction=0.4)
     9.876...e-12
@@ -109,7 +118,9 @@ def permeability_carman(
     fitted={"void_fraction": (0.0, 0.5)},
     typical={"void_fraction": (0.3, 0.5)},
 )
-def permeability_blake_kozeny(particle_diameter: Length, void_fraction: VoidFraction, sphericity: Sphericity = 1.0) -> Permeability:
+def permeability_blake_kozeny(
+    particle_diameter: Length, void_fraction: VoidFraction, sphericity: Sphericity = 1.0
+) -> Permeability:
     """Permeability of a bed of grains by Blake and Kozeny, the creeping part of Ergun's equation.
 
     Good for void fractions below 0.5 (Bird, Stewart and Lightfoot).
@@ -153,18 +164,21 @@ def permeability_obstacles(particle_diameter: Length, void_fraction: VoidFractio
 
 @formula(
     source="happel1958",
-    equation=r"B = \frac{d_p^2}{18\gamma^3}\,\frac{3-\frac92\gamma+\frac92\gamma^5-3\gamma^6}{3+2\gamma^5},\quad \gamma = (1-\varepsilon)^{1/3}",
+    equation=r"B = \frac{d_p^2}{18\gamma^3}\,\frac{3-\frac92\gamma+\frac92\gamma^5-3\gamma^6}{3+2\gamma^5},\quad \gamma = (1-\varepsilon)^{1/3}",  # noqa: E501
 )
 def permeability_happel(particle_diameter: Length, void_fraction: VoidFraction) -> Permeability:
     """Permeability of a bed of spheres of any porosity by Happel's cell with a free surface.
 
-    Its Kozeny coefficient is 4.5 to 5.1 from porosity 0.4 to 0.6, and it tends to the obstacle model for a lonely sphere.
+    Its Kozeny coefficient is 4.5 to 5.1 from porosity 0.4 to 0.6, and it tends to the obstacle model for a
+    lonely sphere.
 
     >>> permeability_happel(particle_diameter="100 um", void_fraction=0.5)
     2.931...e-11
     """
     c = jnp.cbrt(1.0 - void_fraction)
-    return particle_diameter**2 / (18.0 * c**3) * (3.0 - 4.5 * c + 4.5 * c**5 - 3.0 * c**6) / (3.0 + 2.0 * c**5)
+    return (
+        particle_diameter**2 / (18.0 * c**3) * (3.0 - 4.5 * c + 4.5 * c**5 - 3.0 * c**6) / (3.0 + 2.0 * c**5)
+    )
 
 
 @formula(
@@ -206,7 +220,10 @@ def specific_surface_kozeny_carman(
     fitted={"void_fraction": (0.3, 0.6), "kozeny_coefficient": (3.0, 6.0)},
 )
 def particle_diameter_kozeny_carman(
-    permeability: Permeability, void_fraction: VoidFraction, sphericity: Sphericity = 1.0, kozeny_coefficient: PositiveNumber = 5.0
+    permeability: Permeability,
+    void_fraction: VoidFraction,
+    sphericity: Sphericity = 1.0,
+    kozeny_coefficient: PositiveNumber = 5.0,
 ) -> Length:
     """Volume-equivalent diameter of the grains from a measured permeability.
 
@@ -215,7 +232,12 @@ def particle_diameter_kozeny_carman(
     >>> round(1e6 * particle_diameter_kozeny_carman(permeability=9.876543209876543e-12, void_fraction=0.4), 6)
     100.0
     """
-    return 6.0 * jnp.sqrt(kozeny_coefficient * permeability / void_fraction**3) * (1.0 - void_fraction) / sphericity
+    return (
+        6.0
+        * jnp.sqrt(kozeny_coefficient * permeability / void_fraction**3)
+        * (1.0 - void_fraction)
+        / sphericity
+    )
 
 
 @formula(
@@ -245,7 +267,10 @@ def void_fraction_kozeny_carman(
     return 1.0 / (1.0 + jnp.exp(-root.value))
 
 
-@formula(source="carman1937; ergun1952", equation=r"a_g = \sum_i\frac{6 x_i}{\psi d_i},\quad \bar d = \frac{1}{\sum_i x_i/d_i}")
+@formula(
+    source="carman1937; ergun1952",
+    equation=r"a_g = \sum_i\frac{6 x_i}{\psi d_i},\quad \bar d = \frac{1}{\sum_i x_i/d_i}",
+)
 def specific_surface_mixture(
     class_sizes: Annotated[Length, Series("classes")],
     class_fractions: Shares,
@@ -262,7 +287,9 @@ def specific_surface_mixture(
 
 
 @formula(source="richardson2002, ch. 4", equation=r"f_w = \left(1 + \frac{2}{a_g\,D}\right)^2")
-def wall_correction_coulson(specific_surface: SpecificSurface, diameter: Length) -> Annotated[PositiveNumber, Within(1.0)]:
+def wall_correction_coulson(
+    specific_surface: SpecificSurface, diameter: Length
+) -> Annotated[PositiveNumber, Within(1.0)]:
     """Velocity in a bed without walls over the velocity in a column at the same pressure gradient (Coulson).
 
     The wall of the column, 4/D per volume, counts half beside the surface of the grains.

@@ -31,7 +31,7 @@ def void_fraction_from_mass(mass: Mass, solid_density: Density, area: Area, leng
 
 @formula(
     source="dixon1988",
-    equation=r"\varepsilon = 0.4 + 0.05\lambda + 0.412\lambda^2\ (\lambda\le0.5),\quad 0.528 + 2.464(\lambda - 0.5)\ (\lambda\le0.536),\quad"
+    equation=r"\varepsilon = 0.4 + 0.05\lambda + 0.412\lambda^2\ (\lambda\le0.5),\quad 0.528 + 2.464(\lambda - 0.5)\ (\lambda\le0.536),\quad"  # noqa: E501
     r"1 - 0.667\lambda^3(2\lambda-1)^{-1/2}",
     typical={"wall_ratio": (0.0, 0.5)},
 )
@@ -43,7 +43,9 @@ def void_fraction_dixon(wall_ratio: WallRatio) -> VoidFraction:
     """
     x = wall_ratio
     narrow = 1.0 - 0.667 * x**3 / jnp.sqrt(jnp.maximum(2.0 * x - 1.0, 0.07))
-    return jnp.select([x <= 0.5, x <= 0.536], [0.4 + 0.05 * x + 0.412 * x**2, 0.528 + 2.464 * (x - 0.5)], narrow)
+    return jnp.select(
+        [x <= 0.5, x <= 0.536], [0.4 + 0.05 * x + 0.412 * x**2, 0.528 + 2.464 * (x - 0.5)], narrow
+    )
 
 
 @formula(
@@ -53,7 +55,8 @@ def void_fraction_dixon(wall_ratio: WallRatio) -> VoidFraction:
     typical={"wall_ratio": (0.02, 0.6)},
 )
 def void_fraction_benyahia_oneill(wall_ratio: WallRatio) -> VoidFraction:
-    """Porosity of a bed of equal spheres in a round column by Benyahia and O'Neill, from particle over column diameter.
+    """Porosity of a bed of equal spheres in a round column by Benyahia and O'Neill, from particle over column
+    diameter.
 
     >>> round(void_fraction_benyahia_oneill(wall_ratio=0.1), 5)
     0.40402

@@ -10,7 +10,18 @@ import jax.numpy as jnp
 from granum.core import equipment
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.core.kinds import Area, Concentration, Density, DynamicViscosity, Fraction, Length, PositiveNumber, Ratio, Speed, VolumeFlow
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Density,
+    DynamicViscosity,
+    Fraction,
+    Length,
+    PositiveNumber,
+    Ratio,
+    Speed,
+    VolumeFlow,
+)
 from granum.core.limits import Limit
 from granum.settling.equipment.gravity import DRAG, HINDRANCE, Drag, Hindrance, class_velocities, over_axes
 from granum.settling.formulas.api import (
@@ -52,9 +63,9 @@ class SeparatorFigures(NamedTuple):
 class ApiSeparator(Unit):
     """Gravity oil–water separator: channels in which oil globules down to 150 µm rise to the surface.
 
-    Oil is a dispersed species of the stream, with size classes, lighter than the liquid; heavier species go to the sludge. A
-    class is removed in the ratio of its velocity to the overflow rate times the turbulence factor. All limits of API 421
-    are checks.
+    Oil is a dispersed species of the stream, with size classes, lighter than the liquid; heavier species go
+    to the sludge. A class is removed in the ratio of its velocity to the overflow rate times the turbulence
+    factor. All limits of API 421 are checks.
     """
 
     length: Length
@@ -79,7 +90,9 @@ class ApiSeparator(Unit):
     }
 
     def inside(self, feed: Stream) -> tuple[Any, Any, Any]:
-        """Horizontal velocity, rise velocity of the design globule of the lightest species, turbulence factor."""
+        """Horizontal velocity, rise velocity of the design globule of the lightest species, turbulence
+        factor.
+        """
         horizontal = feed.slurry_volume_flow / (self.channel_number * self.width * self.height)
         lightest = jnp.min(feed.mixture.densities("solids", feed.temperature))
         lighter = jnp.minimum(lightest, feed.liquid_density * (1.0 - 1e-9))
@@ -102,18 +115,29 @@ class ApiSeparator(Unit):
         scale = 1.0 / jnp.maximum(over + under, 1.0)
         over, under = over * scale, under * scale
         return Skimmed(
-            feed.part(solid=up, liquid=over), feed.part(solid=down, liquid=under),
+            feed.part(solid=up, liquid=over),
+            feed.part(solid=down, liquid=under),
             feed.part(solid=1.0 - up - down, liquid=1.0 - over - under, gas=1.0),
-        )  # fmt: skip
+        )
 
     def figures(self, inside: tuple[Any, Any, Any], outlets: Skimmed, feed: Stream) -> SeparatorFigures:
         horizontal, rise, factor = inside
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         removed = (outlets.skimmings.solid_flow + outlets.sludge.solid_flow) / some
         area = self.channel_number * self.length * self.width
-        return SeparatorFigures(horizontal, rise, horizontal / rise, factor, area, basin_length_api(horizontal, rise, self.height), removed)
+        return SeparatorFigures(
+            horizontal,
+            rise,
+            horizontal / rise,
+            factor,
+            area,
+            basin_length_api(horizontal, rise, self.height),
+            removed,
+        )
 
-    def measured(self, inside: tuple[Any, Any, Any], outlets: Skimmed, figures: SeparatorFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: tuple[Any, Any, Any], outlets: Skimmed, figures: SeparatorFigures, feed: Stream
+    ) -> dict[str, Any]:
         horizontal, rise, _factor = inside
         return {
             "velocity": horizontal / horizontal_velocity_api(rise),
@@ -128,17 +152,26 @@ class ApiSeparator(Unit):
 
     @classmethod
     def size(
-        cls, volume_flow: VolumeFlow, water_density: Density, oil_density: Density, dynamic_viscosity: DynamicViscosity,
-        depth_over_width: Ratio = 0.3, droplet_diameter: Length = 150e-6, horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT,
-    ) -> ApiSeparator:  # fmt: skip
-        """The separator for a flow: section from the horizontal velocity, as many channels as it takes, length with turbulence.
+        cls,
+        volume_flow: VolumeFlow,
+        water_density: Density,
+        oil_density: Density,
+        dynamic_viscosity: DynamicViscosity,
+        depth_over_width: Ratio = 0.3,
+        droplet_diameter: Length = 150e-6,
+        horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT,
+    ) -> ApiSeparator:
+        """The separator for a flow: section from the horizontal velocity, as many channels as it takes,
+        length with turbulence.
 
         The length is at least five widths. Concrete numbers, SI.
         """
         rise = rise_velocity_api(water_density, oil_density, dynamic_viscosity, droplet_diameter)
         if not rise > 0:
             raise InputError(
-                _("The oil must be lighter than the water: {oil} against {water} kg/m³.").format(oil=oil_density, water=water_density)
+                _("The oil must be lighter than the water: {oil} against {water} kg/m³.").format(
+                    oil=oil_density, water=water_density
+                )
             )
         horizontal = horizontal_velocity_api(rise, horizontal_velocity_limit)
         section = volume_flow / horizontal
@@ -146,4 +179,10 @@ class ApiSeparator(Unit):
         height = sqrt(depth_over_width * section / channels)
         width = height / depth_over_width
         length = max(basin_length_api(horizontal, rise, height), 5.0 * width)
-        return cls(length=length, width=width, height=height, channel_number=float(channels), droplet_diameter=droplet_diameter)
+        return cls(
+            length=length,
+            width=width,
+            height=height,
+            channel_number=float(channels),
+            droplet_diameter=droplet_diameter,
+        )

@@ -1,4 +1,6 @@
-"""Clarifier-thickener in a line: the split by flux theory at a given underflow, the sludge it holds by the settling-compression model."""
+"""Clarifier-thickener in a line: the split by flux theory at a given underflow, the sludge it holds by the
+settling-compression model.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,20 @@ import jax
 import jax.numpy as jnp
 
 from granum.core import equipment
-from granum.core.kinds import Area, Concentration, Distance, Fraction, Law, Length, Mass, Ratio, Speed, Time, VolumeFlow, Within
+from granum.core.kinds import (
+    Area,
+    Concentration,
+    Distance,
+    Fraction,
+    Law,
+    Length,
+    Mass,
+    Ratio,
+    Speed,
+    Time,
+    VolumeFlow,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
@@ -39,21 +54,32 @@ class ClarifierThickenerFigures(NamedTuple):
 
 
 class Sludge(NamedTuple):
-    """What the tank holds: kg of solid by cell from the top, species and class; kg of each liquid; the temperature of all."""
+    """What the tank holds: kg of solid by cell from the top, species and class; kg of each liquid; the
+    temperature of all.
+    """
 
     solid: Any
     liquid: Any
     temperature: Any
 
 
-@equipment("clarifier_thickener", source="diehl2001; burger2011; burger2013", title="Clarifier-thickener",
-           equation=r"\frac{\partial C}{\partial t} + \frac{\partial}{\partial z}\left[f(C) + q(z)\,C - d(C)\frac{\partial C}{\partial z}\right] = s")  # fmt: skip
+@equipment(
+    "clarifier_thickener",
+    source="diehl2001; burger2011; burger2013",
+    title="Clarifier-thickener",
+    equation=(
+        r"\frac{\partial C}{\partial t} + \frac{\partial}{\partial z}\left[f(C) + q(z)\,C - "
+        r"d(C)\frac{\partial C}{\partial z}\right] = s"
+    ),
+)
 class ClarifierThickener(Unit, Dynamic):
-    """Tank of a given area and depth from which a given underflow is drawn; feed enters between the two zones.
+    """Tank of a given area and depth from which a given underflow is drawn; feed enters between the two
+    zones.
 
-    What the thickening zone cannot pass at that underflow leaves over the weir (solids-flux theory, all sizes settling together). Blanket and sludge
-    held are those of the settling-compression model, started empty and followed for a settling time, which should be several retention
-    times of the sludge. Over a day of changing loads use ``continuous_simulation``.
+    What the thickening zone cannot pass at that underflow leaves over the weir (solids-flux theory, all sizes
+    settling together). Blanket and sludge held are those of the settling-compression model, started empty and
+    followed for a settling time, which should be several retention times of the sludge. Over a day of
+    changing loads use ``continuous_simulation``.
     """
 
     area: Area
@@ -83,31 +109,52 @@ class ClarifierThickener(Unit, Dynamic):
 
     def _cone(self) -> Cone | None:
         plain = isinstance(self.cone_height_share, float) and self.cone_height_share == 0.0
-        return None if plain else Cone(jnp.maximum(self.cone_height_share, 1e-6), jnp.maximum(self.bottom_area_share, 1e-3))
+        return (
+            None
+            if plain
+            else Cone(jnp.maximum(self.cone_height_share, 1e-6), jnp.maximum(self.bottom_area_share, 1e-3))
+        )
 
     def inside(self, feed: Stream) -> Simulation:
         """The way to the steady state."""
         q, qu = self._velocities(feed)
         suspension = Suspension(self.settling, self.compression, feed.solid_density, feed.liquid_density)
         still = jnp.ones(PERIODS)
-        operation = Operation(self.settling_time * jnp.linspace(0.0, 1.0, PERIODS + 1), q * still, qu * still, concentration(feed) * still)
-        return simulate(suspension, self.height, jnp.zeros(self.cells), operation, feed_depth=self.feed_depth_share, cone=self._cone())
+        operation = Operation(
+            self.settling_time * jnp.linspace(0.0, 1.0, PERIODS + 1),
+            q * still,
+            qu * still,
+            concentration(feed) * still,
+        )
+        return simulate(
+            suspension,
+            self.height,
+            jnp.zeros(self.cells),
+            operation,
+            feed_depth=self.feed_depth_share,
+            cone=self._cone(),
+        )
 
     def outlets(self, inside: Simulation, feed: Stream) -> Outlets:
         q, qu = self._velocities(feed)
         C = concentration(feed)
-        down, under, _over, _where = steady_state(C, q, qu, self.settling, jnp.maximum(self.concentration_maximum, C))
+        down, under, _over, _where = steady_state(
+            C, q, qu, self.settling, jnp.maximum(self.concentration_maximum, C)
+        )
         applied = q * C
         share = jnp.where(applied > 0, down / jnp.where(applied > 0, applied, 1.0), 0.0)
         thick = divide(feed, share, jnp.where(under > 0, under, 1.0))
         clear = feed.liquid_volume_flow > 0
         # Without solids the underflow is liquid alone.
         part = jnp.where(clear, qu * self.area / jnp.where(clear, feed.liquid_volume_flow, 1.0), 0.0)
-        plain = Outlets(feed.part(liquid=jnp.minimum(part, 1.0)), feed.part(liquid=1.0 - jnp.minimum(part, 1.0), gas=1.0))
+        plain = Outlets(
+            feed.part(liquid=jnp.minimum(part, 1.0)), feed.part(liquid=1.0 - jnp.minimum(part, 1.0), gas=1.0)
+        )
         some = applied > 0
         return Outlets(*(_either(some, a, b) for a, b in zip(thick, plain, strict=True)))
 
-    # -- in time ---------------------------------------------------------------------------------------------------
+    # -- in time
+    # ---------------------------------------------------------------------------------------------------
     def _shares(self) -> tuple[Any, Any]:
         """Volume of each cell, and of the tank, m³."""
         cone = self._cone()
@@ -124,23 +171,39 @@ class ClarifierThickener(Unit, Dynamic):
         volumes, tank = self._shares()
         by_cell = self.inside(feed).concentration[-1] * volumes
         kinds = feed.solid / jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
-        liquid = feed.liquid / jnp.maximum(feed.liquid_volume_flow, 1e-300) * (tank - jnp.sum(by_cell) / feed.solid_density)
-        return Sludge(by_cell.reshape((-1,) + (1,) * kinds.ndim) * kinds, liquid, jnp.asarray(feed.temperature, dtype=float))
+        liquid = (
+            feed.liquid
+            / jnp.maximum(feed.liquid_volume_flow, 1e-300)
+            * (tank - jnp.sum(by_cell) / feed.solid_density)
+        )
+        return Sludge(
+            by_cell.reshape((-1,) + (1,) * kinds.ndim) * kinds,
+            liquid,
+            jnp.asarray(feed.temperature, dtype=float),
+        )
 
     def held_mass(self, state: Sludge) -> Any:
         return jnp.sum(state.solid) + jnp.sum(state.liquid)
 
     def _drawn(self, feed: Stream, last: Any, first: Any) -> tuple[Any, Any, Any, Any]:
-        """Volumes drawn below and over the weir per second, and the liquid in each, from the concentrations there."""
+        """Volumes drawn below and over the weir per second, and the liquid in each, from the concentrations
+        there.
+        """
         q, qu = self._velocities(feed)
         below, above = qu * self.area, (q - qu) * self.area
         density = feed.solid_density
         return below, above, below * (1.0 - last / density), above * (1.0 - first / density)
 
     def advance(
-        self, state: Sludge, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
+        self,
+        state: Sludge,
+        before: Mapping[str, Stream],
+        after: Mapping[str, Stream],
+        step: Any,
+        prepared: Any,
     ) -> tuple[Sludge, Outlets]:
-        """Sludge by the settling model inside the tank, by the trapezoidal rule where it leaves; its sizes and species travel with it.
+        """Sludge by the settling model inside the tank, by the trapezoidal rule where it leaves; its sizes
+        and species travel with it.
 
         The liquid is one mixed volume, at one temperature with the sludge.
         """
@@ -153,10 +216,16 @@ class ClarifierThickener(Unit, Dynamic):
         below, above, wet_below, wet_above = self._drawn(then, C[-1], C[0])
         below_now, above_now, *_rest = self._drawn(now, 0.0, 0.0)
         span = jnp.where(step > 0, step, 1.0)
-        operation = Operation(jnp.stack([0.0 * span, span]), jnp.reshape(flow / self.area, (1,)),
-                              jnp.reshape(0.5 * (below + below_now) / self.area, (1,)), jnp.reshape(fed / jnp.maximum(flow, 1e-300), (1,)))  # fmt: skip
+        operation = Operation(
+            jnp.stack([0.0 * span, span]),
+            jnp.reshape(flow / self.area, (1,)),
+            jnp.reshape(0.5 * (below + below_now) / self.area, (1,)),
+            jnp.reshape(fed / jnp.maximum(flow, 1e-300), (1,)),
+        )
         suspension = Suspension(self.settling, self.compression, now.solid_density, now.liquid_density)
-        made = simulate(suspension, self.height, C, operation, feed_depth=self.feed_depth_share, cone=self._cone())
+        made = simulate(
+            suspension, self.height, C, operation, feed_depth=self.feed_depth_share, cone=self._cone()
+        )
         # What the model moved into the outermost cells leaves them by the trapezoidal rule.
         after_model = made.concentration[-1] * volumes
         top = after_model[0] + made.overflowed[-1] * self.area - 0.5 * span * above * C[0]
@@ -172,23 +241,42 @@ class ClarifierThickener(Unit, Dynamic):
         room, room_now = tank - jnp.sum(held) / density, tank - jnp.sum(masses) / density
         lost, losing = (wet_below + wet_above) / room, (wet_below_now + wet_above_now) / room_now
         liquid = trapezoid(state.liquid, then.liquid + now.liquid, lost, losing, step)
-        gone = _outlets(then.replace(temperature=state.temperature), state.solid / volumes.reshape((-1,) + (1,) * then.solid.ndim),
-                        state.liquid / room, (below, above, wet_below, wet_above))  # fmt: skip
-        going = _outlets(now, solid / volumes.reshape((-1,) + (1,) * now.solid.ndim), liquid / room_now,
-                         (below_now, above_now, wet_below_now, wet_above_now))  # fmt: skip
+        gone = _outlets(
+            then.replace(temperature=state.temperature),
+            state.solid / volumes.reshape((-1,) + (1,) * then.solid.ndim),
+            state.liquid / room,
+            (below, above, wet_below, wet_above),
+        )
+        going = _outlets(
+            now,
+            solid / volumes.reshape((-1,) + (1,) * now.solid.ndim),
+            liquid / room_now,
+            (below_now, above_now, wet_below_now, wet_above_now),
+        )
         # The heat of what is held and, for half the step, of what leaves, gives the temperature of both.
         dry = [s.replace(gas=0.0 * s.gas).enthalpy_flow for s in (then, now, *gone)]
-        within = now.replace(solid=jnp.sum(state.solid, axis=0), liquid=state.liquid, gas=0.0 * now.gas, temperature=state.temperature)
+        within = now.replace(
+            solid=jnp.sum(state.solid, axis=0),
+            liquid=state.liquid,
+            gas=0.0 * now.gas,
+            temperature=state.temperature,
+        )
         heat = within.enthalpy_flow + 0.5 * step * (dry[0] + dry[1] - dry[2] - dry[3])
         leaving = going.underflow.solid + going.overflow.solid, going.underflow.liquid + going.overflow.liquid
-        end = within.replace(solid=jnp.sum(solid, axis=0) + 0.5 * step * leaving[0], liquid=liquid + 0.5 * step * leaving[1]).at_enthalpy(
-            heat
-        )
+        end = within.replace(
+            solid=jnp.sum(solid, axis=0) + 0.5 * step * leaving[0], liquid=liquid + 0.5 * step * leaving[1]
+        ).at_enthalpy(heat)
         going = Outlets(*(s.replace(temperature=end.temperature) for s in going))
-        return Sludge(solid, liquid, end.temperature), going._replace(overflow=going.overflow.replace(gas=now.gas))
+        return Sludge(solid, liquid, end.temperature), going._replace(
+            overflow=going.overflow.replace(gas=now.gas)
+        )
 
-    def _carried(self, state: Sludge, then: Stream, now: Stream, masses: Any, over: Any, under: Any, step: Any) -> Any:
-        """Species and sizes of every cell after a step: each face carries those of the cell it comes from, at the end of the step."""
+    def _carried(
+        self, state: Sludge, then: Stream, now: Stream, masses: Any, over: Any, under: Any, step: Any
+    ) -> Any:
+        """Species and sizes of every cell after a step: each face carries those of the cell it comes from, at
+        the end of the step.
+        """
         volumes, _tank = self._shares()
         rows = state.solid.reshape(self.cells, -1)
         fed = (
@@ -198,12 +286,17 @@ class ClarifierThickener(Unit, Dynamic):
         )
         first, last = 0.5 * step * over[0] / volumes[0], 0.5 * step * under[0] / volumes[-1]
         known = (rows + fed).at[0].add(-first * rows[0]).at[-1].add(-last * rows[-1])
-        first, last = 0.5 * step * over[1] / volumes[0] * masses[0], 0.5 * step * under[1] / volumes[-1] * masses[-1]
+        first, last = (
+            0.5 * step * over[1] / volumes[0] * masses[0],
+            0.5 * step * under[1] / volumes[-1] * masses[-1],
+        )
         out = jnp.zeros(self.cells).at[0].add(first).at[-1].add(last)
         down = jnp.cumsum(jnp.sum(known, axis=1) - masses - out)[:-1]  # over each inner face, kg in the step
         fall, rise = jnp.maximum(down, 0.0), jnp.maximum(-down, 0.0)
         diagonal = masses + out + jnp.pad(fall, (0, 1)) + jnp.pad(rise, (1, 0)) + 1e-300
-        shares = jax.lax.linalg.tridiagonal_solve(jnp.pad(-fall, (1, 0)), diagonal, jnp.pad(-rise, (0, 1)), known)
+        shares = jax.lax.linalg.tridiagonal_solve(
+            jnp.pad(-fall, (1, 0)), diagonal, jnp.pad(-rise, (0, 1)), known
+        )
         return (shares * masses[:, None]).reshape(state.solid.shape)
 
     def figures(self, inside: Simulation, outlets: Outlets, feed: Stream) -> ClarifierThickenerFigures:
@@ -212,12 +305,20 @@ class ClarifierThickener(Unit, Dynamic):
         limit = passing_flux(C, qu, self.settling, jnp.maximum(self.concentration_maximum, C))[0]
         held = inside.held[-1] * self.area
         return ClarifierThickenerFigures(
-            safe_divide(q * C, limit), (q - qu) / self.settling(C), q - qu, concentration(outlets.underflow), concentration(outlets.overflow),
-            inside.interface_height(0.5 * C)[-1], inside.concentration[-1, -1], held,
+            safe_divide(q * C, limit),
+            (q - qu) / self.settling(C),
+            q - qu,
+            concentration(outlets.underflow),
+            concentration(outlets.overflow),
+            inside.interface_height(0.5 * C)[-1],
+            inside.concentration[-1, -1],
+            held,
             held / jnp.where(feed.solid_flow > 0, feed.solid_flow, jnp.inf),
-        )  # fmt: skip
+        )
 
-    def measured(self, inside: Simulation, outlets: Outlets, figures: ClarifierThickenerFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Simulation, outlets: Outlets, figures: ClarifierThickenerFigures, feed: Stream
+    ) -> dict[str, Any]:
         gained = inside.held[-1] - inside.held[-2]
         fed = inside.fed[-1] - inside.fed[-2]
         return {
@@ -234,7 +335,9 @@ def _feed_cell(share: Any, cells: int) -> Any:
 
 
 def _outlets(stream: Stream, concentration: Any, density: Any, drawn: tuple[Any, Any, Any, Any]) -> Outlets:
-    """What is drawn from the lowest and the highest cell: solid per volume of slurry, liquid per volume of liquid."""
+    """What is drawn from the lowest and the highest cell: solid per volume of slurry, liquid per volume of
+    liquid.
+    """
     below, above, wet_below, wet_above = drawn
     gas = 0.0 * stream.gas
     return Outlets(
@@ -244,4 +347,6 @@ def _outlets(stream: Stream, concentration: Any, density: Any, drawn: tuple[Any,
 
 
 def _either(condition: Any, a: Stream, b: Stream) -> Stream:
-    return a.replace(solid=jnp.where(condition, a.solid, b.solid), liquid=jnp.where(condition, a.liquid, b.liquid))
+    return a.replace(
+        solid=jnp.where(condition, a.solid, b.solid), liquid=jnp.where(condition, a.liquid, b.liquid)
+    )

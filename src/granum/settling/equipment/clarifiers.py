@@ -36,14 +36,22 @@ from granum.streams.units import Dynamic, Limits
 
 
 def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
-    """Share removed at each settling velocity: ideal basin, or mixed tanks in series when their number is given."""
+    """Share removed at each settling velocity: ideal basin, or mixed tanks in series when their number is
+    given.
+    """
     falling = jnp.maximum(velocity, 1e-300)
-    share = removal_efficiency_camp(falling, critical) if tank_number is None else removal_efficiency_hazen(falling, critical, tank_number)
+    share = (
+        removal_efficiency_camp(falling, critical)
+        if tank_number is None
+        else removal_efficiency_hazen(falling, critical, tank_number)
+    )
     return jnp.where(velocity > 0, share, 0.0)
 
 
 class AbstractBasin(AbstractSettler):
-    """A settler whose critical velocity is its overflow rate: volume flow of the feed over a settling area."""
+    """A settler whose critical velocity is its overflow rate: volume flow of the feed over a settling
+    area.
+    """
 
     if TYPE_CHECKING:  # fields of every subclass
         tank_number: Any
@@ -65,9 +73,9 @@ class AbstractBasin(AbstractSettler):
 class Clarifier(AbstractBasin):
     """Gravity settler of a given area that removes each size class by its hindered settling velocity.
 
-    Ideal basin (Camp) unless a number of mixed tanks (Hazen) is given. The overflow rate is that of the whole feed, which is
-    on the safe side of the true one by the underflow. Sizing and rating are the same statement: area times critical velocity
-    is the feed's volume flow.
+    Ideal basin (Camp) unless a number of mixed tanks (Hazen) is given. The overflow rate is that of the whole
+    feed, which is on the safe side of the true one by the underflow. Sizing and rating are the same
+    statement: area times critical velocity is the feed's volume flow.
     """
 
     area: Area
@@ -80,13 +88,18 @@ class Clarifier(AbstractBasin):
         return self.area
 
     @classmethod
-    def size(cls, volume_flow: VolumeFlow, settling_velocity: Any, underflow_concentration: Any, **more: Any) -> Clarifier:
+    def size(
+        cls, volume_flow: VolumeFlow, settling_velocity: Any, underflow_concentration: Any, **more: Any
+    ) -> Clarifier:
         """The clarifier that just removes completely what settles at a given (hindered) velocity."""
-        return cls(area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more)
+        return cls(
+            area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more
+        )
 
 
 class _Deep(AbstractBasin, Dynamic):
-    """A basin of known depth: over time it evens out its feed as one mixed volume, which then settles as it does at rest.
+    """A basin of known depth: over time it evens out its feed as one mixed volume, which then settles as it
+    does at rest.
 
     The sludge on its floor is scraped out at once. A start-up begins with a basin full of the first liquid.
     """
@@ -153,7 +166,8 @@ class CircularClarifier(_Deep):
 class RectangularClarifier(_Deep):
     """Rectangular clarifier with a traveling bridge or chain scraper.
 
-    Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not scour the sludge.
+    Practical limits: width to length about 1 to 6, depth 2.5 to 4 m, and a horizontal velocity that does not
+    scour the sludge.
     """
 
     length: Length
@@ -193,10 +207,11 @@ _FLOWS = {
 
 @equipment("lamella", source="yao1970; degremont2007", title="Lamella settler")
 class Lamella(AbstractSettler):
-    """Lamella settler: a pack of inclined plates, with the water against, with or across the sliding sludge.
+    """Lamella settler: a pack of inclined plates, with the water against, with or across the sliding
+    sludge.
 
-    The critical velocity is Yao's. Practical limits: 45 to 60° from the horizontal, spacing 10 to 20 cm on raw water (down to
-    5 cm on clean duties), Reynolds number between the plates below 800.
+    The critical velocity is Yao's. Practical limits: 45 to 60° from the horizontal, spacing 10 to 20 cm on
+    raw water (down to 5 cm on clean duties), Reynolds number between the plates below 800.
     """
 
     plate_number: PositiveNumber
@@ -223,7 +238,9 @@ class Lamella(AbstractSettler):
 
     def critical_velocity(self, feed: Stream) -> Any:
         along = self.plate_width if self.flow_direction == "crosscurrent" else self.plate_length
-        return _FLOWS[self.flow_direction](self.plate_velocity(feed), along, self.plate_spacing, self.plate_angle)
+        return _FLOWS[self.flow_direction](
+            self.plate_velocity(feed), along, self.plate_spacing, self.plate_angle
+        )
 
     def removed(self, feed: Stream, critical: Any) -> Any:
         return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), critical, self.tank_number)
@@ -232,7 +249,11 @@ class Lamella(AbstractSettler):
         return super().measured(inside, outlets, figures, feed) | {
             "angle": jnp.rad2deg(self.plate_angle),
             "spacing": self.plate_spacing,
-            "reynolds": self.plate_velocity(feed) * 2.0 * self.plate_spacing * feed.liquid_density / feed.liquid_viscosity,
+            "reynolds": self.plate_velocity(feed)
+            * 2.0
+            * self.plate_spacing
+            * feed.liquid_density
+            / feed.liquid_viscosity,
         }
 
 

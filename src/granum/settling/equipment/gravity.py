@@ -39,7 +39,9 @@ class Figures(NamedTuple):
 
 
 class Settled(NamedTuple):
-    """Settling velocity that is removed completely, m/s, and the share removed of each species and size class."""
+    """Settling velocity that is removed completely, m/s, and the share removed of each species and size
+    class.
+    """
 
     critical: Any
     removed: Any
@@ -71,13 +73,16 @@ def concentration(stream: Stream) -> Any:
 def divide(feed: Stream, removed: Any, underflow_concentration: Any) -> Outlets:
     """Underflow with the removed share of the solids, thickened to a concentration; the rest is overflow.
 
-    When the feed does not hold enough liquid for that concentration, all of it goes down: the underflow is then thicker.
+    When the feed does not hold enough liquid for that concentration, all of it goes down: the underflow is
+    then thicker.
     """
     settled = feed.part(solid=removed)
     liquid = settled.solid_flow / underflow_concentration - settled.solid_volume_flow
     available = feed.liquid_volume_flow
     share = jnp.clip(liquid / jnp.where(available > 0, available, 1.0), 0.0, 1.0)
-    return Outlets(feed.part(solid=removed, liquid=share), feed.part(solid=1.0 - removed, liquid=1.0 - share, gas=1.0))
+    return Outlets(
+        feed.part(solid=removed, liquid=share), feed.part(solid=1.0 - removed, liquid=1.0 - share, gas=1.0)
+    )
 
 
 class AbstractSettler(Unit):
@@ -86,7 +91,9 @@ class AbstractSettler(Unit):
     if TYPE_CHECKING:  # a field of every subclass
         underflow_concentration: Any
 
-    limits: ClassVar[Limits] = {"thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916")}
+    limits: ClassVar[Limits] = {
+        "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916")
+    }
 
     @abc.abstractmethod
     def critical_velocity(self, feed: Stream) -> Any:

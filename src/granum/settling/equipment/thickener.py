@@ -33,10 +33,11 @@ class ThickenerFigures(NamedTuple):
 
 @equipment("thickener", source="yoshioka1957; coe1916", title="Thickener")
 class Thickener(Unit):
-    """Continuous thickener of a given area that draws an underflow of a given concentration, by solids-flux theory.
+    """Continuous thickener of a given area that draws an underflow of a given concentration, by solids-flux
+    theory.
 
-    Up to the limiting flux all solids leave with the underflow; what exceeds it leaves over the weir. All sizes settle together
-    (zone settling), so every class splits alike.
+    Up to the limiting flux all solids leave with the underflow; what exceeds it leaves over the weir. All
+    sizes settle together (zone settling), so every class splits alike.
     """
 
     area: Area
@@ -62,7 +63,9 @@ class Thickener(Unit):
 
     def figures(self, inside: Any, outlets: Outlets, feed: Stream) -> ThickenerFigures:
         applied = feed.solid_flow / self.area
-        limits = jnp.isfinite(inside.limiting_flux)  # a feed as thick as the underflow is its own limiting layer: it passes as it is
+        limits = jnp.isfinite(
+            inside.limiting_flux
+        )  # a feed as thick as the underflow is its own limiting layer: it passes as it is
         limit, layer = (
             jnp.where(limits, inside.limiting_flux, applied),
             jnp.where(limits, inside.limiting_concentration, concentration(feed)),
@@ -70,11 +73,19 @@ class Thickener(Unit):
         rate = outlets.overflow.slurry_volume_flow / self.area
         velocity = self.settling(concentration(feed))
         return ThickenerFigures(
-            applied, limit, jnp.where(limits, safe_divide(applied, limit), 1.0), rate / velocity, layer, rate,
-            outlets.underflow.slurry_volume_flow, concentration(outlets.overflow),
-        )  # fmt: skip
+            applied,
+            limit,
+            jnp.where(limits, safe_divide(applied, limit), 1.0),
+            rate / velocity,
+            layer,
+            rate,
+            outlets.underflow.slurry_volume_flow,
+            concentration(outlets.overflow),
+        )
 
-    def measured(self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream
+    ) -> dict[str, Any]:
         return {
             "thinner": concentration(feed) / self.underflow_concentration,
             "thickening": figures.loading_ratio,
@@ -84,9 +95,17 @@ class Thickener(Unit):
 
     @classmethod
     def size(
-        cls, mass_flow: MassFlow, feed_concentration: Concentration, underflow_concentration: Concentration, settling: Any,
+        cls,
+        mass_flow: MassFlow,
+        feed_concentration: Concentration,
+        underflow_concentration: Concentration,
+        settling: Any,
         safety_factor: Ratio = 1.25,
-    ) -> Thickener:  # fmt: skip
+    ) -> Thickener:
         """The thickener for a solids flow, with a factor on the area that flux theory gives."""
         limit = limiting_flux_underflow(underflow_concentration, feed_concentration, settling).limiting_flux
-        return cls(area=safety_factor * mass_flow / limit, underflow_concentration=underflow_concentration, settling=settling)
+        return cls(
+            area=safety_factor * mass_flow / limit,
+            underflow_concentration=underflow_concentration,
+            settling=settling,
+        )

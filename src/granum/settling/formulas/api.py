@@ -6,7 +6,17 @@ import jax.numpy as jnp
 
 from granum.core import formula, watch
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Area, Density, DynamicViscosity, Length, PositiveNumber, Ratio, Speed, VolumeFlow
+from granum.core.kinds import (
+    Acceleration,
+    Area,
+    Density,
+    DynamicViscosity,
+    Length,
+    PositiveNumber,
+    Ratio,
+    Speed,
+    VolumeFlow,
+)
 
 HORIZONTAL_LIMIT = 3 * 0.3048 / 60  # m/s: 3 ft/min
 # Figure of turbulence and short-circuiting: ratio of horizontal to rise velocity, factor.
@@ -33,16 +43,24 @@ def rise_velocity_api(
     >>> round(rise_velocity_api(water_density=1000, oil_density=880, dynamic_viscosity="1 cP") * 3600, 2)
     5.3
     """
-    velocity = gravity * jnp.maximum(water_density - oil_density, 0.0) * droplet_diameter**2 / (18.0 * dynamic_viscosity)
+    velocity = (
+        gravity
+        * jnp.maximum(water_density - oil_density, 0.0)
+        * droplet_diameter**2
+        / (18.0 * dynamic_viscosity)
+    )
     watch(reynolds=velocity * droplet_diameter * water_density / dynamic_viscosity)
     return velocity
 
 
 @formula(source="api421", equation=r"v_h = \min(15\,v_t,\ v_{h,\max})")
-def horizontal_velocity_api(rise_velocity: Speed, horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT) -> Speed:
+def horizontal_velocity_api(
+    rise_velocity: Speed, horizontal_velocity_limit: Speed = HORIZONTAL_LIMIT
+) -> Speed:
     """Design horizontal velocity of an API separator: 15 times the rise velocity, at most 3 ft/min.
 
-    Differs from the print: the course notes have 15 cm/s for the limit; API 421 has 3 ft/min, which is 1.5 cm/s.
+    Differs from the print: the course notes have 15 cm/s for the limit; API 421 has 3 ft/min, which is
+    1.5 cm/s.
 
     >>> round(horizontal_velocity_api(rise_velocity=5.3 / 3600) * 3600, 2)
     54.86
@@ -52,10 +70,11 @@ def horizontal_velocity_api(rise_velocity: Speed, horizontal_velocity_limit: Spe
 
 @formula(source="api421", equation=r"F = F(v_h/v_t)", fitted={"velocity_ratio": (3.0, 20.0)})
 def turbulence_factor_api(velocity_ratio: Ratio) -> PositiveNumber:
-    """Factor for turbulence and short-circuiting in an API separator, linear between the points of the API figure.
+    """Factor for turbulence and short-circuiting in an API separator, linear between the points of the API
+    figure.
 
-    The points are 1.28 at a ratio of horizontal to rise velocity of 3, 1.37 at 6, 1.52 at 10, 1.64 at 15 and 1.74 at 20; the
-    end lines are prolonged outside.
+    The points are 1.28 at a ratio of horizontal to rise velocity of 3, 1.37 at 6, 1.52 at 10, 1.64 at 15 and
+    1.74 at 20; the end lines are prolonged outside.
 
     >>> round(turbulence_factor_api(velocity_ratio=10), 4)
     1.52
@@ -78,7 +97,9 @@ def basin_length_api(horizontal_velocity: Speed, rise_velocity: Speed, height: L
 
 
 @formula(source="api421", equation=r"A_H = F\,\frac{Q}{v_t}", fitted={"turbulence_factor": (1.28, 1.74)})
-def basin_area_api(volume_flow: VolumeFlow, rise_velocity: Speed, turbulence_factor: PositiveNumber = 1.74) -> Area:
+def basin_area_api(
+    volume_flow: VolumeFlow, rise_velocity: Speed, turbulence_factor: PositiveNumber = 1.74
+) -> Area:
     """Smallest water surface of an API separator.
 
     The turbulence factor of API 421 runs from 1.28 to 1.74.

@@ -8,7 +8,17 @@ import jax.numpy as jnp
 
 from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
-from granum.core.kinds import Acceleration, Area, Density, Fraction, Length, PositiveNumber, Series, Speed, VolumeFlow
+from granum.core.kinds import (
+    Acceleration,
+    Area,
+    Density,
+    Fraction,
+    Length,
+    PositiveNumber,
+    Series,
+    Speed,
+    VolumeFlow,
+)
 from granum.particles.formulas.means import Shares, shares
 
 
@@ -24,7 +34,8 @@ def overflow_rate_basin(volume_flow: VolumeFlow, area: Area) -> Speed:
 
 @formula(source="hazen1904; camp1946", equation=r"A = \frac{Q}{v_s}", family="basin_area")
 def basin_area(volume_flow: VolumeFlow, settling_velocity: Speed) -> Area:
-    """Area of an ideal basin that removes completely what settles at a given velocity; the depth plays no part.
+    """Area of an ideal basin that removes completely what settles at a given velocity; the depth plays no
+    part.
 
     >>> round(basin_area(volume_flow="0.5 m^3/s", settling_velocity=32.5 / 86400), 1)
     1329.2
@@ -64,8 +75,11 @@ def removal_efficiency_camp(settling_velocity: Speed, overflow_rate: Speed) -> F
 
 
 @formula(source="hazen1904", equation=r"E = 1 - \left(1 + \frac{v_s}{n v_0}\right)^{-n}")
-def removal_efficiency_hazen(settling_velocity: Speed, overflow_rate: Speed, tank_number: PositiveNumber = 3.0) -> Fraction:
-    """Share of particles of one settling velocity removed by a real basin, taken as several mixed tanks in series.
+def removal_efficiency_hazen(
+    settling_velocity: Speed, overflow_rate: Speed, tank_number: PositiveNumber = 3.0
+) -> Fraction:
+    """Share of particles of one settling velocity removed by a real basin, taken as several mixed tanks in
+    series.
 
     One tank is poor, 3 good, 5 to 8 very good performance; many tanks give ``1 − exp(−v_s/v_0)``.
 
@@ -79,12 +93,15 @@ def removal_efficiency_hazen(settling_velocity: Speed, overflow_rate: Speed, tan
 def removal_efficiency_classes(
     class_velocities: Annotated[Speed, Series("classes")], class_fractions: Shares, overflow_rate: Speed
 ) -> Fraction:
-    """Share of all solids that an ideal basin removes, from the settling velocities of the classes and their mass fractions.
+    """Share of all solids that an ideal basin removes, from the settling velocities of the classes and their
+    mass fractions.
 
     >>> round(removal_efficiency_classes([1e-4, 4e-4, 1e-3], [0.2, 0.3, 0.5], overflow_rate=5e-4), 4)
     0.78
     """
-    return jnp.sum(shares(class_fractions) * jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), axis=-1)
+    return jnp.sum(
+        shares(class_fractions) * jnp.minimum(jnp.asarray(class_velocities) / overflow_rate, 1.0), axis=-1
+    )
 
 
 @formula(
@@ -102,7 +119,8 @@ def scour_velocity_camp(
 ) -> Speed:
     """Horizontal velocity above which settled particles are scoured off the bottom.
 
-    The constant is 0.04 for single-grained sand and 0.06 for sticky, interlocking matter; the Darcy friction factor 0.02 to 0.03.
+    The constant is 0.04 for single-grained sand and 0.06 for sticky, interlocking matter; the Darcy friction
+    factor 0.02 to 0.03.
 
     >>> round(scour_velocity_camp("100 um", particle_density=1250, liquid_density=1000), 3)
     0.063

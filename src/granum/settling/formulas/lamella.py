@@ -11,11 +11,20 @@ from granum.core.kinds import Angle, Area, KinematicViscosity, Length, PositiveN
 
 _ANGLES = {"plate_angle": (0.7, 1.1)}
 UPRIGHT = "Plates stand at an angle to the horizontal from 0 to below 90°."
-SHORT_PLATES = "The plates are too short for their spacing: what settles between them is carried off with the sludge."
+SHORT_PLATES = (
+    "The plates are too short for their spacing: what settles between them is carried off with the sludge."
+)
 
 
 def _check_angle(plate_angle: Any) -> None:
-    impossible((plate_angle < 0.0) | (plate_angle >= jnp.pi / 2.0), plate_angle, "plate_angle", 0.0, jnp.pi / 2.0, UPRIGHT)
+    impossible(
+        (plate_angle < 0.0) | (plate_angle >= jnp.pi / 2.0),
+        plate_angle,
+        "plate_angle",
+        0.0,
+        jnp.pi / 2.0,
+        UPRIGHT,
+    )
 
 
 @formula(source="yao1970; metcalf2003", equation=r"A_p = N\,S\cos\alpha", typical=_ANGLES)
@@ -31,14 +40,20 @@ def lamella_area(plate_number: PositiveNumber, area: Area, plate_angle: Angle) -
     return plate_number * area * jnp.cos(plate_angle)
 
 
-@formula(source="yao1970, eq. 9", equation=r"v_c = \frac{S_c\,v_0}{\sin\alpha + (L/b)\cos\alpha}", typical=_ANGLES)
+@formula(
+    source="yao1970, eq. 9", equation=r"v_c = \frac{S_c\,v_0}{\sin\alpha + (L/b)\cos\alpha}", typical=_ANGLES
+)
 def critical_velocity_countercurrent(
-    velocity: Speed, plate_length: Length, plate_spacing: Length, plate_angle: Angle, yao_shape_parameter: PositiveNumber = 1.0
+    velocity: Speed,
+    plate_length: Length,
+    plate_spacing: Length,
+    plate_angle: Angle,
+    yao_shape_parameter: PositiveNumber = 1.0,
 ) -> Speed:
     """Slowest particle wholly removed between plates with the water flowing up against the sliding sludge.
 
-    The velocity is the mean one along the plates, the spacing is perpendicular to them. The shape parameter is 1 for parallel
-    plates, 4/3 for round and 11/8 for square tubes.
+    The velocity is the mean one along the plates, the spacing is perpendicular to them. The shape parameter
+    is 1 for parallel plates, 4/3 for round and 11/8 for square tubes.
 
     >>> round(critical_velocity_countercurrent("3 mm/s", "0.72 m", "2.54 cm", "60 degree") * 1e3, 2)
     0.2
@@ -50,7 +65,11 @@ def critical_velocity_countercurrent(
 
 @formula(source="yao1970", equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha - \sin\alpha}", typical=_ANGLES)
 def critical_velocity_cocurrent(
-    velocity: Speed, plate_length: Length, plate_spacing: Length, plate_angle: Angle, yao_shape_parameter: PositiveNumber = 1.0
+    velocity: Speed,
+    plate_length: Length,
+    plate_spacing: Length,
+    plate_angle: Angle,
+    yao_shape_parameter: PositiveNumber = 1.0,
 ) -> Speed:
     """Slowest particle wholly removed between plates with the water flowing down together with the sludge.
 
@@ -62,15 +81,22 @@ def critical_velocity_cocurrent(
     sweep = plate_length / plate_spacing * jnp.cos(plate_angle) - jnp.sin(plate_angle)
     reachable = sweep > 0
     _check_angle(plate_angle)
-    impossible(~reachable, plate_length, "plate_length", plate_spacing * jnp.tan(plate_angle), jnp.inf, SHORT_PLATES)
+    impossible(
+        ~reachable, plate_length, "plate_length", plate_spacing * jnp.tan(plate_angle), jnp.inf, SHORT_PLATES
+    )
     return jnp.where(reachable, yao_shape_parameter * velocity / jnp.where(reachable, sweep, 1.0), jnp.inf)
 
 
 @formula(source="yao1970", equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha}", typical=_ANGLES)
 def critical_velocity_crosscurrent(
-    velocity: Speed, plate_length: Length, plate_spacing: Length, plate_angle: Angle, yao_shape_parameter: PositiveNumber = 1.0
+    velocity: Speed,
+    plate_length: Length,
+    plate_spacing: Length,
+    plate_angle: Angle,
+    yao_shape_parameter: PositiveNumber = 1.0,
 ) -> Speed:
-    """Slowest particle wholly removed between plates with the water flowing horizontally, across the sliding sludge.
+    """Slowest particle wholly removed between plates with the water flowing horizontally, across the sliding
+    sludge.
 
     >>> round(critical_velocity_crosscurrent("3 mm/s", "0.72 m", "2.54 cm", "60 degree") * 1e3, 3)
     0.212
@@ -80,8 +106,11 @@ def critical_velocity_crosscurrent(
 
 
 @formula(source="yao1970", equation=r"\frac{L'}{b} = 0.058\,\frac{v_0 b}{\nu}")
-def relative_length_transition_yao(velocity: Speed, plate_spacing: Length, kinematic_viscosity: KinematicViscosity) -> Ratio:
-    """Length over which laminar flow develops at the inlet of plates or tubes, in spacings; Yao adds it to the plate length.
+def relative_length_transition_yao(
+    velocity: Speed, plate_spacing: Length, kinematic_viscosity: KinematicViscosity
+) -> Ratio:
+    """Length over which laminar flow develops at the inlet of plates or tubes, in spacings; Yao adds it to
+    the plate length.
 
     >>> round(relative_length_transition_yao("3 mm/s", "5 cm", "1 mm^2/s"), 6)
     8.7

@@ -32,20 +32,31 @@ _BETWEEN = {"underflow_concentration": (300.0, 600.0)}
 
 
 @formula(source="kynch1952", equation=r"C_i = C_0\,\frac{h_0}{h_i}")
-def solids_concentration_kynch(initial_concentration: Concentration, initial_height: Length, intercept_height: Length) -> Concentration:
-    """Concentration just under the interface, from the height where the tangent to the settling curve cuts the axis of heights.
+def solids_concentration_kynch(
+    initial_concentration: Concentration, initial_height: Length, intercept_height: Length
+) -> Concentration:
+    """Concentration just under the interface, from the height where the tangent to the settling curve cuts
+    the axis of heights.
 
-    >>> round(solids_concentration_kynch(initial_concentration=236, initial_height="36 cm", intercept_height="18 cm"), 6)
+    >>> round(
+    ...     solids_concentration_kynch(
+    ...         initial_concentration=236, initial_height="36 cm", intercept_height="18 cm"
+    ...     ),
+    ...     6,
+    ... )
     472.0
     """
     return initial_concentration * initial_height / intercept_height
 
 
 @formula(
-    source="kynch1952", equation=r"v_i = \frac{h_i - h}{t}", typical={"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)}
+    source="kynch1952",
+    equation=r"v_i = \frac{h_i - h}{t}",
+    typical={"intercept_height": (0.2, 0.35), "interface_height": (0.05, 0.15)},
 )
 def settling_velocity_kynch(intercept_height: Length, interface_height: Distance, time: Time) -> Velocity:
-    """Settling velocity of the layer just under the interface: the slope of the tangent to the settling curve.
+    """Settling velocity of the layer just under the interface: the slope of the tangent to the settling
+    curve.
 
     >>> round(settling_velocity_kynch("18 cm", "8 cm", time="2 hour") * 3.6e5, 6)
     5.0
@@ -69,7 +80,10 @@ def shock_velocity_kynch(
     >>> round(shock_velocity_kynch(0.2, 0.3897e-3, 0.5, 0.0) * 1e3, 4)
     -0.2598
     """
-    fall = solids_concentration_below * settling_velocity_below - solids_concentration_above * settling_velocity_above
+    fall = (
+        solids_concentration_below * settling_velocity_below
+        - solids_concentration_above * settling_velocity_above
+    )
     gap = solids_concentration_below - solids_concentration_above
     impossible(gap == 0.0, solids_concentration_below, "solids_concentration_below", reason=SAME)
     return fall / jnp.where(gap == 0, jnp.nan, gap)
@@ -79,7 +93,8 @@ def shock_velocity_kynch(
 def unit_area_coe_clevenger(
     solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration
 ) -> UnitArea:
-    """Area per solids flow that a layer of one concentration needs in a thickener; the greatest over all layers decides.
+    """Area per solids flow that a layer of one concentration needs in a thickener; the greatest over all
+    layers decides.
 
     Zero for layers denser than the underflow.
 
@@ -96,18 +111,27 @@ def thickener_area_coe_clevenger(
     series_velocities: Annotated[Speed, Series("tests")],
     underflow_concentration: Concentration,
 ) -> Area:
-    """Thickener area from the settling velocities of a series of batch tests between feed and underflow concentration.
+    """Thickener area from the settling velocities of a series of batch tests between feed and underflow
+    concentration.
 
-    The greatest of the areas of the tests: test closely enough around it. ``mass_flow`` is that of the solids.
+    The greatest of the areas of the tests: test closely enough around it. ``mass_flow`` is that of the
+    solids.
 
-    >>> round(thickener_area_coe_clevenger(2.0, [100, 200, 300], [4e-4, 2e-4, 1e-4], underflow_concentration=500), 6)
+    >>> round(
+    ...     thickener_area_coe_clevenger(
+    ...         2.0, [100, 200, 300], [4e-4, 2e-4, 1e-4], underflow_concentration=500
+    ...     ),
+    ...     6,
+    ... )
     40.0
     """
     C, v = jnp.asarray(series_concentrations), jnp.asarray(series_velocities)
     return mass_flow * jnp.max(jnp.maximum(1.0 / C - 1.0 / underflow_concentration, 0.0) / v)
 
 
-@formula(source="coe1916; richardson2002, eq. 5.36", equation=r"A = \dot m_s \max_i \frac{U_i - W}{v_i\,\rho_l}")
+@formula(
+    source="coe1916; richardson2002, eq. 5.36", equation=r"A = \dot m_s \max_i \frac{U_i - W}{v_i\,\rho_l}"
+)
 def thickener_area_liquid_ratio(
     mass_flow: MassFlow,
     series_liquid_ratios: Annotated[MassRatio, Series("tests")],
@@ -115,9 +139,15 @@ def thickener_area_liquid_ratio(
     underflow_liquid_ratio: MassRatio,
     liquid_density: Density,
 ) -> Area:
-    """Thickener area after Coe and Clevenger from liquid-to-solid mass ratios, as mineral engineers measure dilution.
+    """Thickener area after Coe and Clevenger from liquid-to-solid mass ratios, as mineral engineers measure
+    dilution.
 
-    >>> round(thickener_area_liquid_ratio(1.33, [5, 4.2, 3.7, 3.1, 2.5], [2e-4, 1.2e-4, 9.4e-5, 7e-5, 5e-5], 1.5, 1000), 1)
+    >>> round(
+    ...     thickener_area_liquid_ratio(
+    ...         1.33, [5, 4.2, 3.7, 3.1, 2.5], [2e-4, 1.2e-4, 9.4e-5, 7e-5, 5e-5], 1.5, 1000
+    ...     ),
+    ...     1,
+    ... )
     31.1
     """
     U, v = jnp.asarray(series_liquid_ratios), jnp.asarray(series_velocities)
@@ -137,8 +167,11 @@ def interface_height_underflow(
 
 
 @formula(source="talmage1955", equation=r"A = \frac{Q\,t_u}{h_0}")
-def thickener_area_talmage_fitch(volume_flow: VolumeFlow, underflow_time: Time, initial_height: Length) -> Area:
-    """Thickener area from one batch test: the time at which the tangent at the compression point reaches the underflow height.
+def thickener_area_talmage_fitch(
+    volume_flow: VolumeFlow, underflow_time: Time, initial_height: Length
+) -> Area:
+    """Thickener area from one batch test: the time at which the tangent at the compression point reaches the
+    underflow height.
 
     >>> round(thickener_area_talmage_fitch("100 m^3/hour", "45 min", "0.5 m"), 6)
     150.0
@@ -147,7 +180,9 @@ def thickener_area_talmage_fitch(volume_flow: VolumeFlow, underflow_time: Time, 
 
 
 @formula(source="talmage1955", equation=r"\frac{A}{\dot m_s} = \frac{t_u}{C_0 h_0}")
-def unit_area_talmage_fitch(underflow_time: Time, initial_concentration: Concentration, initial_height: Length) -> UnitArea:
+def unit_area_talmage_fitch(
+    underflow_time: Time, initial_concentration: Concentration, initial_height: Length
+) -> UnitArea:
     """Area per solids flow from one batch test.
 
     >>> round(unit_area_talmage_fitch("45 min", 50.0, "0.5 m"), 6)
@@ -157,8 +192,11 @@ def unit_area_talmage_fitch(underflow_time: Time, initial_concentration: Concent
 
 
 @formula(source="yoshioka1957", equation=r"G = \frac{v}{1/C - 1/C_u}", typical=_BETWEEN)
-def solids_flux_layer(solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration) -> MassFlux:
-    """Solids flux that a layer of one concentration passes on to an underflow of another; unlimited when it is the denser.
+def solids_flux_layer(
+    solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration
+) -> MassFlux:
+    """Solids flux that a layer of one concentration passes on to an underflow of another; unlimited when it
+    is the denser.
 
     >>> round(solids_flux_layer(200, "0.2 mm/s", 500), 6)
     0.066667

@@ -1,4 +1,6 @@
-"""Batch settling test: one curve h(t) gives the settling velocity, the flux curve, a velocity law and the compression point."""
+"""Batch settling test: one curve h(t) gives the settling velocity, the flux curve, a velocity law and the
+compression point.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,17 @@ import numpy as np
 from granum.core import lab_test
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Distance, Length, MassFlux, PositiveNumber, Series, Speed, Time, VolumePerMass
+from granum.core.kinds import (
+    Concentration,
+    Distance,
+    Length,
+    MassFlux,
+    PositiveNumber,
+    Series,
+    Speed,
+    Time,
+    VolumePerMass,
+)
 from granum.core.units import format_number
 from granum.estimation import Estimate, Fit, LabTest
 from granum.estimation.results import t_reach
@@ -24,12 +36,17 @@ from granum.settling.lab_tests.curve import Curve, Tangents, convex_curve, read_
 from granum.settling.velocities import Cole, RichardsonZakiConcentration, Takacs, Vesilind
 
 RESAMPLES = 200
-FAR = 20.0  # scatter, in reading errors, of points left out beyond which a new fit with them need not be tried
-EXPLAINED = 2.0  # scatter, in reading errors, up to which a velocity law alone accounts for points taken for compression
+FAR = (
+    20.0  # scatter, in reading errors, of points left out beyond which a new fit with them need not be tried
+)
+# scatter, in reading errors, up to which a velocity law alone accounts for points taken for compression
+EXPLAINED = 2.0
 
 
 class FluxCurve(NamedTuple):
-    """Settling velocity and flux against concentration by Kynch's tangents, with 95 % limits of the velocity."""
+    """Settling velocity and flux against concentration by Kynch's tangents, with 95 % limits of the
+    velocity.
+    """
 
     solids_concentration: Annotated[Concentration, Series("points")]
     settling_velocity: Annotated[Speed, Series("points")]
@@ -67,41 +84,59 @@ def _start_power(C: np.ndarray, v: np.ndarray) -> dict[str, float]:
 def _start_packed(C: np.ndarray, v: np.ndarray) -> dict[str, float]:
     packed = 1.3 * float(C.max())
     n = min(max(_line(np.log(1 - C / packed), np.log(v))[0], 1.5), 12.0)
-    return {"unhindered_velocity": float(v[0] / (1 - C[0] / packed) ** n), "settling_exponent": n, "packed_concentration": packed}
+    return {
+        "unhindered_velocity": float(v[0] / (1 - C[0] / packed) ** n),
+        "settling_exponent": n,
+        "packed_concentration": packed,
+    }
 
 
 _ABOVE = {"vesilind_velocity": (0.0, np.inf), "vesilind_coefficient": (0.0, np.inf)}
 FUNCTIONS = {
     "vesilind": _Function(
-        lambda p: Vesilind(**p), lambda C, v: _start_exponential(C, v, ("vesilind_velocity", "vesilind_coefficient")), _ABOVE,
-        lambda p: 2.0 / p["vesilind_coefficient"], lambda p, C0: C0 + 80.0 / p["vesilind_coefficient"],
+        lambda p: Vesilind(**p),
+        lambda C, v: _start_exponential(C, v, ("vesilind_velocity", "vesilind_coefficient")),
+        _ABOVE,
+        lambda p: 2.0 / p["vesilind_coefficient"],
+        lambda p, C0: C0 + 80.0 / p["vesilind_coefficient"],
     ),
-    # The flocculant term and the cap act below the concentrations of zone settling: they stay at the benchmark's values.
+    # The flocculant term and the cap act below the concentrations of zone settling: they stay at the
+    # benchmark's values.
     "takacs": _Function(
         lambda p: Takacs(**p, takacs_velocity_maximum=1.0),
         lambda C, v: _start_exponential(C, v, ("takacs_velocity", "takacs_hindered_coefficient")),
         {"takacs_velocity": (0.0, np.inf), "takacs_hindered_coefficient": (0.0, 2.8)},
-        lambda p: 2.0 / p["takacs_hindered_coefficient"], lambda p, C0: C0 + 80.0 / p["takacs_hindered_coefficient"],
+        lambda p: 2.0 / p["takacs_hindered_coefficient"],
+        lambda p, C0: C0 + 80.0 / p["takacs_hindered_coefficient"],
     ),
     "cole": _Function(
-        lambda p: Cole(**p, settling_velocity_maximum=1e3), _start_power,
+        lambda p: Cole(**p, settling_velocity_maximum=1e3),
+        _start_power,
         {"reference_velocity": (0.0, np.inf), "settling_exponent": (1.0001, 20.0)},
-        lambda p: 0.0, lambda p, C0: 1e6 * C0,
+        lambda p: 0.0,
+        lambda p, C0: 1e6 * C0,
     ),
     "richardson_zaki": _Function(
-        lambda p: RichardsonZakiConcentration(**p), _start_packed,
-        {"unhindered_velocity": (0.0, np.inf), "settling_exponent": (1.0001, 30.0), "packed_concentration": (0.0, np.inf)},
+        lambda p: RichardsonZakiConcentration(**p),
+        _start_packed,
+        {
+            "unhindered_velocity": (0.0, np.inf),
+            "settling_exponent": (1.0001, 30.0),
+            "packed_concentration": (0.0, np.inf),
+        },
         lambda p: 2.0 * p["packed_concentration"] / (p["settling_exponent"] + 1.0),
         lambda p, C0: p["packed_concentration"] * (1.0 - 1e-9),
     ),
-}  # fmt: skip
+}
 
 
 VelocityFunction = Literal["vesilind", "richardson_zaki", "takacs", "cole"]
 
 
 class _Height(eqx.Module):
-    """The curve of a velocity law; a module with its numbers as arrays, so that it is compiled once for all tests of one length."""
+    """The curve of a velocity law; a module with its numbers as arrays, so that it is compiled once for all
+    tests of one length.
+    """
 
     law: str = eqx.field(static=True)
     initial_concentration: Any
@@ -109,7 +144,9 @@ class _Height(eqx.Module):
 
     def __call__(self, p: Mapping[str, Any], t: Any) -> Any:
         function, C0 = FUNCTIONS[self.law], self.initial_concentration
-        return kynch_height(t, function.build(p), C0, self.initial_height, function.inflection(p), function.densest(p, C0))
+        return kynch_height(
+            t, function.build(p), C0, self.initial_height, function.inflection(p), function.densest(p, C0)
+        )
 
 
 class _UnitArea(eqx.Module):
@@ -120,7 +157,9 @@ class _UnitArea(eqx.Module):
     underflow_concentration: Any
 
     def __call__(self, p: Mapping[str, Any]) -> dict[str, Any]:
-        limit = limiting_flux_underflow(self.underflow_concentration, self.initial_concentration, FUNCTIONS[self.law].build(p))
+        limit = limiting_flux_underflow(
+            self.underflow_concentration, self.initial_concentration, FUNCTIONS[self.law].build(p)
+        )
         return {"unit_area_coe_clevenger": 1.0 / limit.limiting_flux}
 
 
@@ -130,13 +169,15 @@ def _scatter(found: Fit, points: np.ndarray) -> float:
 
 @lab_test("batch_test", source="kynch1952; talmage1955; roberts1949", title="Batch settling test")
 class BatchTest(LabTest):
-    """Settling curve: height of the interface against time, in a cylinder of uniform initial concentration.
+    """Settling curve: height of the interface against time, in a cylinder of uniform initial
+    concentration.
 
-    Zones are found without a hand: induction (left out), constant rate (AB), falling rate (BC) and compression (CD, Roberts'
-    two exponentials, where the velocity law alone does not account for the later points too). The chosen velocity law is fitted to
-    the curve itself, by Kynch's closed solution, up to the compression point. With an underflow the unit area comes both ways: from
-    the law (Coe and Clevenger's greatest) and from the curve (Talmage and Fitch). ``flux_curve`` gives the tangent construction
-    with a band. One curve knows its law only from the initial concentration to that at the compression point.
+    Zones are found without a hand: induction (left out), constant rate (AB), falling rate (BC) and
+    compression (CD, Roberts' two exponentials, where the velocity law alone does not account for the later
+    points too). The chosen velocity law is fitted to the curve itself, by Kynch's closed solution, up to the
+    compression point. With an underflow the unit area comes both ways: from the law (Coe and Clevenger's
+    greatest) and from the curve (Talmage and Fitch). ``flux_curve`` gives the tangent construction with a
+    band. One curve knows its law only from the initial concentration to that at the compression point.
     """
 
     time: Annotated[Time, Series("points")]
@@ -147,23 +188,38 @@ class BatchTest(LabTest):
     velocity_function: VelocityFunction = "vesilind"
 
     estimates: ClassVar = {
-        "vesilind_velocity": Speed, "vesilind_coefficient": VolumePerMass, "takacs_velocity": Speed,
-        "takacs_hindered_coefficient": VolumePerMass, "reference_velocity": Speed, "settling_exponent": PositiveNumber,
-        "unhindered_velocity": Speed, "packed_concentration": Concentration, "unit_area_coe_clevenger": UnitArea,
-    }  # fmt: skip
+        "vesilind_velocity": Speed,
+        "vesilind_coefficient": VolumePerMass,
+        "takacs_velocity": Speed,
+        "takacs_hindered_coefficient": VolumePerMass,
+        "reference_velocity": Speed,
+        "settling_exponent": PositiveNumber,
+        "unhindered_velocity": Speed,
+        "packed_concentration": Concentration,
+        "unit_area_coe_clevenger": UnitArea,
+    }
     axes: ClassVar = {"time": Time, "interface_height": Distance}
     least_points: ClassVar = 5
 
     def __check_init__(self) -> None:
         if not self.initial_concentration > 0:
-            raise InputError(_("The initial concentration must be greater than zero: it turns heights into concentrations."))
+            raise InputError(
+                _(
+                    "The initial concentration must be greater than zero: it turns heights into "
+                    "concentrations."
+                )
+            )
 
     def curve(self) -> Curve:
-        """The cleaned curve with its zones by shape alone; ``zones`` asks the velocity law whether there is compression."""
+        """The cleaned curve with its zones by shape alone; ``zones`` asks the velocity law whether there is
+        compression.
+        """
         return read_curve(self.time, self.interface_height, self.initial_height)
 
     def zones(self) -> Curve:
-        """The cleaned curve with its zones; compression only where the velocity law does not account for the later points."""
+        """The cleaned curve with its zones; compression only where the velocity law does not account for the
+        later points.
+        """
         c = self.curve()
         return c if c.compression is None else self._zones_and_law()[0]
 
@@ -175,7 +231,9 @@ class BatchTest(LabTest):
         C = self.initial_concentration * c.initial_height / found.intercept_height[late]
         start = np.array([float(self.initial_concentration)]), np.array([c.constant_rate.velocity])
         denser = self.initial_concentration < C
-        return np.concatenate([start[0], C[denser]]), np.concatenate([start[1], found.settling_velocity[late][denser]])
+        return np.concatenate([start[0], C[denser]]), np.concatenate(
+            [start[1], found.settling_velocity[late][denser]]
+        )
 
     def flux_curve(self, seed: int = 0) -> FluxCurve:
         """Kynch's flux curve with a 95 % band, from curves with their residuals drawn anew."""
@@ -192,7 +250,9 @@ class BatchTest(LabTest):
     def _redrawn(c: Curve, seed: int = 0) -> list[Tangents]:
         """Tangents of curves with their residuals drawn anew."""
         rng = np.random.default_rng(seed)
-        residual = rng.choice([-1.0, 1.0], (RESAMPLES, c.time.size)) * np.maximum(np.abs(c.height - c.convex.height), 0.3 * c.noise)
+        residual = rng.choice([-1.0, 1.0], (RESAMPLES, c.time.size)) * np.maximum(
+            np.abs(c.height - c.convex.height), 0.3 * c.noise
+        )
         return [convex_curve(c.time, c.convex.height + shift).tangents for shift in residual]
 
     def fit(self) -> Fit:
@@ -200,15 +260,26 @@ class BatchTest(LabTest):
         c, found = self._zones_and_law()
         flags = [self.note(word, sentence) for word, sentence in c.said]
         if c.compression is None:
-            flags.append(self.note("no compression point", _("The curve shows no separate compression zone: all points were fitted.")))
+            flags.append(
+                self.note(
+                    "no compression point",
+                    _("The curve shows no separate compression zone: all points were fitted."),
+                )
+            )
         else:
-            flags.append(self.note("compression left out", _("Points after the compression point are outside Kynch's theory: not fitted.")))
+            flags.append(
+                self.note(
+                    "compression left out",
+                    _("Points after the compression point are outside Kynch's theory: not fitted."),
+                )
+            )
         if (miss := found.statistics["rmse"]) > EXPLAINED * c.noise:
             flags.append(
                 self.note(
                     "law misses the curve",
                     _(
-                        "The velocity law misses the fitted points by {miss} mm (root mean square), more than the reading error: its "
+                        "The velocity law misses the fitted points by {miss} mm (root mean square), "
+                        "more than the reading error: its "
                         "zones and unit area are doubtful. Try another velocity_function."
                     ).format(miss=format_number(1e3 * miss)),
                 )
@@ -217,7 +288,9 @@ class BatchTest(LabTest):
         return replace(found, derived=derived, flags=flags + found.flags + self._disagreement(derived))
 
     def _zones_and_law(self) -> tuple[Curve, Fit]:
-        """Two exponentials follow any falling-rate curve better than one: the law fitted to all points decides on compression."""
+        """Two exponentials follow any falling-rate curve better than one: the law fitted to all points
+        decides on compression.
+        """
         c = self.curve()
         found = self._law(c)
         if c.compression is None or _scatter(found, ~found.kept) > FAR * c.noise:
@@ -240,10 +313,16 @@ class BatchTest(LabTest):
         if "packed_concentration" in bounds:
             bounds["packed_concentration"] = (1.02 * C0, np.inf)
         return self.fitted(
-            _Height(self.velocity_function, jnp.asarray(C0), jnp.asarray(c.initial_height)), start or function.start(C[usable], v[usable]),
-            c.time, c.height, keep=np.arange(c.time.size) < last, bounds=bounds,
-            derived=_UnitArea(self.velocity_function, jnp.asarray(C0), jnp.asarray(float(under))) if under is not None else None,
-        )  # fmt: skip
+            _Height(self.velocity_function, jnp.asarray(C0), jnp.asarray(c.initial_height)),
+            start or function.start(C[usable], v[usable]),
+            c.time,
+            c.height,
+            keep=np.arange(c.time.size) < last,
+            bounds=bounds,
+            derived=_UnitArea(self.velocity_function, jnp.asarray(C0), jnp.asarray(float(under)))
+            if under is not None
+            else None,
+        )
 
     def _disagreement(self, derived: Mapping[str, Estimate]) -> list[dict[str, Any]]:
         """A word where the two unit areas lie farther apart than their intervals reach."""
@@ -257,8 +336,10 @@ class BatchTest(LabTest):
             self.note(
                 "unit areas disagree",
                 _(
-                    "The velocity law asks for {law} m²·s/kg, the tangent to the curve (Talmage and Fitch) for {curve}: they differ by more "
-                    "than their intervals. Size by the greater one, or test at a concentration nearer to the underflow."
+                    "The velocity law asks for {law} m²·s/kg, the tangent to the curve (Talmage and "
+                    "Fitch) for {curve}: they differ by more "
+                    "than their intervals. Size by the greater one, or test at a concentration nearer "
+                    "to the underflow."
                 ).format(law=format_number(law.value), curve=format_number(curve.value)),
                 "unit_area_talmage_fitch",
             )
@@ -270,7 +351,11 @@ class BatchTest(LabTest):
             return np.inf
         late = c.convex.tangents.time <= c.compression.time
         cut = c.convex.tangents.intercept_height[late]
-        return float(self.initial_concentration) * c.initial_height / (float(cut.min()) if cut.size else c.initial_height)
+        return (
+            float(self.initial_concentration)
+            * c.initial_height
+            / (float(cut.min()) if cut.size else c.initial_height)
+        )
 
     def _derived(self, c: Curve) -> dict[str, Estimate]:
         line, mass = c.constant_rate, float(self.initial_concentration) * c.initial_height
@@ -281,7 +366,7 @@ class BatchTest(LabTest):
             ),
             "induction_time": Estimate(c.induction_time, "s"),
             "constant_rate_time": Estimate(c.constant_rate_end + c.induction_time, "s"),
-        }  # fmt: skip
+        }
         if c.compression is not None:
             at = c.compression
             found |= {
@@ -289,27 +374,36 @@ class BatchTest(LabTest):
                 "compression_height": Estimate(at.height, "m"),
                 "compression_concentration": Estimate(self._densest(c), "kg/m^3"),
                 "final_height": Estimate(at.final_height, "m"),
-                "final_concentration": Estimate(mass / at.final_height if at.final_height > 0 else np.inf, "kg/m^3"),
+                "final_concentration": Estimate(
+                    mass / at.final_height if at.final_height > 0 else np.inf, "kg/m^3"
+                ),
             }
         if self.underflow_concentration is not None:
             found |= self._talmage_fitch(c, mass)
         return found
 
     def _talmage_fitch(self, c: Curve, mass: float) -> dict[str, Estimate]:
-        """Time at which the tangent at the compression point (or the curve itself, when it is there first) meets the underflow height."""
+        """Time at which the tangent at the compression point (or the curve itself, when it is there first)
+        meets the underflow height.
+        """
         height = mass / float(self.underflow_concentration)  # type: ignore[arg-type]
         if height >= c.initial_height:
             raise InputError(
-                _("The underflow ({underflow} kg/m³) must be denser than the suspension ({initial} kg/m³).").format(
-                    underflow=float(self.underflow_concentration), initial=float(self.initial_concentration)  # type: ignore[arg-type]
+                _(
+                    "The underflow ({underflow} kg/m³) must be denser than the suspension ({initial} kg/m³)."
+                ).format(
+                    underflow=float(self.underflow_concentration),
+                    initial=float(self.initial_concentration),  # type: ignore[arg-type]
                 )
-            )  # fmt: skip
+            )
 
         def meets(tangents: Tangents) -> float:
             middle, cut, velocity = tangents
             if c.compression is not None and height < c.compression.height:
                 i = int(np.argmin(np.abs(middle - c.compression.time)))
-            else:  # the tangent that reaches the underflow height last, of all layers that are thinner than the underflow
+            # the tangent that reaches the underflow height last, of all layers that are thinner than the
+            # underflow
+            else:
                 i = int(np.argmax((cut - height) / velocity * (cut > height)))
             return float((cut[i] - height) / velocity[i])
 
@@ -319,7 +413,9 @@ class BatchTest(LabTest):
         per_mass = [x / mass for x in (time, estimate.standard_error, *estimate.interval_95)]
         return {
             "underflow_time": estimate,
-            "unit_area_talmage_fitch": Estimate(per_mass[0], "m^2*s/kg", per_mass[1], (per_mass[2], per_mass[3])),
+            "unit_area_talmage_fitch": Estimate(
+                per_mass[0], "m^2*s/kg", per_mass[1], (per_mass[2], per_mass[3])
+            ),
         }
 
 

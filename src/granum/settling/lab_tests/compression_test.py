@@ -10,7 +10,18 @@ import numpy as np
 
 from granum.core import lab_test
 from granum.core.i18n import _
-from granum.core.kinds import Concentration, Density, Distance, Length, PressureDifference, Series, Speed, Time, VolumePerMass, Within
+from granum.core.kinds import (
+    Concentration,
+    Density,
+    Distance,
+    Length,
+    PressureDifference,
+    Series,
+    Speed,
+    Time,
+    VolumePerMass,
+    Within,
+)
 from granum.estimation import Fit, LabTest
 from granum.settling.column import Suspension, settle
 from granum.settling.compression import LogarithmicStress
@@ -19,7 +30,9 @@ from granum.settling.velocities import Vesilind
 
 
 class _Column(eqx.Module):
-    """Height of the interface in a column; a module with its numbers as arrays, so that it is compiled once for all tests of one length."""
+    """Height of the interface in a column; a module with its numbers as arrays, so that it is compiled once
+    for all tests of one length.
+    """
 
     start_height: Any
     initial_concentration: Any
@@ -37,12 +50,16 @@ class _Column(eqx.Module):
         return course.interface_height(0.5 * self.initial_concentration)[1:]
 
 
-@lab_test("compression_test", source="burger2011; declercq2008; diehl2015", title="Settling curve with compression")
+@lab_test(
+    "compression_test", source="burger2011; declercq2008; diehl2015", title="Settling curve with compression"
+)
 class CompressionTest(LabTest):
-    """Long settling curve into compression: the whole curve is fitted by the one-dimensional settling-compression model.
+    """Long settling curve into compression: the whole curve is fitted by the one-dimensional
+    settling-compression model.
 
-    Estimates Vesilind's constants, the critical concentration and the scale of the logarithmic effective stress; its
-    concentration scale is given. First values come from Kynch's construction. The grid is that of ``cells``.
+    Estimates Vesilind's constants, the critical concentration and the scale of the logarithmic effective
+    stress; its concentration scale is given. First values come from Kynch's construction. The grid is that of
+    ``cells``.
     """
 
     time: Annotated[Time, Series("points")]
@@ -55,9 +72,11 @@ class CompressionTest(LabTest):
     cells: Annotated[int, Within(5, 5000)] = 100
 
     estimates: ClassVar = {
-        "vesilind_velocity": Speed, "vesilind_coefficient": VolumePerMass,
-        "critical_concentration": Concentration, "stress_scale": PressureDifference,
-    }  # fmt: skip
+        "vesilind_velocity": Speed,
+        "vesilind_coefficient": VolumePerMass,
+        "critical_concentration": Concentration,
+        "stress_scale": PressureDifference,
+    }
     axes: ClassVar = {"time": Time, "interface_height": Distance}
     least_points: ClassVar = 8
 
@@ -66,15 +85,23 @@ class CompressionTest(LabTest):
         return self._column(start_height)(p, time)
 
     def _column(self, start_height: Any) -> _Column:
-        numbers = (start_height, self.initial_concentration, self.solid_density, self.liquid_density, self.stress_concentration)
+        numbers = (
+            start_height,
+            self.initial_concentration,
+            self.solid_density,
+            self.liquid_density,
+            self.stress_concentration,
+        )
         return _Column(*(jnp.asarray(value, dtype=float) for value in numbers), cells=self.cells)
 
     def fit(self) -> Fit:
         """Constants of hindrance and compression."""
         before = BatchTest(
-            time=self.time, interface_height=self.interface_height,
-            initial_concentration=self.initial_concentration, initial_height=self.initial_height,
-        )  # fmt: skip
+            time=self.time,
+            interface_height=self.interface_height,
+            initial_concentration=self.initial_concentration,
+            initial_height=self.initial_height,
+        )
         c = before.curve()
         first = before.fit()
         final = float(self.initial_concentration) * c.initial_height / float(c.height[-1])
@@ -82,14 +109,23 @@ class CompressionTest(LabTest):
         critical = found.value if found else 0.7 * final
         buoyant = 9.80665 * (1.0 - float(self.liquid_density) / float(self.solid_density))
         weight = buoyant * float(self.initial_concentration) * c.initial_height
-        start = {**first.values, "critical_concentration": min(critical, 0.9 * final), "stress_scale": max(weight, 1e-6)}
+        start = {
+            **first.values,
+            "critical_concentration": min(critical, 0.9 * final),
+            "stress_scale": max(weight, 1e-6),
+        }
         later = c.time > 0
         flags = [self.note(word, sentence) for word, sentence in c.said]
         flags.append(
-            self.note("grid", _("Fitted on {cells} cells: finer grids shift the front by less than a cell.").format(cells=self.cells))
+            self.note(
+                "grid",
+                _("Fitted on {cells} cells: finer grids shift the front by less than a cell.").format(
+                    cells=self.cells
+                ),
+            )
         )
         low = 1.01 * float(self.initial_concentration)
         bounds = dict.fromkeys(start, (1e-09, np.inf)) | {"critical_concentration": (low, np.inf)}
         return self.fitted(
             self._column(c.initial_height), start, c.time[later], c.height[later], bounds=bounds, flags=flags
-        )  # fmt: skip
+        )

@@ -1,7 +1,7 @@
 """A settling curve h(t) made usable: cleaned, split into zones, and its tangents taken without a hand.
 
-The tangents are the straight pieces of the best convex falling curve through the points (non-negative least squares on
-ramps): each piece, prolonged to the axis, is one of Kynch's tangents.
+The tangents are the straight pieces of the best convex falling curve through the points (non-negative least
+squares on ramps): each piece, prolonged to the axis, is one of Kynch's tangents.
 """
 
 from __future__ import annotations
@@ -55,7 +55,9 @@ class Compression(NamedTuple):
 
 @dataclass(frozen=True)
 class Curve:
-    """A cleaned settling curve; ``time`` counts from the end of the induction. ``said`` tells what was done to the data."""
+    """A cleaned settling curve; ``time`` counts from the end of the induction. ``said`` tells what was done
+    to the data.
+    """
 
     time: np.ndarray
     height: np.ndarray
@@ -106,7 +108,11 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
     said: list[tuple[str, str]] = []
     t, h = np.asarray(time, dtype=float), np.asarray(height, dtype=float)
     if t.size < LEAST_POINTS:
-        raise InputError(_("A settling curve needs at least {least} points; {given} were given.").format(least=LEAST_POINTS, given=t.size))
+        raise InputError(
+            _("A settling curve needs at least {least} points; {given} were given.").format(
+                least=LEAST_POINTS, given=t.size
+            )
+        )
     if np.any(np.diff(t) < 0):
         order = np.argsort(t, kind="stable")
         t, h = t[order], h[order]
@@ -119,22 +125,35 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
     if t.size > MOST_POINTS:  # the convex curve takes a matrix of points by points
         edges = np.linspace(0, t.size, MOST_POINTS + 1).astype(int)[:-1]
         sizes = np.diff(np.append(edges, t.size))
-        said.append(("thinned", _("{count} points were averaged in groups to {most}.").format(count=t.size, most=MOST_POINTS)))
+        said.append(
+            (
+                "thinned",
+                _("{count} points were averaged in groups to {most}.").format(count=t.size, most=MOST_POINTS),
+            )
+        )
         t, h = np.add.reduceat(t, edges) / sizes, np.add.reduceat(h, edges) / sizes
     smooth = falling(h)
     moved = np.abs(smooth - h)
     if np.any(moved > 1e-12 * h.max()):
-        said.append((
-            "made falling",
-            _("{count} heights rose with time and were averaged with their neighbors, by at most {most} mm.").format(
-                count=int(np.count_nonzero(moved > 1e-12 * h.max())), most=round(1e3 * float(moved.max()), 3)
-            ),
-        ))  # fmt: skip
+        said.append(
+            (
+                "made falling",
+                _(
+                    "{count} heights rose with time and were averaged with their neighbors, by at most "
+                    "{most} mm."
+                ).format(
+                    count=int(np.count_nonzero(moved > 1e-12 * h.max())),
+                    most=round(1e3 * float(moved.max()), 3),
+                ),
+            )
+        )
         h = smooth
     start = float(h[0] if initial_height is None else initial_height)
     if not h[0] - h[-1] > 0.02 * start:
         raise InputError(
-            _("The interface hardly falls: from {first} to {last} m. Is this a settling curve?").format(first=h[0], last=h[-1])
+            _("The interface hardly falls: from {first} to {last} m. Is this a settling curve?").format(
+                first=h[0], last=h[-1]
+            )
         )
     skip = _induction(t, h)
     convex = convex_curve(t[skip:], h[skip:])
@@ -143,15 +162,20 @@ def read_curve(time: Any, height: Any, initial_height: float | None = None) -> C
     line = _constant_rate(t[skip:], h[skip:], noise)
     lag = max((start - line.height) / -line.velocity, 0.0) if skip else 0.0
     if skip:
-        said.append((
-            "induction left out",
-            _("The first {count} points settle slower than the later ones: an induction time of {lag} s was taken off.").format(
-                count=skip, lag=round(lag, 1)
-            ),
-        ))  # fmt: skip
+        said.append(
+            (
+                "induction left out",
+                _(
+                    "The first {count} points settle slower than the later ones: an induction time of "
+                    "{lag} s was taken off."
+                ).format(count=skip, lag=round(lag, 1)),
+            )
+        )
     t, h = t[skip:] - lag, h[skip:]
     line = line._replace(height=line.height - line.velocity * lag)
-    return Curve(t, h, start, lag, noise, convex_curve(t, h), line, _compression(t, h, line.points), tuple(said))
+    return Curve(
+        t, h, start, lag, noise, convex_curve(t, h), line, _compression(t, h, line.points), tuple(said)
+    )
 
 
 def _induction(t: np.ndarray, h: np.ndarray) -> int:
@@ -160,7 +184,11 @@ def _induction(t: np.ndarray, h: np.ndarray) -> int:
     early = slopes[: max(2, slopes.size // 2)]
     steepest = int(np.argmax(early))
     slow = np.flatnonzero(early[:steepest] < LAG_SLOPE * early[steepest])
-    return int(slow[-1]) + 1 if slow.size and early[steepest] - early[slow[-1]] > 3 * LEAST_NOISE * h[0] / np.diff(t)[slow[-1]] else 0
+    return (
+        int(slow[-1]) + 1
+        if slow.size and early[steepest] - early[slow[-1]] > 3 * LEAST_NOISE * h[0] / np.diff(t)[slow[-1]]
+        else 0
+    )
 
 
 def _line(t: np.ndarray, h: np.ndarray) -> tuple[Straight, np.ndarray]:
@@ -177,7 +205,10 @@ def _constant_rate(t: np.ndarray, h: np.ndarray, noise: float) -> Straight:
     found, residual = _line(t[:3], h[:3])
     if np.max(np.abs(residual)) > 3 * noise:
         raise InputError(
-            _("There is no zone of constant rate: the first three points do not lie on a line. Sample earlier or dilute the suspension.")
+            _(
+                "There is no zone of constant rate: the first three points do not lie on a line. Sample "
+                "earlier or dilute the suspension."
+            )
         )
     for count in range(4, t.size + 1):
         line, residual = _line(t[:count], h[:count])
@@ -202,13 +233,18 @@ def _decay(t: np.ndarray, h: np.ndarray) -> tuple[float, float]:
 
 
 def _compression(t: np.ndarray, h: np.ndarray, start: int) -> Compression | None:
-    """Roberts' construction: the falling-rate part is two exponential approaches, which meet at the compression point."""
+    """Roberts' construction: the falling-rate part is two exponential approaches, which meet at the
+    compression point.
+    """
     first = start - 1
     if t.size - first < 9:
         return None
     alone = _decay(t[first:], h[first:])[0]
     choices = np.unique(np.linspace(first + 4, t.size - 5, 24).astype(int))
-    scores = [(_decay(t[first : c + 1], h[first : c + 1])[0] + (tail := _decay(t[c:], h[c:]))[0], int(c), tail[1]) for c in choices]
+    scores = [
+        (_decay(t[first : c + 1], h[first : c + 1])[0] + (tail := _decay(t[c:], h[c:]))[0], int(c), tail[1])
+        for c in choices
+    ]
     score, at, final = min(scores)
     if score > 0.5 * alone:
         return None

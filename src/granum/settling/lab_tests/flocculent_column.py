@@ -28,33 +28,46 @@ def removal_at(p: Any, time: Any, depth: Any) -> Any:
 
 
 def removal_over(p: Any, time: Any, height: Any) -> Any:
-    """Removal over a whole depth: the mean of the removal at all depths, which the sum over iso-removal lines approximates."""
+    """Removal over a whole depth: the mean of the removal at all depths, which the sum over iso-removal lines
+    approximates.
+    """
     nodes, weights = QUADRATURE
-    share = (0.5 * (jnp.asarray(nodes) + 1.0)) ** 3  # nodes crowd where removal rises steeply to one, at the surface
+    share = (
+        0.5 * (jnp.asarray(nodes) + 1.0)
+    ) ** 3  # nodes crowd where removal rises steeply to one, at the surface
     jacobian = 3.0 * (0.5 * (jnp.asarray(nodes) + 1.0)) ** 2
     values = removal_at(p, jnp.asarray(time)[..., None], share * jnp.asarray(height)[..., None])
     return jnp.sum(0.5 * jnp.asarray(weights) * jacobian * values, axis=-1)
 
 
 def time_for(p: Any, removal: Any, height: Any) -> Any:
-    """Time in which a whole depth reaches a removal: the removal depends on depth over reach alone, which is found on a log scale."""
+    """Time in which a whole depth reaches a removal: the removal depends on depth over reach alone, which is
+    found on a log scale.
+    """
     height, removal = jnp.asarray(height, dtype=float), jnp.asarray(removal, dtype=float)
 
     def off(x: Any, wanted: Any) -> Any:
         return removal_over(p, p["floc_time"], jnp.exp(x) * p["floc_velocity"] * p["floc_time"]) - wanted
 
     share = jnp.exp(find_root(off, -60.0, 60.0, removal).value)
-    return p["floc_time"] * (height / (share * p["floc_velocity"] * p["floc_time"])) ** (1.0 / p["floc_exponent"])
+    return p["floc_time"] * (height / (share * p["floc_velocity"] * p["floc_time"])) ** (
+        1.0 / p["floc_exponent"]
+    )
 
 
-@lab_test("flocculent_column", source="eckenfelder1961; davis2010, eq. 10-22", title="Flocculent settling column (iso-removal)")
+@lab_test(
+    "flocculent_column",
+    source="eckenfelder1961; davis2010, eq. 10-22",
+    title="Flocculent settling column (iso-removal)",
+)
 class FlocculentColumn(LabTest):
     """Settling column of a flocculating suspension: share removed at several depths and times.
 
-    A surface with four constants is fitted to all readings in place of lines drawn by hand: the depth of half removal grows as
-    ``v τ (t/τ)ᵇ`` (b above one: flocs grow while they fall; one: discrete particles), and removal across it is
-    ``1/(1 + (z/z½)^c)``. ``iso_removal`` gives the lines, ``removal`` that of a basin, ``duration`` and ``overflow_rate`` what a wanted
-    removal asks for. With the depth of a basin and its residence time, or the removal wanted, the fit gives these figures too.
+    A surface with four constants is fitted to all readings in place of lines drawn by hand: the depth of half
+    removal grows as ``v τ (t/τ)ᵇ`` (b above one: flocs grow while they fall; one: discrete particles), and
+    removal across it is ``1/(1 + (z/z½)^c)``. ``iso_removal`` gives the lines, ``removal`` that of a basin,
+    ``duration`` and ``overflow_rate`` what a wanted removal asks for. With the depth of a basin and its
+    residence time, or the removal wanted, the fit gives these figures too.
     """
 
     time: Annotated[Time, Series("readings")]
@@ -65,9 +78,13 @@ class FlocculentColumn(LabTest):
     removal_efficiency_wanted: OpenFraction | None = None
 
     estimates: ClassVar = {
-        "floc_velocity": Speed, "floc_exponent": PositiveNumber, "floc_sharpness": PositiveNumber,
-        "removal_efficiency_basin": Fraction, "residence_time_wanted": Time, "overflow_rate_wanted": Speed,
-    }  # fmt: skip
+        "floc_velocity": Speed,
+        "floc_exponent": PositiveNumber,
+        "floc_sharpness": PositiveNumber,
+        "removal_efficiency_basin": Fraction,
+        "residence_time_wanted": Time,
+        "overflow_rate_wanted": Speed,
+    }
     axes: ClassVar = {"time": Time, "removal_efficiency": Fraction}
     least_points: ClassVar = 6
 
@@ -75,7 +92,10 @@ class FlocculentColumn(LabTest):
         asked = (self.residence_time, self.removal_efficiency_wanted)
         if (self.basin_depth is None) != all(value is None for value in asked):
             raise InputError(
-                _("A basin needs both its depth ('basin_depth') and its 'residence_time' or the 'removal_efficiency_wanted'."),
+                _(
+                    "A basin needs both its depth ('basin_depth') and its 'residence_time' or the "
+                    "'removal_efficiency_wanted'."
+                ),
                 name="basin_depth",
             )
 
@@ -88,15 +108,25 @@ class FlocculentColumn(LabTest):
     def _fitted(self) -> Fit:
         t, z = jnp.asarray(self.time, dtype=float), jnp.asarray(self.depth, dtype=float)
         scale = float(self._scale)
-        start = {"floc_velocity": float(np.mean(np.asarray(z))) / scale, "floc_exponent": 1.2, "floc_sharpness": 1.0}
+        start = {
+            "floc_velocity": float(np.mean(np.asarray(z))) / scale,
+            "floc_exponent": 1.2,
+            "floc_sharpness": 1.0,
+        }
 
         def model(p: Any, times: Any) -> Any:
             return removal_at({**p, "floc_time": scale}, times, z)
 
-        bounds = {"floc_velocity": (0.0, np.inf), "floc_exponent": (0.05, 5.0), "floc_sharpness": (0.05, 10.0)}
+        bounds = {
+            "floc_velocity": (0.0, np.inf),
+            "floc_exponent": (0.05, 5.0),
+            "floc_sharpness": (0.05, 10.0),
+        }
         flags = self._beyond_the_readings()
         derived = self._basin if self.basin_depth is not None else None
-        return self.fitted(model, start, t, self.removal_efficiency, bounds=bounds, derived=derived, flags=flags)
+        return self.fitted(
+            model, start, t, self.removal_efficiency, bounds=bounds, derived=derived, flags=flags
+        )
 
     def fit(self) -> Fit:
         """Constants of the removal surface, and what it says of a basin; fitted once."""
@@ -119,8 +149,17 @@ class FlocculentColumn(LabTest):
         slow = self.residence_time is not None and float(self.residence_time) > longest
         if not (deep or slow):
             return []
-        words = _("The basin is deeper or its time longer than the readings reach ({depth} m, {time} min): the surface is extrapolated.")
-        return [self.note("extrapolated", words.format(depth=f"{deepest:.3g}", time=f"{longest / 60.0:.3g}"), "basin_depth")]
+        words = _(
+            "The basin is deeper or its time longer than the readings reach ({depth} m, {time} min): "
+            "the surface is extrapolated."
+        )
+        return [
+            self.note(
+                "extrapolated",
+                words.format(depth=f"{deepest:.3g}", time=f"{longest / 60.0:.3g}"),
+                "basin_depth",
+            )
+        ]
 
     def constants(self, found: Fit | None = None) -> dict[str, float]:
         """Fitted constants with the time scale they refer to."""
@@ -128,7 +167,9 @@ class FlocculentColumn(LabTest):
 
     def removal(self, time: Any, height: Any) -> Any:
         """Removal of a basin of a depth after a residence time."""
-        return removal_over(self.constants(), jnp.asarray(time, dtype=float), jnp.asarray(height, dtype=float))
+        return removal_over(
+            self.constants(), jnp.asarray(time, dtype=float), jnp.asarray(height, dtype=float)
+        )
 
     def duration(self, removal_efficiency: Any, height: Any) -> Any:
         """Residence time in which a basin of a depth reaches a removal."""
@@ -141,7 +182,11 @@ class FlocculentColumn(LabTest):
     def iso_removal(self, removal_efficiency: Any, time: Any) -> Any:
         """Depth at which a share has been removed at given times: one iso-removal line."""
         p, R = self.constants(), jnp.asarray(removal_efficiency)
-        reach = p["floc_velocity"] * p["floc_time"] * safe_power(jnp.asarray(time) / p["floc_time"], p["floc_exponent"])
+        reach = (
+            p["floc_velocity"]
+            * p["floc_time"]
+            * safe_power(jnp.asarray(time) / p["floc_time"], p["floc_exponent"])
+        )
         return reach * ((1.0 - R) / R) ** (1.0 / p["floc_sharpness"])
 
     def chart(self) -> go.Figure:
@@ -157,6 +202,14 @@ class FlocculentColumn(LabTest):
             if np.count_nonzero(inside) > 1:
                 add_line(drawing, grid[inside] / 60.0, depth[inside], f"{100 * share:.0f} %", color=color)
         text = [f"{100 * r:.0f}" for r in R]
-        drawing.add_scatter(x=t / 60.0, y=z, mode="markers+text", text=text, textposition="top center", name=_("data"), marker={"size": 6})
+        drawing.add_scatter(
+            x=t / 60.0,
+            y=z,
+            mode="markers+text",
+            text=text,
+            textposition="top center",
+            name=_("data"),
+            marker={"size": 6},
+        )
         drawing.update_yaxes(autorange="reversed")
         return drawing

@@ -20,8 +20,9 @@ STANDARD_CONCENTRATION = 3.5  # kg/m³, at which the stirred index is stated
 class SludgeIndexTest(LabTest):
     """Sludge volume index from the settled volume after 30 minutes at several dilutions.
 
-    Unstirred: the slope of settled volume against concentration over the dilutions that settle to a quarter of the sample or
-    less (diluted index); the others are left out. Stirred: the index at 3.5 kg/m³ on the line through all tests.
+    Unstirred: the slope of settled volume against concentration over the dilutions that settle to a quarter
+    of the sample or less (diluted index); the others are left out. Stirred: the index at 3.5 kg/m³ on the
+    line through all tests.
     """
 
     solids_concentration: Annotated[Concentration, Series("dilutions")]
@@ -36,19 +37,29 @@ class SludgeIndexTest(LabTest):
     def fit(self) -> Fit:
         """The index with its interval and band."""
         self.above_zero("solids_concentration")
-        X, share = np.asarray(self.solids_concentration, dtype=float), np.asarray(self.settled_fraction, dtype=float)
+        X, share = (
+            np.asarray(self.solids_concentration, dtype=float),
+            np.asarray(self.settled_fraction, dtype=float),
+        )
         if self.stirred:
             start = {"sludge_volume_index": float(np.mean(share / X)), "settled_fraction_offset": 0.01}
             return self.fitted(
-                lambda p, x: p["sludge_volume_index"] * x + p["settled_fraction_offset"] * (1.0 - x / STANDARD_CONCENTRATION),
-                start, X, share, flags=[self._band(start["sludge_volume_index"])],
-            )  # fmt: skip
+                lambda p, x: (
+                    p["sludge_volume_index"] * x
+                    + p["settled_fraction_offset"] * (1.0 - x / STANDARD_CONCENTRATION)
+                ),
+                start,
+                X,
+                share,
+                flags=[self._band(start["sludge_volume_index"])],
+            )
         kept = share <= SETTLED_LIMIT
         if np.count_nonzero(kept) < 2:
             raise InputError(
-                _("Fewer than two dilutions settle to {limit} % of the sample or less: dilute further with clear effluent.").format(
-                    limit=round(100 * SETTLED_LIMIT)
-                )
+                _(
+                    "Fewer than two dilutions settle to {limit} % of the sample or less: dilute further "
+                    "with clear effluent."
+                ).format(limit=round(100 * SETTLED_LIMIT))
             )
         start = {"sludge_volume_index": float(np.mean(share[kept] / X[kept]))}
         flags = [self._band(start["sludge_volume_index"])]
@@ -57,7 +68,13 @@ class SludgeIndexTest(LabTest):
     def _band(self, index: float) -> dict[str, Any]:
         value = index * 1e3
         if self.stirred:
-            sentence = _("settles well") if value < 100 else _("settles moderately") if value <= 120 else _("settles badly")
+            sentence = (
+                _("settles well")
+                if value < 100
+                else _("settles moderately")
+                if value <= 120
+                else _("settles badly")
+            )
         elif value < 50:
             sentence = _("dense sludge, which may leave fine flocs in the overflow")
         elif value <= 150:

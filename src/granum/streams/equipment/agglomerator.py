@@ -21,19 +21,26 @@ from granum.streams.turnover import Turnover
 from granum.streams.units import Dynamic, Unit
 
 RANK = 6  # products of functions of one size that a kernel is tried as a sum of
-_RUNAWAY = "The steady sizes in the agglomerator were not found: the particles join faster than fresh ones come. Take a smaller holdup or a weaker kernel."
+_RUNAWAY = (
+    "The steady sizes in the agglomerator were not found: the particles join faster than fresh ones come. "
+    "Take a smaller holdup or a weaker kernel."
+)
 EVEN = 0.01  # of a class: how far its boundaries may be off for classes to count as equally wide in volume
 
 
 class Grid(NamedTuple):
-    """Size classes of a mixture as volumes, m³: the middle of each and, if all are equally wide, which classes meet in which."""
+    """Size classes of a mixture as volumes, m³: the middle of each and, if all are equally wide, which
+    classes meet in which.
+    """
 
     pivots: Any
     cells: Any
 
 
 def grid_of(mixture: Mixture) -> Grid:
-    """Middle volumes, and the class that two classes make (None where classes are equally wide in volume and this is their number)."""
+    """Middle volumes, and the class that two classes make (None where classes are equally wide in volume and
+    this is their number).
+    """
     volumes = np.pi / 6.0 * mixture.edges**3
     pivots = 0.5 * (volumes[1:] + volumes[:-1])
     n = len(pivots)
@@ -44,7 +51,9 @@ def grid_of(mixture: Mixture) -> Grid:
 
 
 class Meetings(NamedTuple):
-    """How often classes meet: the kernel over the volume, a sum of products that gives it, and whether that sum is exact."""
+    """How often classes meet: the kernel over the volume, a sum of products that gives it, and whether that
+    sum is exact.
+    """
 
     kernel: Any
     left: Any
@@ -53,7 +62,9 @@ class Meetings(NamedTuple):
 
 
 def meetings_of(kernel: Any) -> Meetings:
-    """The kernel by cross approximation; those in use are sums of at most four products of functions of one size each."""
+    """The kernel by cross approximation; those in use are sums of at most four products of functions of one
+    size each.
+    """
     rest, scale, left, right = kernel, jnp.max(jnp.abs(kernel)), [], []
     for _ in range(RANK):
         at = jnp.argmax(jnp.abs(jax.lax.stop_gradient(rest)))
@@ -67,7 +78,9 @@ def meetings_of(kernel: Any) -> Meetings:
 
 
 def _joined_evenly(meetings: Meetings, numbers: Any, solid: Any) -> Any:
-    """Mass of pairs by the sum of the numbers of their classes, all being equally wide: a convolution for each product of the kernel."""
+    """Mass of pairs by the sum of the numbers of their classes, all being equally wide: a convolution for
+    each product of the kernel.
+    """
     n = len(numbers)
 
     def by_fourier() -> Any:
@@ -116,13 +129,19 @@ class AgglomeratorFigures(NamedTuple):
     mass_median_size: Length
 
 
-@equipment("agglomerator", source="kumar2008; smoluchowski1917", title="Mixed vessel with agglomeration",
-           equation=r"\frac{dN_i}{dt} = B_i - D_i + \dot N_{i,in} - \frac{\dot m}{M} N_i")  # fmt: skip
+@equipment(
+    "agglomerator",
+    source="kumar2008; smoluchowski1917",
+    title="Mixed vessel with agglomeration",
+    equation=r"\frac{dN_i}{dt} = B_i - D_i + \dot N_{i,in} - \frac{\dot m}{M} N_i",
+)
 class Agglomerator(Unit, Dynamic):
-    """A well-mixed bed of fixed holdup whose particles stick together; what leaves has the composition inside.
+    """A well-mixed bed of fixed holdup whose particles stick together; what leaves has the composition
+    inside.
 
-    Two particles join at the rate of the kernel (m³/s) over the volume of the vessel; solids and further axes ride along with the mass.
-    What would outgrow the size classes stays in the last one. Liquid and gas pass. A start-up begins with the finest class.
+    Two particles join at the rate of the kernel (m³/s) over the volume of the vessel; solids and further axes
+    ride along with the mass. What would outgrow the size classes stays in the last one. Liquid and gas pass.
+    A start-up begins with the finest class.
     """
 
     agglomeration_kernel: Annotated[Any, Law("agglomeration_kernel")]
@@ -143,18 +162,27 @@ class Agglomerator(Unit, Dynamic):
 
     def prepare(self, mixture: Mixture, step: Any) -> Any:
         size = (6.0 / np.pi * grid_of(mixture).pivots) ** (1.0 / 3.0)
-        return meetings_of(self.agglomeration_kernel(jnp.asarray(size)[:, None], jnp.asarray(size)[None, :]) / self.volume)
+        return meetings_of(
+            self.agglomeration_kernel(jnp.asarray(size)[:, None], jnp.asarray(size)[None, :]) / self.volume
+        )
 
     def _rates(self, flat: Any, meetings: Meetings, mixture: Mixture) -> tuple[Any, Any]:
         """Mass born by class, kg/s, and the frequency with which particles of a class meet others, 1/s."""
         grid, density = grid_of(mixture), self._density(mixture)
         numbers = flat @ (1.0 / density) / jnp.asarray(grid.pivots)
-        born = _born_evenly(meetings, numbers, flat) if grid.cells is None else _born(meetings.kernel, numbers, flat, density, grid)
+        born = (
+            _born_evenly(meetings, numbers, flat)
+            if grid.cells is None
+            else _born(meetings.kernel, numbers, flat, density, grid)
+        )
         return born, meetings.kernel @ numbers
 
     def inside(self, feed: Stream) -> Any:
         """The solid held in the steady state, kg."""
-        meetings, turnover = self.prepare(feed.mixture, 0.0), jnp.maximum(feed.solid_flow, 1e-12) / self.holdup_mass
+        meetings, turnover = (
+            self.prepare(feed.mixture, 0.0),
+            jnp.maximum(feed.solid_flow, 1e-12) / self.holdup_mass,
+        )
         fresh = self._flat(feed.solid)
 
         def refilled(vector: Any) -> tuple[Any, None]:
@@ -169,11 +197,15 @@ class Agglomerator(Unit, Dynamic):
 
     def outlets(self, inside: Any, feed: Stream) -> Single:
         some = feed.solid_flow > 0
-        return Single(feed.replace(solid=jnp.where(some, inside * feed.solid_flow / self.holdup_mass, feed.solid)))
+        return Single(
+            feed.replace(solid=jnp.where(some, inside * feed.solid_flow / self.holdup_mass, feed.solid))
+        )
 
     def figures(self, inside: Any, outlets: Single, feed: Stream) -> AgglomeratorFigures:
         time = self.holdup_mass / jnp.maximum(feed.solid_flow, 1e-12)
-        return AgglomeratorFigures(time, *(median_of(s.size_fractions, s.mixture.edges) for s in (feed, outlets.product)))
+        return AgglomeratorFigures(
+            time, *(median_of(s.size_fractions, s.mixture.edges) for s in (feed, outlets.product))
+        )
 
     def initial_holdup(self, mixture: Mixture) -> Any:
         return jnp.zeros(mixture.solid_shape).at[(0,) * len(mixture.solid_shape)].set(1.0) * self.holdup_mass
@@ -187,7 +219,9 @@ class Agglomerator(Unit, Dynamic):
     def advance(
         self, state: Any, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
     ) -> tuple[Any, Single]:
-        """Turnover exact for feeds that are linear over the step, agglomeration of second order (exponential Runge-Kutta)."""
+        """Turnover exact for feeds that are linear over the step, agglomeration of second order (exponential
+        Runge-Kutta).
+        """
         then, now = before["feed"], after["feed"]
         mixture, held = now.mixture, self._flat(state)
         turnover = Turnover.of(0.5 * (then.solid_flow + now.solid_flow) / self.holdup_mass, step)

@@ -114,12 +114,18 @@ class Contents(NamedTuple):
     enthalpy: Any
 
 
-@equipment("stirred_tank", source="levenspiel1999, ch. 6; himmelblau2012, ch. 11", title="Stirred tank of constant holdup",
-           equation=r"\frac{dm_i}{dt} = \dot m_{i,in} - \frac{\dot m_{in}}{M}\,m_i")  # fmt: skip
+@equipment(
+    "stirred_tank",
+    source="levenspiel1999, ch. 6; himmelblau2012, ch. 11",
+    title="Stirred tank of constant holdup",
+    equation=r"\frac{dm_i}{dt} = \dot m_{i,in} - \frac{\dot m_{in}}{M}\,m_i",
+)
 class StirredTank(Unit, Dynamic):
-    """A full, well-mixed vessel of slurry that overflows: what leaves has the composition inside. It evens out disturbances in time.
+    """A full, well-mixed vessel of slurry that overflows: what leaves has the composition inside. It evens
+    out disturbances in time.
 
-    In steady state it passes its feed. A start-up begins with the tank full of the first liquid at 25 °C. Gas passes at once.
+    In steady state it passes its feed. A start-up begins with the tank full of the first liquid at 25 °C. Gas
+    passes at once.
     """
 
     mass: Mass
@@ -133,7 +139,9 @@ class StirredTank(Unit, Dynamic):
 
     def initial_holdup(self, mixture: Any) -> Contents:
         first = jnp.zeros(len(mixture.liquids)).at[0].set(1.0) * self.mass
-        return Contents(jnp.zeros(mixture.solid_shape), first, jnp.sum(first * mixture.enthalpies("liquids", 298.15)))
+        return Contents(
+            jnp.zeros(mixture.solid_shape), first, jnp.sum(first * mixture.enthalpies("liquids", 298.15))
+        )
 
     def steady_holdup(self, inlets: Mapping[str, Stream]) -> Contents:
         feed = inlets["feed"]
@@ -144,19 +152,27 @@ class StirredTank(Unit, Dynamic):
         return jnp.sum(state.solid) + jnp.sum(state.liquid)
 
     def advance(
-        self, state: Contents, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
+        self,
+        state: Contents,
+        before: Mapping[str, Stream],
+        after: Mapping[str, Stream],
+        step: Any,
+        prepared: Any,
     ) -> tuple[Contents, Single]:
         then, now = _condensed(before["feed"]), _condensed(after["feed"])
         new = Turnover.of(0.5 * (then.mass_flow + now.mass_flow) / self.mass, step).through
         full = Contents(
-            new(state.solid, then.solid, now.solid), new(state.liquid, then.liquid, now.liquid),
+            new(state.solid, then.solid, now.solid),
+            new(state.liquid, then.liquid, now.liquid),
             new(state.enthalpy, then.enthalpy_flow, now.enthalpy_flow),
-        )  # fmt: skip
+        )
         # A flow that changes within the step leaves the mass a third-order error off its constant.
         share = self.mass / self.held_mass(full)
         state = Contents(full.solid * share, full.liquid * share, full.enthalpy * share)
         out = now.mass_flow / self.mass
-        product = now.replace(solid=state.solid * out, liquid=state.liquid * out).at_enthalpy(state.enthalpy * out)
+        product = now.replace(solid=state.solid * out, liquid=state.liquid * out).at_enthalpy(
+            state.enthalpy * out
+        )
         return state, Single(product.replace(gas=after["feed"].gas))
 
 

@@ -1,4 +1,6 @@
-"""Humid gas in a line: mixing with fog, cooling with condensation, a cold coil, an adiabatic humidifier, injected steam or water."""
+"""Humid gas in a line: mixing with fog, cooling with condensation, a cold coil, an adiabatic humidifier,
+injected steam or water.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,10 @@ from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit
 
 COLDEST = 200.0
-UNSOLVED = "No temperature was found at which gas and liquid are in equilibrium with the heat they bring: check the temperatures and flows that enter."
+UNSOLVED = (
+    "No temperature was found at which gas and liquid are in equilibrium with the heat they bring: check "
+    "the temperatures and flows that enter."
+)
 
 
 def _drained(stream: Stream) -> tuple[Stream, Stream]:
@@ -49,9 +54,11 @@ class HumidFigures(NamedTuple):
 
 @equipment("humid_mixer", source="ashrae2017, ch. 1", title="Mixer of humid gases, steam and water")
 class HumidMixer(Unit):
-    """Joins humid gases, steam and water sprays adiabatically to equilibrium: liquid evaporates while the gas takes it, excess vapor becomes fog.
+    """Joins humid gases, steam and water sprays adiabatically to equilibrium: liquid evaporates while the gas
+    takes it, excess vapor becomes fog.
 
-    Steam injection and spraying are this unit with a steam or water inlet; what does not evaporate leaves with the gas as liquid.
+    Steam injection and spraying are this unit with a steam or water inlet; what does not evaporate leaves
+    with the gas as liquid.
     """
 
     limits: ClassVar[Limits] = _above_freezing("ashrae2017")
@@ -65,10 +72,20 @@ class HumidMixer(Unit):
     def figures(self, inside: None, outlets: Mixed, **inlets: Stream) -> HumidFigures:
         gas = outlets.product
         humid = HumidMixture(gas.mixture)
-        return HumidFigures(gas.temperature, humid.humidity_ratio(gas), humid.relative_humidity(gas), gas.mass_flow, gas.liquid_flow)
+        return HumidFigures(
+            gas.temperature,
+            humid.humidity_ratio(gas),
+            humid.relative_humidity(gas),
+            gas.mass_flow,
+            gas.liquid_flow,
+        )
 
-    def measured(self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature}
+    def measured(
+        self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream
+    ) -> dict[str, Any]:
+        return {
+            "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
+        }
 
 
 class Cooled(NamedTuple):
@@ -93,13 +110,19 @@ def _cooler_figures(outlets: Cooled) -> CoolerFigures:
     gas = outlets.product
     humid = HumidMixture(gas.mixture)
     return CoolerFigures(
-        gas.temperature, humid.humidity_ratio(gas), humid.relative_humidity(gas), outlets.condensate.liquid_flow, outlets.heat_duty
+        gas.temperature,
+        humid.humidity_ratio(gas),
+        humid.relative_humidity(gas),
+        outlets.condensate.liquid_flow,
+        outlets.heat_duty,
     )
 
 
 @equipment("condenser_cooler", source="ashrae2017, ch. 1", title="Cooler of a humid gas, with condensation")
 class CondenserCooler(Unit):
-    """Brings a humid gas to a temperature; vapor above saturation condenses and drains at that temperature. Also heats."""
+    """Brings a humid gas to a temperature; vapor above saturation condenses and drains at that temperature.
+    Also heats.
+    """
 
     temperature: Temperature
 
@@ -113,12 +136,16 @@ class CondenserCooler(Unit):
         return _cooler_figures(outlets)
 
     def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature}
+        return {
+            "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
+        }
 
 
 @equipment("dehumidifying_coil", source="ashrae2017, ch. 1; mcquiston2005", title="Dehumidifying coil")
 class DehumidifyingCoil(Unit):
-    """A cold coil: part of the gas leaves saturated at the surface temperature, the rest passes unchanged; the condensate drains cold."""
+    """A cold coil: part of the gas leaves saturated at the surface temperature, the rest passes unchanged;
+    the condensate drains cold.
+    """
 
     coil_temperature: Temperature
     coil_bypass_fraction: Fraction = 0.1
@@ -128,7 +155,9 @@ class DehumidifyingCoil(Unit):
     def outlets(self, inside: None, gas: Stream) -> Cooled:
         share = 1.0 - self.coil_bypass_fraction
         humid = HumidMixture(gas.mixture)
-        cold, condensate = _drained(humid.at_temperature(gas.part(share, share, share), self.coil_temperature))
+        cold, condensate = _drained(
+            humid.at_temperature(gas.part(share, share, share), self.coil_temperature)
+        )
         b = self.coil_bypass_fraction
         product = humid.at_own_enthalpy(cold + gas.part(b, b, b))
         unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
@@ -139,7 +168,10 @@ class DehumidifyingCoil(Unit):
         return _cooler_figures(outlets)
 
     def measured(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
-        return {"liquid": outlets.condensate.temperature - HumidMixture(outlets.condensate.mixture).freezing_temperature}
+        return {
+            "liquid": outlets.condensate.temperature
+            - HumidMixture(outlets.condensate.mixture).freezing_temperature
+        }
 
 
 class Humidified(NamedTuple):
@@ -160,15 +192,18 @@ class HumidifierFigures(NamedTuple):
 
 @equipment("adiabatic_humidifier", source="ashrae2017, ch. 1; mcquiston2005", title="Adiabatic humidifier")
 class AdiabaticHumidifier(Unit):
-    """A washer or wet pad: water evaporates into the gas without heat from outside, up to a share of what would saturate it.
+    """A washer or wet pad: water evaporates into the gas without heat from outside, up to a share of what
+    would saturate it.
 
-    Water that does not evaporate drains at the temperature at which it came. A washer that circulates its water settles at the wet bulb, and
-    then only the water that evaporates has to be fed.
+    Water that does not evaporate drains at the temperature at which it came. A washer that circulates its
+    water settles at the wet bulb, and then only the water that evaporates has to be fed.
     """
 
     saturation_effectiveness: Fraction = 0.9
 
-    limits: ClassVar[Limits] = {"drain": Limit("water left at the drain of the humidifier", 1e-9, 1.0, "percent", "ashrae2017")}
+    limits: ClassVar[Limits] = {
+        "drain": Limit("water left at the drain of the humidifier", 1e-9, 1.0, "percent", "ashrae2017")
+    }
 
     def outlets(self, inside: None, gas: Stream, water: Stream) -> Humidified:
         humid = HumidMixture(gas.mixture)
@@ -181,26 +216,41 @@ class AdiabaticHumidifier(Unit):
 
         def surplus(T: Any) -> Any:
             """Water that cooling the gas to T evaporates, less what it then takes to saturation."""
-            gained = humid.moved(gas, 1.0).replace(temperature=T).enthalpy_flow - gas.replace(temperature=T).enthalpy_flow
+            gained = (
+                humid.moved(gas, 1.0).replace(temperature=T).enthalpy_flow
+                - gas.replace(temperature=T).enthalpy_flow
+            )
             per_kg = gained + m.enthalpies("liquids", T)[0] - m.enthalpies("liquids", water.temperature)[0]
             by_heat = (gas.enthalpy_flow - gas.replace(temperature=T).enthalpy_flow) / per_kg
-            return (by_heat - humid.saturated_vapor(gas, T) + gas.gas[humid.vapor]) / jnp.maximum(gas.mass_flow, 1e-300)
+            return (by_heat - humid.saturated_vapor(gas, T) + gas.gas[humid.vapor]) / jnp.maximum(
+                gas.mass_flow, 1e-300
+            )
 
         m = gas.mixture
         root = find_root(surplus, COLDEST, gas.temperature)
-        thirst = humid.saturated_vapor(gas, gas.temperature) - gas.gas[humid.vapor]  # at its own temperature: none where it is saturated
+        thirst = (
+            humid.saturated_vapor(gas, gas.temperature) - gas.gas[humid.vapor]
+        )  # at its own temperature: none where it is saturated
         full = jnp.where(root.converged, humid.saturated_vapor(gas, root.value) - gas.gas[humid.vapor], 0.0)
         evaporated = jnp.clip(self.saturation_effectiveness * full, 0.0, available)
         drain = water.replace(liquid=water.liquid.at[0].add(-evaporated))
         product = wetted(evaporated)
-        unsolved(jnp.isfinite(product.temperature) & (root.converged | (thirst <= 0.0)), type(self).card, reason=UNSOLVED)
+        unsolved(
+            jnp.isfinite(product.temperature) & (root.converged | (thirst <= 0.0)),
+            type(self).card,
+            reason=UNSOLVED,
+        )
         return Humidified(product, drain)
 
     def figures(self, inside: None, outlets: Humidified, gas: Stream, water: Stream) -> HumidifierFigures:
         moist = outlets.product
         humid = HumidMixture(moist.mixture)
         evaporated = water.liquid[0] - outlets.drain.liquid[0]
-        return HumidifierFigures(moist.temperature, humid.humidity_ratio(moist), humid.relative_humidity(moist), evaporated)
+        return HumidifierFigures(
+            moist.temperature, humid.humidity_ratio(moist), humid.relative_humidity(moist), evaporated
+        )
 
-    def measured(self, inside: None, outlets: Humidified, figures: HumidifierFigures, gas: Stream, water: Stream) -> dict[str, Any]:
+    def measured(
+        self, inside: None, outlets: Humidified, figures: HumidifierFigures, gas: Stream, water: Stream
+    ) -> dict[str, Any]:
         return {"drain": outlets.drain.liquid_flow / jnp.maximum(water.liquid_flow, 1e-300)}
