@@ -242,8 +242,9 @@ class CardData:
             drawing = figure(across, upward, title=self.thing.card.title)
             unit = best_unit(float(np.median(np.abs(self.measured))), self.output.kind)  # type: ignore[arg-type]
             low, high, middle = (
-                np.asarray(from_si(v, unit, self.output.kind)) for v in (band.low, band.high, band.value)
-            )  # type: ignore[arg-type]
+                np.asarray(from_si(v, unit, self.output.kind))  # type: ignore[arg-type]
+                for v in (band.low, band.high, band.value)
+            )
             along = np.linspace(x.min(), x.max(), 200)
             add_band(drawing, along, low, high, _("95 % band"))
             add_line(drawing, along, middle, _("model"))

@@ -172,9 +172,9 @@ def pareto(
         title or _("Pareto front"),
         as_cases(search, front),
         (one, two),
-        senses,
+        senses,  # type: ignore[arg-type]
         search.evaluations,
-        len(found) - len(front),  # type: ignore[arg-type]
+        len(found) - len(front),
         finished,
         elapsed=time.perf_counter() - began,
     )

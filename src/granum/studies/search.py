@@ -254,9 +254,13 @@ def descend(
         limits = (
             [
                 scipy_optimize.NonlinearConstraint(
-                    slack, 0.0, np.inf, jac=slack_slope, hess=scipy_optimize.BFGS()
+                    slack,
+                    0.0,
+                    np.inf,
+                    jac=slack_slope,
+                    hess=scipy_optimize.BFGS(),  # type: ignore[arg-type]
                 )
-            ]  # type: ignore[arg-type]
+            ]
             if constraints
             else []
         )

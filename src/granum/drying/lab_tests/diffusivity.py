@@ -90,8 +90,8 @@ class EffectiveDiffusivity(LabTest):
                 lambda p, x: body(p["diffusivity"] * x / length**2), start, t, MR, bounds=bounds
             )
         inverse = (
-            1.0 / np.asarray(self.temperature, dtype=float) - 1.0 / self.reference_temperature
-        ) / GAS_CONSTANT  # type: ignore[operator]
+            1.0 / np.asarray(self.temperature, dtype=float) - 1.0 / self.reference_temperature  # type: ignore[operator]
+        ) / GAS_CONSTANT
         start["diffusion_activation_energy"] = USUAL_ENERGY
         bounds["diffusion_activation_energy"] = (-2e5, 5e5)
 
@@ -136,8 +136,8 @@ class EffectiveDiffusivity(LabTest):
                 factor = np.exp(
                     -values["diffusion_activation_energy"]
                     / GAS_CONSTANT
-                    * (1.0 / level - 1.0 / self.reference_temperature)
-                )  # type: ignore[operator]
+                    * (1.0 / level - 1.0 / self.reference_temperature)  # type: ignore[operator]
+                )
             line = np.asarray(
                 BODIES[self.body](jnp.asarray(values["diffusivity"] * factor * grid / self.half_thickness**2))
             )

@@ -392,7 +392,7 @@ class BatchTest(LabTest):
                 _(
                     "The underflow ({underflow} kg/m³) must be denser than the suspension ({initial} kg/m³)."
                 ).format(
-                    underflow=float(self.underflow_concentration),
+                    underflow=float(self.underflow_concentration),  # type: ignore[arg-type]
                     initial=float(self.initial_concentration),  # type: ignore[arg-type]
                 )
             )
