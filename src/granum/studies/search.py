@@ -257,8 +257,8 @@ def descend(
                     slack,
                     0.0,
                     np.inf,
-                    jac=slack_slope,
-                    hess=scipy_optimize.BFGS(),  # type: ignore[arg-type]
+                    jac=slack_slope,  # type: ignore[arg-type]
+                    hess=scipy_optimize.BFGS(),
                 )
             ]
             if constraints
