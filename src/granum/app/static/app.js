@@ -1,5 +1,19 @@
 // The shell: header, routing, language, theme.
-import { html, render, t, ask, useState, useEffect, readLink, link, lastPlace, keepPlace, settings, keep, apply } from './core.js';
+import {
+  html,
+  render,
+  t,
+  ask,
+  useState,
+  useEffect,
+  readLink,
+  link,
+  lastPlace,
+  keepPlace,
+  settings,
+  keep,
+  apply,
+} from './core.js';
 import { Calculate, isSelection } from './calculate.js';
 import { Lab } from './lab.js';
 import { Lines } from './lines.js';
@@ -10,9 +24,18 @@ const PAGES = [
   ['calculate', 'Calculate', (state) => html`<${Calculate} key="calculate" state=${state} />`],
   ['lab', 'Lab data', (state) => html`<${Lab} state=${state} />`],
   ['lines', 'Lines', (state) => html`<${Lines} state=${state} />`],
-  ['charts', 'Charts', (state) => html`<${Calculate} key="charts" state=${state} page="charts" keep=${(c) => c.sort === 'chart'} first="humid_gas.psychrometric_chart" />`],
+  [
+    'charts',
+    'Charts',
+    (state) =>
+      html`<${Calculate} key="charts" state=${state} page="charts" keep=${(c) => c.sort === 'chart'} first="humid_gas.psychrometric_chart" />`,
+  ],
   ['studies', 'Studies', (state) => html`<${Studies} state=${state} />`],
-  ['select', 'Select', (state) => html`<${Calculate} key="select" state=${state} page="select" keep=${isSelection} first="" />`],
+  [
+    'select',
+    'Select',
+    (state) => html`<${Calculate} key="select" state=${state} page="select" keep=${isSelection} first="" />`,
+  ],
   ['exercises', 'Exercises', (state) => html`<${Exercises} state=${state} />`],
 ];
 
@@ -21,22 +44,43 @@ function App() {
   const [guides, setGuides] = useState(false);
   const [away, setAway] = useState(false);
   useEffect(() => {
-    const changed = () => { const next = readLink(); keepPlace(next.page); setState(next); };
+    const changed = () => {
+      const next = readLink();
+      keepPlace(next.page);
+      setState(next);
+    };
     keepPlace(readLink().page);
     const gone = (e) => setAway(e.detail);
     addEventListener('granum-gone', gone);
     addEventListener('hashchange', changed);
     ask('/api/cards?sort=procedure').then((found) => setGuides(found.cards.some(isSelection)));
-    return () => { removeEventListener('hashchange', changed); removeEventListener('granum-gone', gone); };
+    return () => {
+      removeEventListener('hashchange', changed);
+      removeEventListener('granum-gone', gone);
+    };
   }, []);
-  const set = (name, value) => { keep(name, value); setState(readLink()); };
+  const set = (name, value) => {
+    keep(name, value);
+    setState(readLink());
+  };
   const page = PAGES.find(([name]) => name === state.page) || PAGES[0];
   const shown = PAGES.filter(([name]) => name !== 'select' || guides || page[0] === 'select');
   const other = settings.language === 'fr' ? 'en' : 'fr';
-  useEffect(() => { document.title = `${t(page[1])} · Granum`; document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' }); }, [page, settings.language]);
-  return html`<a class="skip" href="#main" onClick=${(e) => { e.preventDefault(); document.querySelector('#main input, #main select, #main textarea, #main a')?.focus(); }}>${t('Skip to content')}</a>
+  useEffect(() => {
+    document.title = `${t(page[1])} · Granum`;
+    document.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [page, settings.language]);
+  return html`<a class="skip" href="#main" onClick=${(e) => {
+    e.preventDefault();
+    document.querySelector('#main input, #main select, #main textarea, #main a')?.focus();
+  }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
-      <nav aria-label=${t('Pages')}>${shown.map(([name, label]) => html`<a href=${lastPlace(name)} onClick=${(e) => { e.currentTarget.href = lastPlace(name); }} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`)}</nav>
+      <nav aria-label=${t('Pages')}>${shown.map(
+        ([name, label]) =>
+          html`<a href=${lastPlace(name)} onClick=${(e) => {
+            e.currentTarget.href = lastPlace(name);
+          }} aria-current=${name === page[0] ? 'page' : null}>${t(label)}</a>`,
+      )}</nav>
       <div class="tools"><button lang=${other} onClick=${() => set('language', other)}>${other === 'fr' ? 'Français' : 'English'}</button>
         <button aria-label=${t('Units: SI or customary of the United States')} title=${t('Units: SI or customary of the United States')} onClick=${() => set('units', settings.units === 'field' ? 'si' : 'field')}>${settings.units === 'field' ? 'ft·lb' : 'SI'}</button>
         <button aria-label=${t('Light or dark')} onClick=${() => set('theme', settings.theme === 'dark' ? 'light' : 'dark')}>◐</button></div></header>

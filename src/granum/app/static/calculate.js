@@ -1,5 +1,20 @@
 // Calculate: find a card, enter values, believe the result. Up to three cases side by side.
-import { html, t, ask, link, useAnswer, useState, useEffect, useRef, useKept, replaceLink, download, settings, Plot, Working } from './core.js';
+import {
+  html,
+  t,
+  ask,
+  link,
+  useAnswer,
+  useState,
+  useEffect,
+  useRef,
+  useKept,
+  replaceLink,
+  download,
+  settings,
+  Plot,
+  Working,
+} from './core.js';
 import { Field, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Series } from './series.js';
@@ -9,15 +24,29 @@ const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !i
 /** Selection guides are the procedures whose name says that they choose. */
 export const isSelection = (c) => c.sort === 'procedure' && /^choose|_choice$/.test(c.card.split('.')[1]);
 
-export function Calculate({ state, page = 'calculate', keep = CALCULATED, first = 'particles.terminal_velocity' }) {
+export function Calculate({
+  state,
+  page = 'calculate',
+  keep = CALCULATED,
+  first = 'particles.terminal_velocity',
+}) {
   const cards = useCards(keep);
   const key = state.key || (cards?.some((c) => c.card === first) ? first : cards?.[0]?.card);
-  const { data: card, error } = useAnswer((signal) => (key ? ask(`/api/cards/${encodeURIComponent(key)}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language, settings.units], 0);
+  const { data: card, error } = useAnswer(
+    (signal) =>
+      key ? ask(`/api/cards/${encodeURIComponent(key)}`, undefined, { signal }) : Promise.resolve(null),
+    [key, settings.language, settings.units],
+    0,
+  );
   const ready = card && card.card === key;
   return html`<main class=${page === 'charts' ? 'three chart' : 'three'} id="main"><${Finder} page=${page} current=${key} cards=${cards} />
-    ${error ? html`<section><h1>${t('Calculate')}</h1><p class="message out">${error.message}</p></section><section />`
-      : ready ? html`<${Work} key=${`${key} ${settings.language} ${settings.units} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
-        : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
+    ${
+      error
+        ? html`<section><h1>${t('Calculate')}</h1><p class="message out">${error.message}</p></section><section />`
+        : ready
+          ? html`<${Work} key=${`${key} ${settings.language} ${settings.units} ${state.visit}`} page=${page} card=${card} given=${state.values} />`
+          : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`
+    }</main>`;
 }
 
 function Work({ page, card, given }) {
@@ -31,10 +60,19 @@ function Work({ page, card, given }) {
   useEffect(() => replaceLink(page, card.card, values), [values]);
   const kind = card.sort === 'chart' ? 'chart' : 'calc';
   const missing = missingOf(card, card.parameters, values);
-  const answer = useAnswer((signal) => (missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal })), [JSON.stringify(values)]);
-  const others = useAnswer((signal) => Promise.all(kept.map((given) => ask(`/api/calc/${card.card}`, given, { signal }))), [JSON.stringify(kept)], 0);
+  const answer = useAnswer(
+    (signal) =>
+      missing.length ? Promise.resolve(null) : ask(`/api/${kind}/${card.card}`, values, { signal }),
+    [JSON.stringify(values)],
+  );
+  const others = useAnswer(
+    (signal) => Promise.all(kept.map((given) => ask(`/api/calc/${card.card}`, given, { signal }))),
+    [JSON.stringify(kept)],
+    0,
+  );
   const [laws, setLaws] = useState(false); // whether those of others are open: kept while a field is empty and no result stands
-  const set = (next, name = '') => { // what is typed in one field in one go is one step back
+  const set = (next, name = '') => {
+    // what is typed in one field in one go is one step back
     if (!name || edited.current !== name) setPast([...past.slice(-50), values]);
     edited.current = name;
     setValues(next);
@@ -43,15 +81,31 @@ function Work({ page, card, given }) {
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
-    if (found) set({ ...values, temperature: appended(values.temperature, found.celsius, 'degC'), humidity_ratio: appended(values.humidity_ratio, found.grams, 'g/kg') });
+    if (found)
+      set({
+        ...values,
+        temperature: appended(values.temperature, found.celsius, 'degC'),
+        humidity_ratio: appended(values.humidity_ratio, found.grams, 'g/kg'),
+      });
   };
   const copy = async () => {
-    try { await navigator.clipboard.writeText(location.href); setCopied(t('Copied.')); } catch { setCopied(location.href); }
+    try {
+      await navigator.clipboard.writeText(location.href);
+      setCopied(t('Copied.'));
+    } catch {
+      setCopied(location.href);
+    }
     setTimeout(() => setCopied(''), 4000);
   };
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
-      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => { edited.current = ''; }}>${fields(card, card.parameters).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
-      <div class="row"><button class="button" disabled=${!past.length} onClick=${() => { edited.current = ''; setValues(past.at(-1)); setPast(past.slice(0, -1)); }}>${t('Undo')}</button>
+      <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
+        edited.current = '';
+      }}>${fields(card, card.parameters).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
+      <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
+        edited.current = '';
+        setValues(past.at(-1));
+        setPast(past.slice(0, -1));
+      }}>${t('Undo')}</button>
       <button class="button" onClick=${() => set(ordinary(card))}>${t('Example values')}</button>
       <button class="button" onClick=${copy}>${t('Copy link')}</button>${kind === 'calc' && html` <a class="button" href=${link('studies', 'card:' + card.card, resolved(values, answer.data))}>${t('Study')}</a>`} <span role="status" class="small dim">${copied}</span></div></section>
     <section aria-label=${t('Believe')}>
@@ -59,8 +113,12 @@ function Work({ page, card, given }) {
         ${missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}</div>
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>
-      ${answer.data && (kind === 'chart' ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
-        : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)}</div>
+      ${
+        answer.data &&
+        (kind === 'chart'
+          ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
+          : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)
+      }</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
@@ -69,7 +127,9 @@ function Work({ page, card, given }) {
 function resolved(values, data) {
   if (!values.fluid?.trim() || !data?.inputs) return values;
   const { fluid, ...rest } = values;
-  const given = Object.entries(data.inputs).filter(([, input]) => input?.from).map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
+  const given = Object.entries(data.inputs)
+    .filter(([, input]) => input?.from)
+    .map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
   return { ...rest, ...Object.fromEntries(given) };
 }
 
@@ -80,9 +140,16 @@ function stateAt(figure, x, y) {
   const list = (values) => (Array.isArray(values) ? values : decoded(values));
   const [gx, gy] = [list(grid.x), list(grid.y)];
   const rows = Array.isArray(grid.customdata) ? grid.customdata : rowsOf(grid.customdata);
-  const [spanX, spanY] = ['xaxis', 'yaxis'].map((axis) => Math.abs(figure.layout[axis].range[1] - figure.layout[axis].range[0]));
-  const near = gx.map((_, i) => i).sort((a, b) => far(a) - far(b)).slice(0, 6);
-  function far(i) { return ((gx[i] - x) / spanX) ** 2 + ((gy[i] - y) / spanY) ** 2; }
+  const [spanX, spanY] = ['xaxis', 'yaxis'].map((axis) =>
+    Math.abs(figure.layout[axis].range[1] - figure.layout[axis].range[0]),
+  );
+  const near = gx
+    .map((_, i) => i)
+    .sort((a, b) => far(a) - far(b))
+    .slice(0, 6);
+  function far(i) {
+    return ((gx[i] - x) / spanX) ** 2 + ((gy[i] - y) / spanY) ** 2;
+  }
   if (far(near[0]) > 0.03 ** 2) return null; // fog, or beside the chart
   const plane = (k) => fitPlane(near.map((i) => [(gx[i] - x) / spanX, (gy[i] - y) / spanY, rows[i][k]]));
   return { celsius: plane(0), grams: Math.max(0, plane(1)) };
@@ -92,16 +159,31 @@ function stateAt(figure, x, y) {
 function fitPlane(points) {
   const sum = (f) => points.reduce((total, p) => total + f(p), 0);
   const [n, sx, sy, sz] = [points.length, sum((p) => p[0]), sum((p) => p[1]), sum((p) => p[2])];
-  const [xx, xy, yy, xz, yz] = [sum((p) => p[0] * p[0]), sum((p) => p[0] * p[1]), sum((p) => p[1] * p[1]), sum((p) => p[0] * p[2]), sum((p) => p[1] * p[2])];
+  const [xx, xy, yy, xz, yz] = [
+    sum((p) => p[0] * p[0]),
+    sum((p) => p[0] * p[1]),
+    sum((p) => p[1] * p[1]),
+    sum((p) => p[0] * p[2]),
+    sum((p) => p[1] * p[2]),
+  ];
   const minor = xx * yy - xy * xy;
   const whole = n * minor - sx * (sx * yy - xy * sy) + sy * (sx * xy - xx * sy);
   if (Math.abs(whole) < 1e-14 * n * (xx + yy) ** 2) return points[0][2];
   return (sz * minor - sx * (xz * yy - xy * yz) + sy * (xz * xy - xx * yz)) / whole;
 }
 
-const TYPES = { f8: Float64Array, f4: Float32Array, i4: Int32Array, i2: Int16Array, i1: Int8Array, u1: Uint8Array };
+const TYPES = {
+  f8: Float64Array,
+  f4: Float32Array,
+  i4: Int32Array,
+  i2: Int16Array,
+  i1: Int8Array,
+  u1: Uint8Array,
+};
 /** Numbers that Plotly packs in base 64. */
-const decoded = ({ dtype, bdata }) => [...new TYPES[dtype](Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0)).buffer)];
+const decoded = ({ dtype, bdata }) => [
+  ...new TYPES[dtype](Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0)).buffer),
+];
 function rowsOf(packed) {
   const flat = decoded(packed);
   const width = Number(String(packed.shape).split(',')[1]);
@@ -118,8 +200,14 @@ function appended(text, value, unit) {
 function Result({ card, values, data, old, kept, keep, clear, choose, laws, setLaws }) {
   const bad = data.flags.length > 0;
   const single = data.shown.length <= 3;
-  return html`${data.table && html`<${Ranking} table=${data.table} />`}${single ? data.shown.map((row) => html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}>${row.text}</div></div>`)
-    : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class="n" data-output=${row.name}>${row.text}</td></tr>`)}</tbody></table></div>`}
+  return html`${data.table && html`<${Ranking} table=${data.table} />`}${
+    single
+      ? data.shown.map(
+          (row) =>
+            html`<div class="answer"><div class="dim">${row.label} <span dangerouslySetInnerHTML=${{ __html: row.symbol }} /></div><div class="value" data-output=${row.name}>${row.text}</div></div>`,
+        )
+      : html`<div class="wide"><table class="answers"><tbody>${data.shown.map((row) => html`<tr><td>${row.label} <span class="dim" dangerouslySetInnerHTML=${{ __html: row.symbol }} /></td><td class="n" data-output=${row.name}>${row.text}</td></tr>`)}</tbody></table></div>`
+  }
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button></div>

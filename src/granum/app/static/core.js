@@ -9,11 +9,18 @@ let links = 0;
 export function readLink() {
   const [path, query = ''] = location.hash.replace(/^#\/?/, '').split('?');
   const [page = 'calculate', ...rest] = path.split('/').map(decodeURIComponent);
-  return { page: page || 'calculate', key: rest.join('/'), values: Object.fromEntries(new URLSearchParams(query)), visit: ++links };
+  return {
+    page: page || 'calculate',
+    key: rest.join('/'),
+    values: Object.fromEntries(new URLSearchParams(query)),
+    visit: ++links,
+  };
 }
 
 export function link(page, key = '', values = {}) {
-  const kept = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined && value !== null);
+  const kept = Object.entries(values).filter(
+    ([, value]) => value !== '' && value !== undefined && value !== null,
+  );
   const query = new URLSearchParams(kept).toString();
   return `#/${page}${key ? '/' + encodeURIComponent(key) : ''}${query ? '?' + query : ''}`;
 }
@@ -25,10 +32,20 @@ export function replaceLink(page, key, values) {
 
 // ---- what outlives a reload, a change of language and a look at another page --------------------------
 export function remember(name, value) {
-  try { value === null || value === undefined ? sessionStorage.removeItem('granum:' + name) : sessionStorage.setItem('granum:' + name, JSON.stringify(value)); } catch { /* private window or too large: kept only as long as the page */ }
+  try {
+    value === null || value === undefined
+      ? sessionStorage.removeItem('granum:' + name)
+      : sessionStorage.setItem('granum:' + name, JSON.stringify(value));
+  } catch {
+    /* private window or too large: kept only as long as the page */
+  }
 }
 export function recall(name, fallback = null) {
-  try { return JSON.parse(sessionStorage.getItem('granum:' + name)) ?? fallback; } catch { return fallback; }
+  try {
+    return JSON.parse(sessionStorage.getItem('granum:' + name)) ?? fallback;
+  } catch {
+    return fallback;
+  }
 }
 /** Where one was on a page, so that its entry in the header leads back there. */
 export const keepPlace = (page) => remember('place ' + page, location.hash);
@@ -36,19 +53,37 @@ export const lastPlace = (page) => recall('place ' + page, link(page));
 /** A state that outlives its component. */
 export function useKept(name, fallback) {
   const [value, set] = useState(() => recall(name, fallback));
-  return [value, (next) => { remember(name, next); set(next); }];
+  return [
+    value,
+    (next) => {
+      remember(name, next);
+      set(next);
+    },
+  ];
 }
 
 // ---- language and theme ---------------------------------------------------------------------------
-const store = (name, fallback) => { try { return localStorage.getItem(name) || fallback; } catch { return fallback; } };
+const store = (name, fallback) => {
+  try {
+    return localStorage.getItem(name) || fallback;
+  } catch {
+    return fallback;
+  }
+};
 export const settings = {
-  language: new URLSearchParams(location.search).get('lang') || store('granum-language', navigator.language.startsWith('fr') ? 'fr' : 'en'),
+  language:
+    new URLSearchParams(location.search).get('lang') ||
+    store('granum-language', navigator.language.startsWith('fr') ? 'fr' : 'en'),
   units: store('granum-units', 'si'),
   theme: store('granum-theme', matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'),
 };
 export function keep(name, value) {
   settings[name] = value;
-  try { localStorage.setItem('granum-' + name, value); } catch { /* private window: the choice lasts for the page */ }
+  try {
+    localStorage.setItem('granum-' + name, value);
+  } catch {
+    /* private window: the choice lasts for the page */
+  }
   apply();
 }
 export function apply() {
@@ -69,7 +104,12 @@ function returned() {
   waiting ||= (async () => {
     dispatchEvent(new CustomEvent('granum-gone', { detail: true }));
     for (;;) {
-      try { await fetch('icon.svg', { method: 'HEAD', cache: 'no-store' }); break; } catch { await new Promise((done) => setTimeout(done, 1500)); }
+      try {
+        await fetch('icon.svg', { method: 'HEAD', cache: 'no-store' });
+        break;
+      } catch {
+        await new Promise((done) => setTimeout(done, 1500));
+      }
     }
     waiting = null;
     dispatchEvent(new CustomEvent('granum-gone', { detail: false }));
@@ -80,7 +120,9 @@ function returned() {
 /** A request that waits for a server that is gone, and is then made again. */
 async function reach(path, request) {
   for (let attempt = 1; ; attempt += 1) {
-    try { return await fetch(path, request); } catch (problem) {
+    try {
+      return await fetch(path, request);
+    } catch (problem) {
       if (request.signal?.aborted || problem.name === 'AbortError') throw problem;
       if (attempt >= ATTEMPTS) throw new Error(t('The connection broke off again and again.'));
       await returned();
@@ -93,20 +135,30 @@ export async function ask(path, body, options = {}) {
   const form = body instanceof FormData;
   const response = await reach(path, {
     method: options.method || (body === undefined ? 'GET' : 'POST'),
-    headers: { 'x-language': settings.language, 'x-units': settings.units, ...(options.signal?.job && { 'x-job': options.signal.job }), ...(form || body === undefined ? {} : { 'content-type': 'application/json' }) },
+    headers: {
+      'x-language': settings.language,
+      'x-units': settings.units,
+      ...(options.signal?.job && { 'x-job': options.signal.job }),
+      ...(form || body === undefined ? {} : { 'content-type': 'application/json' }),
+    },
     body: body === undefined ? undefined : form ? body : JSON.stringify(body),
     signal: options.signal,
   });
   if (options.text && response.ok) return response.text();
   const data = await response.json();
-  if (!response.ok) throw Object.assign(new Error(data.error?.message || t('The server did not understand the request.')), { details: data.error });
+  if (!response.ok)
+    throw Object.assign(new Error(data.error?.message || t('The server did not understand the request.')), {
+      details: data.error,
+    });
   return data;
 }
 
 /** The way to stop a request, with a name under which the server can be asked how far it is. */
 export function stoppable() {
   const stop = new AbortController();
-  stop.signal.job = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(36)).join('');
+  stop.signal.job = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(36)).join(
+    '',
+  );
   return stop;
 }
 
@@ -128,10 +180,20 @@ export function useAnswer(make, dependencies, wait = 60) {
         if (!stop.signal.aborted) setState((s) => ({ data: s.data, error, to: dependencies }));
       }
     }, wait);
-    return () => { stop.abort(); clearTimeout(timer); };
+    return () => {
+      stop.abort();
+      clearTimeout(timer);
+    };
   }, dependencies);
   const pending = !state.to || dependencies.some((value, i) => value !== state.to[i]);
-  const cancel = () => { running.current?.abort(); setState((s) => ({ ...s, error: new Error(t('Cancelled. Change an input to calculate again.')), to: dependencies })); };
+  const cancel = () => {
+    running.current?.abort();
+    setState((s) => ({
+      ...s,
+      error: new Error(t('Cancelled. Change an input to calculate again.')),
+      to: dependencies,
+    }));
+  };
   return { data: state.data, error: state.error, pending, cancel, job: () => running.current?.signal.job };
 }
 
@@ -139,20 +201,32 @@ export function useAnswer(make, dependencies, wait = 60) {
  * Shown once something takes longer than a second: what the server is doing, how long already, and a way to stop it.
  * `job` gives the name of the request waited for; without one, `share` and `text` say how far it is.
  */
-export function Working({ busy, cancel, job, share = 0, text = t('Working… what is asked for the first time takes a little longer.') }) {
+export function Working({
+  busy,
+  cancel,
+  job,
+  share = 0,
+  text = t('Working… what is asked for the first time takes a little longer.'),
+}) {
   const [seconds, setSeconds] = useState(0);
   const [note, setNote] = useState('');
   useEffect(() => {
     if (!busy) return undefined;
     const start = Date.now();
     let asking = false;
-    setSeconds(0); setNote('');
+    setSeconds(0);
+    setNote('');
     const look = async () => {
       setSeconds(Math.floor((Date.now() - start) / 1000));
       const name = job?.();
       if (!name || asking || Date.now() - start < 1000) return;
       asking = true;
-      try { const found = await ask(`/api/progress/${name}`); if (name === job()) setNote(found.note || ''); } catch { setNote(''); }
+      try {
+        const found = await ask(`/api/progress/${name}`);
+        if (name === job()) setNote(found.note || '');
+      } catch {
+        setNote('');
+      }
       asking = false;
     };
     const timer = setInterval(look, 500);
@@ -185,7 +259,17 @@ export function loadPlotly() {
 
 /** In a narrow place the heads of a table take several lines. */
 const shareOf = (table) => Math.min((90 + 24 * table.cells.values[0].length) / 650, 0.6);
-const tabled = (data, width) => data.map((trace) => (trace.type === 'table' && width < NARROW ? { ...trace, domain: { x: [0, 1], y: [0, shareOf(trace)] }, header: { ...trace.header, font: { size: 10 } }, cells: { ...trace.cells, font: { size: 10 } } } : trace));
+const tabled = (data, width) =>
+  data.map((trace) =>
+    trace.type === 'table' && width < NARROW
+      ? {
+          ...trace,
+          domain: { x: [0, 1], y: [0, shareOf(trace)] },
+          header: { ...trace.header, font: { size: 10 } },
+          cells: { ...trace.cells, font: { size: 10 } },
+        }
+      : trace,
+  );
 
 /** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
 function fitted({ layout, data }, width) {
@@ -194,9 +278,34 @@ function fitted({ layout, data }, width) {
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
   const table = narrow && data.find((trace) => trace.type === 'table');
-  const legend = narrow ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: table ? -0.03 : -0.22, yanchor: 'top', font: { size: 11 } } : layout.legend;
-  const axes = narrow ? { xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 }, ...(count > 8 ? { showlegend: false } : {}), ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }) } : {};
-  return { ...layout, title: undefined, width: undefined, autosize: true, ...(table ? { height: (layout.height || 450) + 220 } : {}), margin, legend, ...axes };
+  const legend = narrow
+    ? {
+        ...layout.legend,
+        orientation: 'h',
+        x: 0,
+        xanchor: 'left',
+        y: table ? -0.03 : -0.22,
+        yanchor: 'top',
+        font: { size: 11 },
+      }
+    : layout.legend;
+  const axes = narrow
+    ? {
+        xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 },
+        ...(count > 8 ? { showlegend: false } : {}),
+        ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }),
+      }
+    : {};
+  return {
+    ...layout,
+    title: undefined,
+    width: undefined,
+    autosize: true,
+    ...(table ? { height: (layout.height || 450) + 220 } : {}),
+    margin,
+    legend,
+    ...axes,
+  };
 }
 
 export function Plot({ figure, label, onPoint }) {
@@ -207,19 +316,34 @@ export function Plot({ figure, label, onPoint }) {
     let alive = true;
     loadPlotly().then((Plotly) => {
       if (alive && place.current && figure) {
-        Plotly.react(place.current, tabled(figure.data, place.current.clientWidth), fitted(figure, place.current.clientWidth), {
-          responsive: true, displaylogo: false, showSendToCloud: false, plotlyServerURL: '', displayModeBar: true, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
-          toImageButtonOptions: { format: 'svg', filename: 'granum' },
-        });
+        Plotly.react(
+          place.current,
+          tabled(figure.data, place.current.clientWidth),
+          fitted(figure, place.current.clientWidth),
+          {
+            responsive: true,
+            displaylogo: false,
+            showSendToCloud: false,
+            plotlyServerURL: '',
+            displayModeBar: true,
+            modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
+            toImageButtonOptions: { format: 'svg', filename: 'granum' },
+          },
+        );
         place.current.removeAllListeners?.('plotly_click');
         place.current.on('plotly_click', (event) => {
           const edge = place.current.getBoundingClientRect();
           const { xaxis, yaxis } = place.current._fullLayout;
-          clicked.current?.(xaxis.p2d(event.event.clientX - edge.left - xaxis._offset), yaxis.p2d(event.event.clientY - edge.top - yaxis._offset));
+          clicked.current?.(
+            xaxis.p2d(event.event.clientX - edge.left - xaxis._offset),
+            yaxis.p2d(event.event.clientY - edge.top - yaxis._offset),
+          );
         });
       }
     });
-    return () => { alive = false; };
+    return () => {
+      alive = false;
+    };
   }, [figure]);
   return html`<div class="drawn"><div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div></div>`;
 }

@@ -3,21 +3,36 @@ import { ask, t } from './core.js';
 
 const LONGEST = 8000; // characters of a link
 const KEY = 'granum-drafts';
-const all = () => { try { return JSON.parse(localStorage.getItem(KEY)) || {}; } catch { return {}; } };
+const all = () => {
+  try {
+    return JSON.parse(localStorage.getItem(KEY)) || {};
+  } catch {
+    return {};
+  }
+};
 
 export const drafted = (place) => all()[place] ?? null;
 export function keepDraft(place, text) {
   const drafts = all();
-  if (text === null) delete drafts[place]; else drafts[place] = text;
-  try { localStorage.setItem(KEY, JSON.stringify(drafts)); } catch { /* private window: the link still carries what is short */ }
+  if (text === null) delete drafts[place];
+  else drafts[place] = text;
+  try {
+    localStorage.setItem(KEY, JSON.stringify(drafts));
+  } catch {
+    /* private window: the link still carries what is short */
+  }
 }
 
-const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+const through = async (bytes, stream) =>
+  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 
 /** A text as a link carries it; empty where it would be too long. */
 export async function packed(text) {
   const bytes = await through(new TextEncoder().encode(text), new CompressionStream('deflate-raw'));
-  const found = btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join('')).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+  const found = btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join(''))
+    .replaceAll('+', '-')
+    .replaceAll('/', '_')
+    .replaceAll('=', '');
   return found.length <= LONGEST ? found : '';
 }
 export async function unpacked(text) {
@@ -30,9 +45,18 @@ export async function caseAt(place, carried, signal) {
   const [sort, ...rest] = place.split(':');
   const own = carried ? await unpacked(carried) : drafted(place);
   if (sort === 'computer') {
-    if (own === null) throw new Error(t('What was opened from this computer is no longer kept here: open {name} again.', { name: rest.join(':') }));
+    if (own === null)
+      throw new Error(
+        t('What was opened from this computer is no longer kept here: open {name} again.', {
+          name: rest.join(':'),
+        }),
+      );
     return { text: own, saved: own, changed: false };
   }
-  const { text: saved } = await ask(`/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`, undefined, { signal });
+  const { text: saved } = await ask(
+    `/api/${sort}/${rest.join(':').split('/').map(encodeURIComponent).join('/')}`,
+    undefined,
+    { signal },
+  );
   return { text: own ?? saved, saved, changed: own !== null && own !== saved };
 }

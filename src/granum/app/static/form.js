@@ -4,7 +4,8 @@ import { Quantity, inLanguage, joined } from './quantity.js';
 
 export function Field({ parameter: p, text, onChange, problem, id = `field-${p.name}` }) {
   const note = `${id}-note`;
-  const Entry = text?.startsWith('{') && p.law ? LawTable : p.options?.length ? Choice : p.kind ? Quantity : Text;
+  const Entry =
+    text?.startsWith('{') && p.law ? LawTable : p.options?.length ? Choice : p.kind ? Quantity : Text;
   return html`<div class="field"><label for=${id}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
     <div class="entry"><${Entry} p=${p} id=${id} note=${note} text=${text} onChange=${onChange} problem=${problem} /></div>
     <div class="note small dim" id=${note}>${[p.allowed, p.source_range && `${t('source covers')} ${p.source_range}`].filter(Boolean).join(' · ')}
@@ -26,30 +27,52 @@ const meant = (p, word) => p.options.find((o) => o.value === word)?.table || wor
 /** A law with its own parameters: the law as a choice, its parameters as fields; quantities with their units. */
 function LawTable({ p, id, note, text, onChange }) {
   let table = null;
-  try { table = JSON.parse(text); } catch { /* shown as text below */ }
-  if (!table || typeof table !== 'object') return html`<input id=${id} value=${text} aria-describedby=${note} onInput=${(e) => onChange(e.target.value)} />`;
+  try {
+    table = JSON.parse(text);
+  } catch {
+    /* shown as text below */
+  }
+  if (!table || typeof table !== 'object')
+    return html`<input id=${id} value=${text} aria-describedby=${note} onInput=${(e) => onChange(e.target.value)} />`;
   const law = p.laws?.[table.law];
-  const options = p.options.some((o) => o.value === table.law) ? p.options : [{ value: table.law, label: law?.title || String(table.law).replaceAll('_', ' ') }, ...p.options];
+  const options = p.options.some((o) => o.value === table.law)
+    ? p.options
+    : [{ value: table.law, label: law?.title || String(table.law).replaceAll('_', ' ') }, ...p.options];
   const set = (name, value) => onChange(JSON.stringify({ ...table, [name]: value }));
   return html`<div class="law"><select id=${id} class="alone" value=${table.law} aria-describedby=${note} onChange=${(e) => onChange(meant(p, e.target.value))}>${options.map((o) => html`<option value=${o.value} selected=${o.value === table.law}>${o.label}</option>`)}</select>
-    ${Object.entries(table).filter(([name]) => name !== 'law').map(([name, value]) => {
-      const q = law?.parameters[name];
-      return html`<div class="small given" key=${`${table.law} ${name}`} data-option=${name}><label for=${`${id}-${name}`}>${q?.label || name.replaceAll('_', ' ')}</label>
-        ${q?.kind && isQuantity(value) ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
-          : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`}</div>`;
-    })}</div>`;
+    ${Object.entries(table)
+      .filter(([name]) => name !== 'law')
+      .map(([name, value]) => {
+        const q = law?.parameters[name];
+        return html`<div class="small given" key=${`${table.law} ${name}`} data-option=${name}><label for=${`${id}-${name}`}>${q?.label || name.replaceAll('_', ' ')}</label>
+        ${
+          q?.kind && isQuantity(value)
+            ? html`<${Quantity} p=${q} id=${`${id}-${name}`} note=${note} text=${[value].flat().join('; ')} onChange=${(next) => set(name, bare(next, value))} />`
+            : html`<input id=${`${id}-${name}`} value=${plain(value)} onInput=${(e) => set(name, read(e.target.value, value))} />`
+        }</div>`;
+      })}</div>`;
 }
 
 const isQuantity = (value) => [value].flat().every((x) => typeof x === 'number' || typeof x === 'string');
-const plain = (value) => (typeof value === 'string' ? inLanguage(value) : typeof value === 'number' ? inLanguage(String(value)) : JSON.stringify(value));
+const plain = (value) =>
+  typeof value === 'string'
+    ? inLanguage(value)
+    : typeof value === 'number'
+      ? inLanguage(String(value))
+      : JSON.stringify(value);
 /** A number stays a number where nothing but a number was typed. */
-const bare = (text, before) => (typeof before === 'number' && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text);
+const bare = (text, before) =>
+  typeof before === 'number' && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
 
 /** What is typed for an option that is no quantity. */
 function read(typed, before) {
   const clean = typed.replace(/^([-+]?\d*),(\d*)/, '$1.$2');
   if (!clean.trim().startsWith('[')) return bare(clean, before);
-  try { return JSON.parse(clean); } catch { return clean; }
+  try {
+    return JSON.parse(clean);
+  } catch {
+    return clean;
+  }
 }
 
 function Text({ p, id, note, text, onChange, problem }) {
@@ -57,16 +80,23 @@ function Text({ p, id, note, text, onChange, problem }) {
 }
 
 /** Fields of a card: where it asks for properties of a fluid, that fluid in words before the first of them. */
-export const fields = (card, parameters) => parameters.flatMap((p) => (p.name === card.fluid?.gives[0] ? [card.fluid, p] : [p]));
+export const fields = (card, parameters) =>
+  parameters.flatMap((p) => (p.name === card.fluid?.gives[0] ? [card.fluid, p] : [p]));
 
 /** Values after a field was changed; a fluid stands in place of its properties. */
 export function changed(values, p, text) {
   const gone = p.gives && text.trim() ? p.gives : [];
-  return Object.fromEntries([...Object.entries(values).filter(([name]) => !gone.includes(name)), [p.name, text]]);
+  return Object.fromEntries([
+    ...Object.entries(values).filter(([name]) => !gone.includes(name)),
+    [p.name, text],
+  ]);
 }
 
 /** What must still be given. */
-export const missingOf = (card, parameters, values) => parameters.filter((p) => p.required && !values[p.name] && !(values.fluid?.trim() && card.fluid?.gives.includes(p.name)));
+export const missingOf = (card, parameters, values) =>
+  parameters.filter(
+    (p) => p.required && !values[p.name] && !(values.fluid?.trim() && card.fluid?.gives.includes(p.name)),
+  );
 
 /** The card's own example, so that it shows a result when it is opened. */
 export function ordinary(card) {

@@ -1,20 +1,47 @@
 // Lab data: drop a table, give the conditions, read parameters with intervals.
-import { html, t, ask, useAnswer, useState, useKept, settings, replaceLink, useEffect, download, Plot, Working } from './core.js';
+import {
+  html,
+  t,
+  ask,
+  useAnswer,
+  useState,
+  useKept,
+  settings,
+  replaceLink,
+  useEffect,
+  download,
+  Plot,
+  Working,
+} from './core.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';
 
 export function Lab({ state }) {
   const cards = useCards((c) => c.sort === 'lab test');
-  const key = state.key || (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
-  const { data: card } = useAnswer((signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)), [key, settings.language, settings.units], 0);
+  const key =
+    state.key ||
+    (cards?.some((c) => c.card === 'filtration.leaf_test') ? 'filtration.leaf_test' : cards?.[0]?.card);
+  const { data: card } = useAnswer(
+    (signal) => (key ? ask(`/api/cards/${key}`, undefined, { signal }) : Promise.resolve(null)),
+    [key, settings.language, settings.units],
+    0,
+  );
   return html`<main class="three" id="main"><${Finder} page="lab" current=${key} cards=${cards} />
     ${card && card.card === key ? html`<${Test} key=${key + settings.language + settings.units} card=${card} given=${state.values} />` : html`<section aria-busy="true"><p class="dim">${t('Loading…')}</p></section><section />`}</main>`;
 }
 
 function Test({ card, given }) {
   const columns = card.parameters.filter((p) => p.series);
-  const conditions = card.parameters.filter((p) => !p.series).map((p) => ({ ...p, hint: p.example && !p.default_shown ? t('e.g. {value}', { value: inLanguage(p.example.number) }) : undefined }));
+  const conditions = card.parameters
+    .filter((p) => !p.series)
+    .map((p) => ({
+      ...p,
+      hint:
+        p.example && !p.default_shown
+          ? t('e.g. {value}', { value: inLanguage(p.example.number) })
+          : undefined,
+    }));
   const example = columns.map((p) => `${p.name} [${p.units?.[0]?.unit || '1'}]`).join(',');
   const [values, setValues] = useState(given);
   const [table, setTable] = useKept('table ' + card.card, '');
@@ -23,31 +50,56 @@ function Test({ card, given }) {
   const [over, setOver] = useState(false);
   useEffect(() => replaceLink('lab', card.card, values), [values]);
   const missing = missingOf(card, conditions, values);
-  const answer = useAnswer(async (signal) => {
-    if (!table.trim() || missing.length) return null;
-    const form = new FormData();
-    form.append('file', new File([table], 'data.csv', { type: 'text/csv' }));
-    form.append('conditions', JSON.stringify(values));
-    return ask(`/api/fit/${card.card}`, form, { signal });
-  }, [table, JSON.stringify(values)], 250);
+  const answer = useAnswer(
+    async (signal) => {
+      if (!table.trim() || missing.length) return null;
+      const form = new FormData();
+      form.append('file', new File([table], 'data.csv', { type: 'text/csv' }));
+      form.append('conditions', JSON.stringify(values));
+      return ask(`/api/fit/${card.card}`, form, { signal });
+    },
+    [table, JSON.stringify(values)],
+    250,
+  );
   const take = async (list) => {
     if (!list?.length) return;
     const form = new FormData();
     form.append('file', list[0]);
-    try { const { text } = await ask('/api/table', form); setTold(list[0].name); own(text); } catch (problem) { setTold(problem.message); }
+    try {
+      const { text } = await ask('/api/table', form);
+      setTold(list[0].name);
+      own(text);
+    } catch (problem) {
+      setTold(problem.message);
+    }
   };
-  const own = (text) => { // a table of one's own: what an example said of its test does not hold for it
+  const own = (text) => {
+    // a table of one's own: what an example said of its test does not hold for it
     if (trial) {
-      setValues(Object.fromEntries(Object.entries(values).filter(([name, value]) => trial.values[name] !== value)));
+      setValues(
+        Object.fromEntries(Object.entries(values).filter(([name, value]) => trial.values[name] !== value)),
+      );
       setTrial(null);
       setTold(t('The conditions of the example were taken out: give those of your test.'));
     }
     setTable(text);
   };
-  const tryIt = () => { setTable(card.trial.table); setValues(card.trial.values); setTrial(card.trial); setTold(''); };
+  const tryIt = () => {
+    setTable(card.trial.table);
+    setValues(card.trial.values);
+    setTrial(card.trial);
+    setTold('');
+  };
   const wrong = fields(card, conditions).find((p) => p.name === answer.error?.details?.name);
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
-      <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => { e.preventDefault(); setOver(true); }} onDragLeave=${() => setOver(false)} onDrop=${(e) => { e.preventDefault(); setOver(false); take(e.dataTransfer.files); }}>
+      <div class=${'drop' + (over ? ' over' : '')} onDragOver=${(e) => {
+        e.preventDefault();
+        setOver(true);
+      }} onDragLeave=${() => setOver(false)} onDrop=${(e) => {
+        e.preventDefault();
+        setOver(false);
+        take(e.dataTransfer.files);
+      }}>
         <label>${t('Drop a CSV or Excel file here, or choose one:')} <input type="file" accept=".csv,.tsv,.txt,.xlsx" onChange=${(e) => take(e.target.files)} /></label>
         <div role="status">${told}</div></div>
       ${card.trial && html`<div class="row"><button class="button" onClick=${tryIt}>${t('Try with example data')}</button>${trial && html` <span class="caution" role="status" data-trial>▲ ${t('Example: data and conditions of {name}', { name: trial.name })}</span>`}</div>`}
@@ -72,19 +124,36 @@ function headOf(table) {
   const lines = table.split('\n');
   const at = lines.findIndex((line) => line.trim() && !line.trimStart().startsWith('#'));
   if (at < 0) return null;
-  const mark = MARKS.reduce((best, one) => (lines[at].split(one).length > lines[at].split(best).length ? one : best));
+  const mark = MARKS.reduce((best, one) =>
+    lines[at].split(one).length > lines[at].split(best).length ? one : best,
+  );
   const cells = lines[at].split(mark).map((cell) => cell.trim().replace(/^"|"$/g, ''));
   const bare = cells.every((cell) => cell !== '' && Number.isFinite(Number(cell.replace(',', '.'))));
-  return { lines, at, mark, bare, cells: bare ? cells.map((_, i) => t('column {number}', { number: i + 1 })) : cells };
+  return {
+    lines,
+    at,
+    mark,
+    bare,
+    cells: bare ? cells.map((_, i) => t('column {number}', { number: i + 1 })) : cells,
+  };
 }
-const heading = (cell) => { const [, name, one, other] = HEADING.exec(cell); return { name: name.toLowerCase().replace(/[ -]/g, '_'), unit: one ?? other ?? '' }; };
+const heading = (cell) => {
+  const [, name, one, other] = HEADING.exec(cell);
+  return { name: name.toLowerCase().replace(/[ -]/g, '_'), unit: one ?? other ?? '' };
+};
 
 /** Which column of the table is what, in which unit; a choice rewrites the first line of the table. */
 function Columns({ columns, table, change }) {
   const head = headOf(table);
   if (!head) return null;
   const set = (p, place, unit) => {
-    const cells = head.cells.map((cell, i) => (i === place ? `${p.name}${unit ? ` [${unit}]` : ''}` : heading(cell).name === p.name ? `(${cell})` : cell));
+    const cells = head.cells.map((cell, i) =>
+      i === place
+        ? `${p.name}${unit ? ` [${unit}]` : ''}`
+        : heading(cell).name === p.name
+          ? `(${cell})`
+          : cell,
+    );
     const lines = [...head.lines];
     lines.splice(head.at, head.bare ? 0 : 1, cells.join(head.mark));
     change(lines.join('\n'));
@@ -96,8 +165,11 @@ function Columns({ columns, table, change }) {
     return html`<div class="field" key=${p.name}><label for=${'column-' + p.name}>${p.label} <span class="symbol" dangerouslySetInnerHTML=${{ __html: p.symbol_shown || '' }} />${!p.required && html` <span class="small dim">${t('optional')}</span>`}</label>
       <div class="entry"><select id=${'column-' + p.name} class="alone" value=${String(place)} onChange=${(e) => Number(e.target.value) >= 0 && set(p, Number(e.target.value), heading(head.cells[Number(e.target.value)]).unit || usual)}>
         <option value="-1">—</option>${head.cells.map((cell, i) => html`<option value=${String(i)} selected=${i === place}>${cell || t('column {number}', { number: i + 1 })}</option>`)}</select>
-      ${p.units?.length > 0 && html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${unit} disabled=${place < 0} onChange=${(e) => set(p, place, e.target.value)}>
-        ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${u.label || '1'}</option>`)}</select>`}</div></div>`;
+      ${
+        p.units?.length > 0 &&
+        html`<select aria-label=${t('Unit of {name}', { name: p.label })} value=${unit} disabled=${place < 0} onChange=${(e) => set(p, place, e.target.value)}>
+        ${!p.units.some((u) => u.unit === unit) && html`<option value=${unit} selected>${unit || '—'}</option>`}${p.units.map((u) => html`<option value=${u.unit} selected=${u.unit === unit}>${u.label || '1'}</option>`)}</select>`
+      }</div></div>`;
   })}`;
 }
 
@@ -106,13 +178,34 @@ function asCase(data, values) {
   const quoted = (text) => JSON.stringify(String(text));
   const given = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined);
   const name = data.card.split('.')[1];
-  return [`[fits.${name}]`, `test = ${quoted(data.card)}`, 'data = "data.csv"', `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
-    `gives = { ${Object.keys(data.parameters).map((key) => `"UNIT.${key}" = ${quoted(key)}`).join(', ')} }`].join('\n');
+  return [
+    `[fits.${name}]`,
+    `test = ${quoted(data.card)}`,
+    'data = "data.csv"',
+    `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
+    `gives = { ${Object.keys(data.parameters)
+      .map((key) => `"UNIT.${key}" = ${quoted(key)}`)
+      .join(', ')} }`,
+  ].join('\n');
 }
 
 const residuals = (data) => ({
-  data: [{ type: 'scatter', mode: 'markers', x: data.residuals.map((_, i) => i + 1), y: data.residuals, marker: { color: '#0b6e6e', symbol: data.kept.map((kept) => (kept ? 'circle' : 'circle-open')) } }],
-  layout: { height: 240, margin: { l: 70, r: 15, t: 10, b: 45 }, plot_bgcolor: 'white', xaxis: { title: { text: t('point') }, dtick: Math.ceil(data.residuals.length / 12) }, yaxis: { title: { text: t('measured less model (SI)') }, zeroline: true, zerolinecolor: '#1c2430' } },
+  data: [
+    {
+      type: 'scatter',
+      mode: 'markers',
+      x: data.residuals.map((_, i) => i + 1),
+      y: data.residuals,
+      marker: { color: '#0b6e6e', symbol: data.kept.map((kept) => (kept ? 'circle' : 'circle-open')) },
+    },
+  ],
+  layout: {
+    height: 240,
+    margin: { l: 70, r: 15, t: 10, b: 45 },
+    plot_bgcolor: 'white',
+    xaxis: { title: { text: t('point') }, dtick: Math.ceil(data.residuals.length / 12) },
+    yaxis: { title: { text: t('measured less model (SI)') }, zeroline: true, zerolinecolor: '#1c2430' },
+  },
 });
 
 function Fitted({ data, values }) {

@@ -3,9 +3,11 @@
 import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
 
 export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
-export const inLanguage = (text) => (settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text);
+export const inLanguage = (text) =>
+  settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text;
 
-const NUMBER = /[\s;,[\]]*[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
+const NUMBER =
+  /[\s;,[\]]*[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,]\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;
 const named = (unit) => (unit === 'dimensionless' ? '' : unit || '');
 
 /** Text such as "1 200,5 cm2" or "2 4 8 um" cut where the unit begins; what the number and the unit mean is for the server to say. */
@@ -13,14 +15,25 @@ export function split(text) {
   NUMBER.lastIndex = 0;
   let end = 0;
   while (NUMBER.test(text)) end = NUMBER.lastIndex;
-  return end ? { number: text.slice(0, end).trim(), unit: text.slice(end).replace(/^[\s\],;]+/, '').trim() } : { number: text, unit: '' };
+  return end
+    ? {
+        number: text.slice(0, end).trim(),
+        unit: text
+          .slice(end)
+          .replace(/^[\s\],;]+/, '')
+          .trim(),
+      }
+    : { number: text, unit: '' };
 }
 
 /** Number and unit of the text of a form, where a number alone is SI; an empty one in the unit people usually write. */
 function held(text, p) {
-  if (!text) return { number: '', unit: named(p.default_shown?.unit ?? p.example?.unit ?? p.units?.[0]?.unit) };
+  if (!text)
+    return { number: '', unit: named(p.default_shown?.unit ?? p.example?.unit ?? p.units?.[0]?.unit) };
   const { number, unit } = split(text);
-  const offered = p.units?.find((u) => u.unit.replaceAll('^', '') === unit.replaceAll('^', '') || u.label === unit); // m2: m^2
+  const offered = p.units?.find(
+    (u) => u.unit.replaceAll('^', '') === unit.replaceAll('^', '') || u.label === unit,
+  ); // m2: m^2
   return { number, unit: unit ? named(offered?.unit ?? unit) : named(p.unit) };
 }
 
@@ -28,30 +41,70 @@ function held(text, p) {
 function useReading(p, text) {
   const [found, setFound] = useState({ text: null });
   useEffect(() => {
-    if (!text) { setFound({ text }); return undefined; }
+    if (!text) {
+      setFound({ text });
+      return undefined;
+    }
     const stop = new AbortController();
     const timer = setTimeout(() => read(p, text, stop.signal).then(setFound, () => {}), 60);
-    return () => { stop.abort(); clearTimeout(timer); };
+    return () => {
+      stop.abort();
+      clearTimeout(timer);
+    };
   }, [text]);
   return text && found.text === text ? found : null;
 }
 
 async function read(p, text, signal) {
   const parts = split(text);
-  const asked = { number: parts.number, unit_typed: parts.unit, name: p.name, kind: p.kind, unit: p.unit, lower: p.lower, upper: p.upper, open_lower: p.open_lower, open_upper: p.open_upper, series: p.series || '', several: p.several || false, units: (p.units || []).map((u) => u.unit) };
+  const asked = {
+    number: parts.number,
+    unit_typed: parts.unit,
+    name: p.name,
+    kind: p.kind,
+    unit: p.unit,
+    lower: p.lower,
+    upper: p.upper,
+    open_lower: p.open_lower,
+    open_upper: p.open_upper,
+    series: p.series || '',
+    several: p.several || false,
+    units: (p.units || []).map((u) => u.unit),
+  };
   return { text, ...(await ask('/api/read', asked, { signal })) };
 }
 
 // A field that is left by pressing a button keeps its height until the button is let go: the press would miss it otherwise.
 let pressed = false;
-addEventListener('pointerdown', () => { pressed = true; }, true);
-for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => { pressed = false; }, true);
-const released = () => new Promise((done) => { if (pressed) for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => setTimeout(done), { once: true }); else done(); });
+addEventListener(
+  'pointerdown',
+  () => {
+    pressed = true;
+  },
+  true,
+);
+for (const end of ['pointerup', 'pointercancel'])
+  addEventListener(
+    end,
+    () => {
+      pressed = false;
+    },
+    true,
+  );
+const released = () =>
+  new Promise((done) => {
+    if (pressed)
+      for (const end of ['pointerup', 'pointercancel'])
+        addEventListener(end, () => setTimeout(done), { once: true });
+    else done();
+  });
 
 /** The text that a value keeps: what was typed, with the unit of the menu where none was typed. */
 function kept(typed, menu) {
   const parts = split(typed.trim());
-  return typed.trim() === '' ? '' : joined(parts.unit || !/\p{Nd}/u.test(parts.number) ? parts : { number: parts.number, unit: menu });
+  return typed.trim() === ''
+    ? ''
+    : joined(parts.unit || !/\p{Nd}/u.test(parts.number) ? parts : { number: parts.number, unit: menu });
 }
 
 export function Quantity({ p, id, note, text = '', onChange, problem, label = p.label }) {
@@ -64,23 +117,41 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   const menu = typed === null && text ? given.unit : unit;
   const asked = typed === null ? '' : kept(typed, menu);
   const reading = useReading(p, asked);
-  const setTyped = (next) => { raw.current = next; show(next); };
-  const send = (next) => { if (next !== sent.current) { sent.current = next; onChange(next); } };
-  useEffect(() => { // a value from elsewhere: an undo, an example, a link
+  const setTyped = (next) => {
+    raw.current = next;
+    show(next);
+  };
+  const send = (next) => {
+    if (next !== sent.current) {
+      sent.current = next;
+      onChange(next);
+    }
+  };
+  useEffect(() => {
+    // a value from elsewhere: an undo, an example, a link
     if (text === sent.current || focused.current) return;
     sent.current = text;
     setTyped(null);
     if (text) setUnit(given.unit);
   }, [text]);
-  useEffect(() => { if (reading?.number !== undefined) send(joined(reading)); }, [reading]); // the value as it was understood; the text stays as it was typed
-  const type = (next) => { setUnit(menu); setTyped(next); send(kept(next, menu)); };
+  useEffect(() => {
+    if (reading?.number !== undefined) send(joined(reading));
+  }, [reading]); // the value as it was understood; the text stays as it was typed
+  const type = (next) => {
+    setUnit(menu);
+    setTyped(next);
+    send(kept(next, menu));
+  };
   const settle = async () => {
     const before = raw.current;
     if (before === null) return;
     const found = asked && (reading || (await read(p, asked)));
     if (raw.current !== before || found.problem) return;
     setTyped(null);
-    if (found) { setUnit(found.unit); send(joined(found)); }
+    if (found) {
+      setUnit(found.unit);
+      send(joined(found));
+    }
   };
   const choose = (next) => {
     const number = typed === null ? given.number : split(typed).number;
@@ -91,10 +162,20 @@ export function Quantity({ p, id, note, text = '', onChange, problem, label = p.
   const units = (p.units || []).map((u) => ({ unit: named(u.unit), label: u.label || '1' }));
   if (menu && !units.some((u) => u.unit === menu)) units.push({ unit: menu, label: menu });
   const wrong = reading?.problem || problem;
-  const example = p.default_shown?.number ?? p.hint ?? (p.series ? p.example?.number ?? '1 2 3' : '');
+  const example = p.default_shown?.number ?? p.hint ?? (p.series ? (p.example?.number ?? '1 2 3') : '');
   return html`<div class="quantity"><div class="pairs"><input id=${id} type="text" inputmode="text" autocomplete="off" autocapitalize="off" spellcheck=${false} aria-label=${id ? null : label} aria-describedby=${note} aria-invalid=${wrong ? 'true' : 'false'}
-      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => { focused.current = true; }} onBlur=${() => { focused.current = false; released().then(settle); }}
-      onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => { if (e.key === 'Enter') { e.preventDefault(); settle(); } }} />
+      value=${typed ?? inLanguage(given.number)} placeholder=${inLanguage(example)} onFocus=${() => {
+        focused.current = true;
+      }} onBlur=${() => {
+        focused.current = false;
+        released().then(settle);
+      }}
+      onInput=${(e) => type(e.target.value)} onKeyDown=${(e) => {
+        if (e.key === 'Enter') {
+          e.preventDefault();
+          settle();
+        }
+      }} />
     ${units.some((u) => u.unit) && html`<select class=${typed !== null && split(typed).unit ? 'dim' : ''} aria-label=${t('Unit of {name}', { name: label })} value=${menu} onChange=${(e) => choose(e.target.value)}>${units.map((u) => html`<option value=${u.unit} selected=${u.unit === menu}>${u.label}</option>`)}</select>`}</div>
     ${wrong ? html`<div class="out small told" role="status">${wrong}</div>` : reading?.shown ? html`<div class="dim small" role="status" data-echo>= ${reading.shown}</div>` : ''}</div>`;
 }

@@ -7,12 +7,28 @@ export function Quiz({ quiz }) {
   const items = quiz.options || quiz.items;
   const right = (item, i) => (quiz.options ? Boolean(answers[i]) === item.right : answers[i] === item.group);
   const score = items.filter(right).length;
-  const set = (i, value) => { setAnswers({ ...answers, [i]: value }); setChecked(false); };
-  const mark = (item, i) => checked && html`<span class=${right(item, i) ? 'ok' : 'out'}>${right(item, i) ? `✓ ${t('right')}` : `✗ ${t('wrong')}`}</span>`;
+  const set = (i, value) => {
+    setAnswers({ ...answers, [i]: value });
+    setChecked(false);
+  };
+  const mark = (item, i) =>
+    checked &&
+    html`<span class=${right(item, i) ? 'ok' : 'out'}>${right(item, i) ? `✓ ${t('right')}` : `✗ ${t('wrong')}`}</span>`;
   return html`<fieldset class="quiz" data-quiz=${quiz.id}><legend>${quiz.question}</legend>
-    ${quiz.options ? quiz.options.map((option, i) => html`<div class="option"><label><input type="checkbox" checked=${Boolean(answers[i])} onChange=${(e) => set(i, e.target.checked)} /> ${option.text}</label> ${mark(option, i)}</div>`)
-      : quiz.items.map((item, i) => html`<div class="option"><label><select value=${answers[i] ?? ''} onChange=${(e) => set(i, e.target.value === '' ? undefined : Number(e.target.value))}><option value="">—</option>
-        ${quiz.groups.map((group, g) => html`<option value=${g}>${group}</option>`)}</select> ${item.text}</label> ${mark(item, i)}</div>`)}
+    ${
+      quiz.options
+        ? quiz.options.map(
+            (option, i) =>
+              html`<div class="option"><label><input type="checkbox" checked=${Boolean(answers[i])} onChange=${(e) => set(i, e.target.checked)} /> ${option.text}</label> ${mark(option, i)}</div>`,
+          )
+        : quiz.items.map(
+            (
+              item,
+              i,
+            ) => html`<div class="option"><label><select value=${answers[i] ?? ''} onChange=${(e) => set(i, e.target.value === '' ? undefined : Number(e.target.value))}><option value="">—</option>
+        ${quiz.groups.map((group, g) => html`<option value=${g}>${group}</option>`)}</select> ${item.text}</label> ${mark(item, i)}</div>`,
+          )
+    }
     <div class="row"><button class="button" onClick=${() => setChecked(true)}>${t('Check')}</button>
     <span role="status">${checked && t('{score} of {count} right', { score, count: items.length })}</span></div>
     ${checked && html`<p class="small">${quiz.why}</p>`}<p class="small dim">${quiz.source}</p></fieldset>`;
