@@ -695,7 +695,7 @@ def test_every_text_of_the_page_scripts_has_its_french() -> None:
     missing = set()
     for script in (APP / "static").glob("*.js"):
         code = script.read_text(encoding="utf-8")
-        for _quote, text in re.findall(r"\bt\((['\"])(.+?)\1[,)]", code):
+        for _quote, text in re.findall(r"\bt\(\s*(['\"])(.+?)\1\s*[,)]", code):
             if f"'{text}':" not in table:
                 missing.add(f"{script.name}: {text}")
         for text in re.findall(r"^  \['\w+', '([^']+)',", code, re.MULTILINE):  # titles of the pages
