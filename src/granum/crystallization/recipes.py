@@ -10,7 +10,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 from granum.core import procedure
 from granum.core.errors import ConvergenceError, InputError
@@ -168,7 +168,7 @@ def optimal_cooling(
         )
     size = max(float(linear), 1e-30)
     start = np.diff(np.linspace(0.0, 1.0, intervals + 1) ** 2.0)
-    found = minimize(
+    found = scipy.optimize.minimize(
         lambda q: both(q)[0][0] / size,
         start,
         jac=lambda q: both(q)[1][0] / size,

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from granum.core import registry
 from granum.core.conversion import convert
@@ -145,7 +145,7 @@ class CardData:
         cube = np.vstack(
             [
                 np.full((1, len(ranges)), 0.5),
-                qmc.LatinHypercube(len(ranges), rng=np.random.default_rng(0)).random(TRIALS),
+                scipy.stats.qmc.LatinHypercube(len(ranges), rng=np.random.default_rng(0)).random(TRIALS),
             ]
         )
         places = [

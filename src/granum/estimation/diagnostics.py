@@ -10,13 +10,13 @@ in proportion to what is measured: a point must be stray under both.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from scipy import stats
-from scipy.special import comb
+import scipy
 
 from granum.estimation.losses import SoftL1
 from granum.estimation.searches import JUDGING
@@ -123,7 +123,7 @@ def diagnose(problem: Problem, q: np.ndarray, held: Collection[str]) -> Diagnost
         return whole
 
     n, p = residual.size, len(problem.names)
-    threshold = float(stats.t.isf(ERROR / (2.0 * n), n - p - 1)) if n - p > 1 else np.nan
+    threshold = float(scipy.stats.t.isf(ERROR / (2.0 * n), n - p - 1)) if n - p > 1 else np.nan
     stray, deviations, at, robust = (
         _stray(problem, q, residual, jacobian, floor) if n - p > 1 else ((), (), q, q)
     )
@@ -228,7 +228,7 @@ def _stray(
         deviations = _deviations(problem, at, suspects, floor)
         even = _in_proportion(problem, at)
         relative = _deviations(even, even.solve(at, without=suspects, search=JUDGING)[0], suspects, floor)
-        limit = stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
+        limit = scipy.stats.t.isf(ERROR / (2.0 * n), n - len(suspects) - p)
         far = tuple(
             k for k, d, r in zip(suspects, deviations, relative, strict=True) if min(abs(d), abs(r)) > limit
         )
@@ -314,7 +314,9 @@ def _chance(before: Any, after: Any, n: int, m: int, p: int, floor: float) -> fl
     """
     dof = n - m - p
     after = max(after, dof * floor**2, 1e-300)
-    return float(min(comb(n, m) * stats.f.sf(max(before - after, 0.0) / m / (after / dof), m, dof), 1.0))
+    return float(
+        min(math.comb(n, m) * scipy.stats.f.sf(max(before - after, 0.0) / m / (after / dof), m, dof), 1.0)
+    )
 
 
 def _without(problem: Problem, starts: tuple[np.ndarray, ...], key: tuple[int, ...]) -> np.ndarray:
@@ -364,7 +366,7 @@ def _no_relation(problem: Problem, q: np.ndarray, residual: np.ndarray, count: i
         return 1.0 if squares / dof > SCATTERED**2 * size / residual.size else np.nan
     freedom = max(count - sets, 1)
     return float(
-        stats.f.sf(max(spread - squares, 0.0) / freedom / (max(squares, 1e-300) / dof), freedom, dof)
+        scipy.stats.f.sf(max(spread - squares, 0.0) / freedom / (max(squares, 1e-300) / dof), freedom, dof)
     )
 
 

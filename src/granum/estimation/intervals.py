@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy import stats
-from scipy.optimize import root_scalar
+import scipy
 
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -40,7 +39,7 @@ def profile(fit: Fit, name: str, points: int = 21) -> Profile:
     dof = fit.statistics["degrees_of_freedom"]
     best = np.array(list(fit.values.values())) / problem.scale
     least = float(np.sum(problem.residual(best) ** 2))
-    critical = float(stats.f.ppf(0.95, 1, dof))
+    critical = float(scipy.stats.f.ppf(0.95, 1, dof))
     step = (
         estimate.standard_error
         if np.isfinite(estimate.standard_error)
@@ -60,7 +59,7 @@ def profile(fit: Fit, name: str, points: int = 21) -> Profile:
             far = _inside(estimate.value + side * reach, bound, side)
         if ratio(far) >= critical:
             ends.append(
-                root_scalar(
+                scipy.optimize.root_scalar(
                     lambda v: ratio(float(v)) - critical, bracket=(estimate.value, far), xtol=1e-12 * step
                 ).root
             )

@@ -10,8 +10,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+import scipy
 from jax.flatten_util import ravel_pytree
-from scipy.optimize import least_squares
 
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
@@ -121,7 +121,7 @@ class Problem:
         with np.errstate(
             all="ignore"
         ):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
-            outcome = least_squares(
+            outcome = scipy.optimize.least_squares(
                 lambda part: weight * self.residual(whole(part), y),
                 np.clip(q, low, high)[free],
                 jac=slopes,  # type: ignore[arg-type]

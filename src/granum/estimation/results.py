@@ -13,8 +13,8 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+import scipy
 from jax.flatten_util import ravel_pytree
-from scipy import stats
 
 from granum.core import notebooks
 from granum.core.errors import unknown_name
@@ -189,7 +189,7 @@ class Fit:
                 raise unknown_name(_("Parameter"), name, names)
         pair = [names.index(one), names.index(other)]
         angle = np.linspace(0.0, 2.0 * np.pi, points)
-        reach = np.sqrt(2.0 * stats.f.ppf(level, 2, self.statistics["degrees_of_freedom"]))
+        reach = np.sqrt(2.0 * scipy.stats.f.ppf(level, 2, self.statistics["degrees_of_freedom"]))
         x, y = (
             reach
             * _square_root(self.covariance[np.ix_(pair, pair)])
@@ -289,7 +289,9 @@ _derived_for_all = eqx.filter_jit(_derived)  # of a module, with its numbers as 
 
 def t_reach(level: float, degrees_of_freedom: float) -> float:
     """How many standard errors a two-sided interval reaches (Student)."""
-    return float(stats.t.ppf(0.5 + level / 2.0, degrees_of_freedom)) if degrees_of_freedom >= 1 else np.nan
+    return (
+        float(scipy.stats.t.ppf(0.5 + level / 2.0, degrees_of_freedom)) if degrees_of_freedom >= 1 else np.nan
+    )
 
 
 def _order(values: Mapping[str, float]) -> list[int]:

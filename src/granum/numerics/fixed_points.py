@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import lineax as lx
 from jax import lax
 from jax.flatten_util import ravel_pytree
 
@@ -292,6 +291,8 @@ def solve_linear(linear: Callable[[jax.Array], jax.Array], right: jax.Array) -> 
     if n <= DENSE_LIMIT:
         matrix = jax.vmap(linear, out_axes=1)(jnp.eye(n, dtype=right.dtype))
         return jnp.linalg.solve(matrix, right)
+    import lineax as lx
+
     operator = lx.FunctionLinearOperator(linear, jax.eval_shape(lambda: right))
     solver = lx.GMRES(rtol=1e-10, atol=1e-12, restart=min(n, 50))
     return lx.linear_solve(operator, right, solver, throw=False).value

@@ -1,12 +1,15 @@
 """Initial-value problems by Diffrax, with the status in the result."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, cast
+from __future__ import annotations
 
-import diffrax
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
+
 import jax
 import jax.numpy as jnp
-import optimistix as optx
+
+if TYPE_CHECKING:
+    import diffrax
 
 
 class Trajectory(NamedTuple):
@@ -66,6 +69,9 @@ def integrate(
         >>> path.end_state
         Array(0.36787944, dtype=float64)
     """
+    import diffrax  # only here: loading it takes as long as the rest of numerics
+    import optimistix as optx
+
     times = jnp.asarray(times, dtype=float)
     start = jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), start)
     event = None

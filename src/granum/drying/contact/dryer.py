@@ -12,8 +12,8 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+import scipy
 from jax.core import Tracer
-from scipy.optimize import root_scalar
 
 from granum.core.errors import ApplicabilityError
 from granum.core.flags import unsolved
@@ -355,7 +355,7 @@ def sized(
         )
     ends = sorted([(size, first), (other, last)])
     known = dict(ends)
-    found = root_scalar(
+    found = scipy.optimize.root_scalar(
         lambda x: known.get(x) or over(x),
         bracket=[x for x, _y in ends],
         method="toms748",

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 import jax.numpy as jnp
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from granum.core import formula, procedure
 from granum.core.errors import ApplicabilityError
@@ -66,7 +66,9 @@ def _fourier(series: Callable[[Any], Any], level: float) -> float:
             _("Diffusion comes to equilibrium without end: ask for a moisture ratio above zero."),
             name="moisture_ratio",
         )
-    root: Any = brentq(lambda s: np.log(float(series(np.exp(s)))) - np.log(level), *FOURIER, xtol=1e-13)
+    root: Any = scipy.optimize.brentq(
+        lambda s: np.log(float(series(np.exp(s)))) - np.log(level), *FOURIER, xtol=1e-13
+    )
     return float(np.exp(root))
 
 
@@ -167,5 +169,7 @@ def _first(model: Any, course: Any, level: float) -> float:
     at = int(below[0])
     if at == 0:
         return 0.0
-    root: Any = brentq(lambda s: float(model.ratio(np.exp(s))) - level, GRID[at - 1], GRID[at], xtol=1e-12)
+    root: Any = scipy.optimize.brentq(
+        lambda s: float(model.ratio(np.exp(s))) - level, GRID[at - 1], GRID[at], xtol=1e-12
+    )
     return float(np.exp(root))

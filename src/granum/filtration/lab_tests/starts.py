@@ -5,7 +5,7 @@ first layer unlike the rest.
 from __future__ import annotations
 
 import numpy as np
-from scipy import stats
+import scipy
 
 SIGNIFICANCE = 0.01
 NOTICEABLE = 0.05
@@ -35,7 +35,7 @@ def bad_start(x: np.ndarray, y: np.ndarray) -> int:
     squares = np.maximum(svv - sv**2 / left - slope**2 * across, 1e-24)  # round-off is no scatter
     spread = np.sqrt(squares / (left - 2) * (1.0 + 1.0 / left + (u[first - 1] - su / left) ** 2 / across))
     miss = np.abs(v[first - 1] - expected)
-    bad = (miss > stats.t.isf(SIGNIFICANCE / 2.0, left - 2) * spread) & (
+    bad = (miss > scipy.stats.t.isf(SIGNIFICANCE / 2.0, left - 2) * spread) & (
         miss * height > NOTICEABLE * np.abs(level + height * expected)
     )
     return int(first[bad][-1]) if bad.any() else 0
@@ -53,5 +53,5 @@ def bend(x: np.ndarray, y: np.ndarray) -> float:
     dof = len(x) - 3
     variance = np.sum((y - design @ found) ** 2) / dof
     error = np.sqrt(variance * np.linalg.inv(design.T @ design)[2, 2])
-    significant = abs(found[2]) > stats.t.ppf(1.0 - SIGNIFICANCE / 2.0, dof) * error
+    significant = abs(found[2]) > scipy.stats.t.ppf(1.0 - SIGNIFICANCE / 2.0, dof) * error
     return float(2.0 * found[2] / found[1]) if significant and found[1] != 0 else 0.0

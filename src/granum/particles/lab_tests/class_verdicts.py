@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
-from scipy import stats
+import scipy
 
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.i18n import _
@@ -88,5 +88,5 @@ def improbable_particles(sizes: np.ndarray, below: np.ndarray) -> dict[int, floa
         (int(np.argmin(sizes)), below[np.argmin(sizes)], -1.0),
     ):
         if -np.expm1(n * np.log1p(-min(max(float(beyond), 0.0), 1.0 - 1e-16))) < IMPROBABLE:
-            found[k] = sign * float(stats.norm.isf(max(float(beyond), 1e-300)))
+            found[k] = sign * float(scipy.stats.norm.isf(max(float(beyond), 1e-300)))
     return found

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import nnls
+import scipy
 
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -91,7 +91,7 @@ def convex_curve(time: np.ndarray, height: np.ndarray) -> Convex:
     scale = time[-1]
     ramps = np.maximum(time[None, 1:] - time[:, None], 0.0) / scale
     matrix = np.hstack([np.ones((time.size, 1)), ramps])
-    weights, _residual = nnls(matrix, height)
+    weights, _residual = scipy.optimize.nnls(matrix, height)
     fitted = matrix @ weights
     knots = np.concatenate([[time[0]], time[1:][weights[1:] > 1e-9 * height.max()]])
     if knots[-1] < time[-1]:
@@ -227,7 +227,7 @@ def _decay(t: np.ndarray, h: np.ndarray) -> tuple[float, float]:
     best = (np.inf, float(h[-1]))
     for k in np.geomspace(0.2, 60.0, 30) / span:
         matrix = np.column_stack([np.ones(t.size), np.exp(-k * (t - t[0]))])
-        (level, _amplitude), rest = nnls(matrix, h)
+        (level, _amplitude), rest = scipy.optimize.nnls(matrix, h)
         best = min(best, (rest**2, level))
     return best
 
