@@ -131,12 +131,25 @@ def test_table_in_a_narrow_terminal() -> None:
 def test_list_and_show() -> None:
     assert "particles.terminal_velocity" in granum("list", "terminal")[1]
     assert "humid_gas.wet_bulb_temperature" in granum("list", "bulb", "wet")[1]
-    assert (
-        "centrifuges.centrifugal_effect" in granum("list", "g-force")[1]
-    )  # another name, in the description only
     code, out, _err = granum("show", "particles.terminal_velocity", "--json")
     assert code == 0
     assert {p["name"] for p in json.loads(out)["parameters"]} >= {"particle_diameter", "dynamic_viscosity"}
+
+
+@pytest.mark.parametrize(
+    ("word", "card"),
+    [
+        ("voidage", "porous.void_fraction_packed_bed"),
+        ("umf", "fluidization.minimum_fluidization_velocity_wen_yu"),
+        ("g-force", "centrifuges.centrifugal_effect"),
+        ("SVI", "settling.sludge_volume_index"),
+        ("tension de vapeur", "materials.water_vapor_pressure"),
+        ("trainee", "particles.drag_coefficient_stokes"),
+        ("Kozeny", "porous.permeability_kozeny_carman"),
+    ],
+)
+def test_things_are_found_by_their_other_names(word: str, card: str) -> None:
+    assert card in granum("list", *word.split())[1]
 
 
 def test_missing_case_file_is_one_message() -> None:

@@ -365,10 +365,10 @@ def list_cards(
     cards = [thing.card for thing in registry.everything().values()]
     needles = " ".join(words or ()).lower().split()
     cards = [c for c in cards if not sort or c.sort == sort]
-    found = [c for c in cards if all(n in f"{c.key} {c.title} {c.summary}".lower() for n in needles)]
-    found = found or [
+    # what no name says may stand in a description
+    found = [c for c in cards if c.answers(needles)] or [
         c for c in cards if all(n in c.doc.lower() for n in needles)
-    ]  # other names of a thing stand in its description
+    ]
     if as_json:
         emit(
             {

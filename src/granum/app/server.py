@@ -27,6 +27,7 @@ from granum.app.tasks import calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
+from granum.core.cards import plain
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
 from granum.core.units import unit_system
@@ -112,10 +113,15 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """All cards, short."""
         if not word and not sort:
             return _json(await quick.run(_cards_text))
-        needle = word.lower()
         found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
         return Answer(
-            {"cards": [c for c in found if needle in f"{c['card']} {c['title']} {c['summary']}".lower()]}
+            {
+                "cards": [
+                    c
+                    for c in found
+                    if all(plain(part) in plain(" ".join(c.values())) for part in word.split())
+                ]
+            }
         )
 
     @app.get("/api/cards/{key}")
@@ -392,7 +398,14 @@ def _inside(workspace: Path | None, path: str) -> Path:
 @cache
 def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
     found = [
-        {"card": c.key, "sort": c.sort, "domain": c.domain, "title": c.title, "summary": c.summary}
+        {
+            "card": c.key,
+            "sort": c.sort,
+            "domain": c.domain,
+            "title": c.title,
+            "summary": c.summary,
+            "other_names": c.other_names,
+        }
         for c in (t.card for t in registry.everything().values())
     ]
     return found, bytes(Answer({"cards": found}).body)

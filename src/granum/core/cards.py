@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import unicodedata
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,6 +80,17 @@ class Card:
     def english_summary(self) -> str:
         """First paragraph of the docstring."""
         return " ".join(self.doc.split("\n\n", 1)[0].split())
+
+    @property
+    def other_names(self) -> str:
+        """Other names, in either language, of what it is about and what it gives."""
+        words = dict.fromkeys(map(quantity_in, (self.name, self.family, *(p.name for p in self.outputs))))
+        return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
+
+    def answers(self, words: Iterable[str]) -> bool:
+        """Whether all words stand in its key, title, summary or other names; case and accents do not count."""
+        text = plain(f"{self.key} {self.title} {self.summary} {self.other_names}")
+        return all(plain(word) in text for word in words)
 
     @property
     def citation(self) -> str:
@@ -161,3 +173,9 @@ def make_card(
         limits=limits,
         arguments=arguments,
     )
+
+
+def plain(text: str) -> str:
+    """Small letters without accents, by which texts are compared in a search."""
+    apart = unicodedata.normalize("NFD", text.lower())
+    return "".join(letter for letter in apart if not unicodedata.combining(letter))

@@ -23,6 +23,7 @@ class Term:
     en, fr: labels.
     typical: a range, SI units, in which values usually lie (tests and forms draw from it).
     unit: the unit people usually write it in, when it differs from the first one of its kind.
+    also: other names by which people look for it, in either language.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Term:
     fr: str
     typical: tuple[float, float]
     unit: str | None = None
+    also: tuple[str, ...] = ()
 
     @property
     def label(self) -> str:
@@ -55,7 +57,13 @@ def glossary() -> dict[str, Term]:
                 continue
             low, high = row["typical"]
             terms[name] = Term(
-                name, row["symbol"], row["en"], row["fr"], (float(low), float(high)), row.get("unit")
+                name,
+                row["symbol"],
+                row["en"],
+                row["fr"],
+                (float(low), float(high)),
+                row.get("unit"),
+                tuple(row.get("also", ())),
             )
     return terms
 

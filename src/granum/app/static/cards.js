@@ -20,7 +20,7 @@ export function Finder({ page, current, cards }) {
     return html`<section class="find" aria-busy="true" aria-label=${t('Find')}><p class="dim">${t('Loading…')}</p></section>`;
   const words = plain(word).split(/\s+/).filter(Boolean);
   const found = cards.filter((c) => {
-    const text = plain(`${c.card.replaceAll('_', ' ')} ${c.card} ${c.title} ${c.summary}`);
+    const text = plain(`${c.card.replaceAll('_', ' ')} ${c.card} ${c.title} ${c.summary} ${c.other_names}`);
     return words.every((w) => text.includes(w));
   });
   const groups = new Map(order.map((domain) => [domain, []]));
