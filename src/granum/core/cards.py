@@ -88,7 +88,7 @@ class Card:
         return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
 
     def answers(self, words: Iterable[str]) -> bool:
-        """Whether all words stand in its key, title, summary or other names; case and accents do not count."""
+        """Whether all words stand in key, title, summary or other names; case and accents do not count."""
         text = plain(f"{self.key} {self.title} {self.summary} {self.other_names}")
         return all(plain(word) in text for word in words)
 
