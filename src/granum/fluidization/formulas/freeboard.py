@@ -239,7 +239,6 @@ def elutriation_flux_wen_hashinger(
 @formula(
     source="lin1980",
     equation=r"K^*_\infty = 9.43\times10^{-4}\,\rho_g U\left(\frac{U^2}{g d_p}\right)^{1.65}",
-    fitted={"particle_diameter": (0.0, 1.5e-4)},
     typical=ESCAPE,
 )
 def elutriation_flux_lin(

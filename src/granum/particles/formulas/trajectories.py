@@ -66,13 +66,13 @@ def trajectory_stokes(
     >>> path = trajectory_stokes(
     ...     particle_diameter="50 um",
     ...     particle_density=2650,
-    ...     fluid_density=1.2,
-    ...     dynamic_viscosity=1.81e-5,
+    ...     fluid_density=998,
+    ...     dynamic_viscosity="1 cP",
     ...     time=[0.0, 10.0],
-    ...     initial_horizontal_velocity=1.0,
+    ...     initial_horizontal_velocity="2 mm/s",
     ... )
-    >>> round(float(path.horizontal_position[1]), 5)
-    0.02033
+    >>> round(float(path.horizontal_position[1]) * 1e6, 3)
+    0.736
     """
     tau = (
         (particle_density + added_mass_coefficient * fluid_density)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -24,9 +24,8 @@ RATIOS, FACTORS = (3.0, 6.0, 10.0, 15.0, 20.0), (1.28, 1.37, 1.52, 1.64, 1.74)
 
 
 @formula(
-    source="api421; stokes1851; clift1978, eq. 3-40",
+    source="api421; stokes1851",
     equation=r"v_t = \frac{g(\rho_w - \rho_o) d^2}{18\,\eta}",
-    fitted={"reynolds": (0.0, 0.2)},
     typical={"droplet_diameter": (5e-5, 2e-4)},
 )
 def rise_velocity_api(
@@ -38,19 +37,11 @@ def rise_velocity_api(
 ) -> Speed:
     """Rise velocity of the design oil globule (150 µm) in water, Stokes law.
 
-    Stokes' law, whose drag is 4 % too low at a Reynolds number of 0.2 (Oseen).
-
     >>> round(rise_velocity_api(water_density=1000, oil_density=880, dynamic_viscosity="1 cP") * 3600, 2)
     5.3
     """
-    velocity = (
-        gravity
-        * jnp.maximum(water_density - oil_density, 0.0)
-        * droplet_diameter**2
-        / (18.0 * dynamic_viscosity)
-    )
-    watch(reynolds=velocity * droplet_diameter * water_density / dynamic_viscosity)
-    return velocity
+    excess = jnp.maximum(water_density - oil_density, 0.0)
+    return gravity * excess * droplet_diameter**2 / (18.0 * dynamic_viscosity)
 
 
 @formula(source="api421", equation=r"v_h = \min(15\,v_t,\ v_{h,\max})")
