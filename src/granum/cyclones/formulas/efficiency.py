@@ -8,7 +8,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible, watch
+from granum.core import formula, impossible
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Density,
@@ -99,13 +99,12 @@ def turn_number_lapple(inlet_height: Length, cylinder_height: Length, height: Le
 
 
 @formula(
-    source="rosin1932; lapple1951; clift1978, eq. 3-40",
+    source="rosin1932; lapple1951",
     equation=(
         r"d_p = \sqrt{\frac{9\eta(R_2-R_1)}{\pi N V(\rho_D-\rho_c)}} = \frac34\sqrt{\frac{\eta d_c}{\pi "
         r"V\rho_D}}"
     ),
     output="cut_size",
-    fitted={"reynolds": (0.0, 0.2)},
     typical={**TYPICAL, "velocity": (1.0, 20.0)},
 )
 def cut_size_turns(
@@ -122,8 +121,7 @@ def cut_size_turns(
 
     The particle crosses from the inner to the outer radius while the gas runs its spiral; four turns and an
     inner radius of half the outer give the short form. Differs from the print: the notes' time in the spiral
-    has twice the path π(R1 + R2)N; their result does not. Its drag is taken as Stokes', 4 % too low at a
-    Reynolds number of 0.2 (Oseen).
+    has twice the path π(R1 + R2)N; their result does not.
 
     The notes' exercise, 28.6 µm:
 
@@ -141,15 +139,12 @@ def cut_size_turns(
     28.6
     """
     gap = diameter / 2.0 * (1.0 - radius_ratio)
-    cut = jnp.sqrt(
+    return jnp.sqrt(
         9.0
         * dynamic_viscosity
         * gap
         / (jnp.pi * turn_number * velocity * heavier(particle_density, fluid_density))
     )
-    outward = velocity * (1.0 - radius_ratio) / (jnp.pi * turn_number * (1.0 + radius_ratio))
-    watch(reynolds=fluid_density * outward * cut / dynamic_viscosity)
-    return cut
 
 
 @formula(
@@ -311,13 +306,12 @@ def core_height(cyclone: Dimensions) -> Any:
 
 
 @formula(
-    source="barth1956; hoffmann2008; clift1978, eq. 3-40",
+    source="barth1956; hoffmann2008",
     equation=(
         r"\frac{v_\theta}{v_x} = \left(\frac{\alpha a b}{\pi R_x R_i} + \frac{\lambda "
         r"H_c}{R_x}\right)^{-1},\ d_{50} = \sqrt{\frac{9\eta Q}{\pi H_c (\rho_p - \rho_g) v_\theta^2}}"
     ),
     output="cut_size",
-    fitted={"reynolds": (0.0, 0.2)},
     typical=TYPICAL,
 )
 @takes_lengths
@@ -330,8 +324,6 @@ def cut_size_barth(
     wall_friction: Ratio = 0.005,
 ) -> Length:
     """Cut size of a gas cyclone by Barth: the particle that circles under the edge of the vortex finder.
-
-    Its drag is taken as Stokes', 4 % too low at a Reynolds number of 0.2 (Oseen).
 
     >>> d = dict(
     ...     diameter=1.0,
@@ -349,15 +341,12 @@ def cut_size_barth(
     True
     """
     v, H_c, _v_x = core_flow(volume_flow, cyclone, wall_friction)
-    cut = jnp.sqrt(
+    return jnp.sqrt(
         9.0
         * dynamic_viscosity
         * volume_flow
         / (jnp.pi * H_c * heavier(particle_density, fluid_density) * v**2)
     )
-    inward = volume_flow / (jnp.pi * cyclone.outlet_diameter * H_c)
-    watch(reynolds=fluid_density * inward * cut / dynamic_viscosity)
-    return cut
 
 
 def core_flow(Q: Any, cyclone: Dimensions, friction: Any) -> tuple[Any, Any, Any]:
@@ -446,13 +435,12 @@ def muschelknautz_flow(
 
 
 @formula(
-    source="muschelknautz1972; hoffmann2008, ch. 6; clift1978, eq. 3-40",
+    source="muschelknautz1972; hoffmann2008, ch. 6",
     equation=(
         r"v_{\theta} = \frac{v_w R/R_x}{1 + f A_R v_w\sqrt{R/R_x}/(2Q)},\ d_{50} = \sqrt{\frac{18\eta\,0.9 "
         r"Q}{2\pi(\rho_p-\rho_g)v_\theta^2(H-S)}}"
     ),
     output="cut_size",
-    fitted={"reynolds": (0.0, 0.2)},
     typical=TYPICAL,
 )
 @takes_lengths
@@ -468,8 +456,7 @@ def cut_size_muschelknautz(
     """Cut size of the inner vortex of a gas cyclone by Muschelknautz; dust on the wall brakes the swirl and
     coarsens it.
 
-    The friction factor is that of clean gas; the dust adds its own. Its drag is taken as Stokes', 4 % too low
-    at a Reynolds number of 0.2 (Oseen).
+    The friction factor is that of clean gas; the dust adds its own.
 
     >>> d = dict(
     ...     diameter=1.0,
@@ -490,15 +477,13 @@ def cut_size_muschelknautz(
         volume_flow, fluid_density, particle_density, dust_loading, cyclone, gas_friction
     )
     inward = 0.9 * volume_flow / (jnp.pi * cyclone.outlet_diameter * (cyclone.height - cyclone.finder_length))
-    cut = jnp.sqrt(
+    return jnp.sqrt(
         9.0
         * dynamic_viscosity
         * cyclone.outlet_diameter
         * inward
         / (heavier(particle_density, fluid_density) * core**2)
     )
-    watch(reynolds=fluid_density * inward * cut / dynamic_viscosity)
-    return cut
 
 
 @formula(

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Area, Density, DynamicViscosity, Fraction, Length, Series, Speed, VolumeFlow
 from granum.cyclones.formulas.efficiency import TYPICAL, heavier
@@ -66,12 +66,11 @@ def terminal_velocity_retained_stairmand(
 
 
 @formula(
-    source="richardson2002, ch. 1; clift1978, eq. 3-40",
+    source="richardson2002, ch. 1",
     equation=(
         r"d = \sqrt{\frac{18\eta v_0}{(\rho_p-\rho_g)g}},\quad v_0 = \frac{0.2\,A_i^2 " r"D_e\,g}{\pi H D Q}"
     ),
     output="cut_size",
-    fitted={"reynolds": (0.0, 0.2)},
     typical=BODY,
 )
 def cut_size_stairmand(
@@ -85,8 +84,6 @@ def cut_size_stairmand(
     area_inlet: Area,
 ) -> Length:
     """Smallest particle that a cyclone keeps, from its main lengths, by Stairmand and Stokes' law.
-
-    Its drag is taken as Stokes', 4 % too low at a Reynolds number of 0.2 (Oseen).
 
     Coulson and Richardson's example, a cyclone of 0.3 m with inlet and outlet of 75 mm at 1.5 m/s, 2.17 µm:
 
@@ -107,9 +104,6 @@ def cut_size_stairmand(
     2.17
     """
     v = terminal_velocity_retained_stairmand(volume_flow, diameter, outlet_diameter, height, area_inlet)
-    cut = jnp.sqrt(
+    return jnp.sqrt(
         18.0 * dynamic_viscosity * v / (heavier(particle_density, fluid_density) * STANDARD_GRAVITY)
     )
-    inward = volume_flow / (0.4 * jnp.pi * outlet_diameter * height)
-    watch(reynolds=fluid_density * inward * cut / dynamic_viscosity)
-    return cut
