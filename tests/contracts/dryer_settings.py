@@ -10,13 +10,6 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
-from granum.drying.contact.kinetics import (
-    DiffusionKinetics,
-    ReactionKinetics,
-    SurfaceKinetics,
-    ThinLayerKinetics,
-    VanMeelKinetics,
-)
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.burner import Burner
@@ -33,6 +26,13 @@ from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
+from granum.drying.gas_solid.kinetics import (
+    DiffusionKinetics,
+    ReactionKinetics,
+    SurfaceKinetics,
+    ThinLayerKinetics,
+    VanMeelKinetics,
+)
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.isotherms.products import PRODUCTS
 from granum.drying.thin_layers.exponential import Page

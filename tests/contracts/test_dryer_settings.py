@@ -22,10 +22,10 @@ from tests.contracts.dryer_settings import (
 )
 
 from granum.core.kinds import kind_of
-from granum.drying.contact.dryer import PLAIN
-from granum.drying.contact.kinetics import Meeting
-from granum.drying.contact.liquor import counted
-from granum.drying.contact.matter import Matter
+from granum.drying.gas_solid.dryer import PLAIN
+from granum.drying.gas_solid.kinetics import Meeting
+from granum.drying.gas_solid.liquor import counted
+from granum.drying.gas_solid.matter import Matter
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, WRONG
 from granum.streams.audit import closure
 from granum.streams.equilibrium import HumidMixture

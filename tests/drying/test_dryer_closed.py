@@ -9,9 +9,9 @@ import pytest
 
 import granum as gr
 from granum.core.errors import InputError
-from granum.drying.contact.dryer import ready
 from granum.drying.equipment.burner import Burner
 from granum.drying.equipment.closed import ClosedDryer, HeatPumpCircuit, SteamCircuit
+from granum.drying.gas_solid.dryer import ready
 from granum.streams.audit import closure
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty

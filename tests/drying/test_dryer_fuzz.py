@@ -7,7 +7,6 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.drying.contact.dryer import PLAIN
 from granum.drying.equipment.burner import Burner
 from granum.drying.equipment.closed import ClosedDryer, HeatPumpCircuit, SteamCircuit
 from granum.drying.equipment.convective import ConvectiveDryer
@@ -16,6 +15,7 @@ from granum.drying.equipment.freeze import FreezeDryer
 from granum.drying.equipment.paddle import PaddleDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
+from granum.drying.gas_solid.dryer import PLAIN
 from granum.humid_gas.pairs import AIR_WATER
 from granum.humid_gas.relations import saturated_fraction
 from granum.streams.audit import closure

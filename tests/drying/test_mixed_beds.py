@@ -12,11 +12,11 @@ import pytest
 
 import granum as gr
 from granum.core.errors import InputError
-from granum.drying.contact.dryer import PLAIN, ready
-from granum.drying.contact.kinetics import AbstractKinetics, Meeting, SurfaceKinetics
-from granum.drying.contact.matter import Matter
-from granum.drying.contact.mixed import Bed, Gas, Solid, steady_bed
 from granum.drying.equipment.fluid_bed import FluidBedDryer
+from granum.drying.gas_solid.dryer import PLAIN, ready
+from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting, SurfaceKinetics
+from granum.drying.gas_solid.matter import Matter
+from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.isotherms.products import PRODUCTS
 from granum.streams.audit import closure

@@ -9,11 +9,11 @@ import pytest
 
 from granum.core.errors import GranumError
 from granum.core.flags import collect, describe
-from granum.drying.contact.kinetics import SurfaceKinetics
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.spray import SprayDryer
+from granum.drying.gas_solid.kinetics import SurfaceKinetics
 from granum.streams.audit import closure
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty

@@ -10,8 +10,6 @@ import pytest
 
 import granum as gr
 from granum.core.errors import ApplicabilityError
-from granum.drying.contact.dryer import PLAIN
-from granum.drying.contact.kinetics import SurfaceKinetics
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.closed import ClosedDryer, CondenserCircuit, HeatPumpCircuit, SteamCircuit
@@ -27,6 +25,8 @@ from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tray import TrayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
 from granum.drying.equipment.well_mixed import WellMixedDryer
+from granum.drying.gas_solid.dryer import PLAIN
+from granum.drying.gas_solid.kinetics import SurfaceKinetics
 from granum.humid_gas import state
 from granum.streams.atmosphere import flammable
 from granum.streams.equilibrium import HumidMixture

@@ -9,12 +9,12 @@ import pytest
 
 from granum.core.errors import InputError
 from granum.drying.bodies import body_drying
-from granum.drying.contact.kinetics import DiffusionKinetics
 from granum.drying.formulas.diffusion import (
     diffusivity_arrhenius,
     moisture_ratio_plate,
     moisture_ratio_sphere,
 )
+from granum.drying.gas_solid.kinetics import DiffusionKinetics
 from granum.drying.isotherms import grains
 from granum.drying.lab_tests.diffusivity import EffectiveDiffusivity
 from granum.drying.lab_tests.isotherm_temperatures import MODELS, IsothermTemperatures

@@ -14,9 +14,9 @@ from scipy.special import erf
 
 import granum as gr
 from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas import assisted
 from granum.drying.formulas import contact_drying as c
+from granum.drying.gas_solid.matter import Matter
 from granum.humid_gas import state
 from granum.streams.audit import closure
 

@@ -42,53 +42,6 @@ from granum.drying.charts import (
     dryer_air_path as dryer_air_path,
     dryer_energy_chart as dryer_energy_chart,
 )
-from granum.drying.contact.cells import (
-    CellRow as CellRow,
-    Contact as Contact,
-    Entering as Entering,
-    Inlet as Inlet,
-    Network as Network,
-    Profile as Profile,
-)
-from granum.drying.contact.column import (
-    Passage as Passage,
-    Zone as Zone,
-)
-from granum.drying.contact.conveyed import (
-    Flight as Flight,
-    Path as Path,
-)
-from granum.drying.contact.dryer import (
-    ContactDryer as ContactDryer,
-    Dried as Dried,
-    Dryer as Dryer,
-    DryerFigures as DryerFigures,
-    Through as Through,
-)
-from granum.drying.contact.kinetics import (
-    AbstractKinetics as AbstractKinetics,
-    DiffusionKinetics as DiffusionKinetics,
-    Meeting as Meeting,
-    ReactionKinetics as ReactionKinetics,
-    SurfaceKinetics as SurfaceKinetics,
-    ThinLayerKinetics as ThinLayerKinetics,
-    VanMeelKinetics as VanMeelKinetics,
-)
-from granum.drying.contact.layer import (
-    LayerDryer as LayerDryer,
-)
-from granum.drying.contact.matter import (
-    Matter as Matter,
-)
-from granum.drying.contact.mixed import (
-    Bed as Bed,
-    Found as Found,
-    Gas as Gas,
-    Life as Life,
-    Lived as Lived,
-    Solid as Solid,
-    Spread as Spread,
-)
 from granum.drying.equipment.atomizers import (
     AbstractAtomizer as AbstractAtomizer,
     GivenDrops as GivenDrops,
@@ -285,6 +238,53 @@ from granum.drying.formulas.vials import (
     cake_vapor_resistance as cake_vapor_resistance,
     frozen_height as frozen_height,
     vial_heat_transfer as vial_heat_transfer,
+)
+from granum.drying.gas_solid.cells import (
+    CellRow as CellRow,
+    Contact as Contact,
+    Entering as Entering,
+    Inlet as Inlet,
+    Network as Network,
+    Profile as Profile,
+)
+from granum.drying.gas_solid.column import (
+    Passage as Passage,
+    Zone as Zone,
+)
+from granum.drying.gas_solid.conveyed import (
+    Flight as Flight,
+    Path as Path,
+)
+from granum.drying.gas_solid.dryer import (
+    CellDryer as CellDryer,
+    Dried as Dried,
+    Dryer as Dryer,
+    DryerFigures as DryerFigures,
+    Through as Through,
+)
+from granum.drying.gas_solid.kinetics import (
+    AbstractKinetics as AbstractKinetics,
+    DiffusionKinetics as DiffusionKinetics,
+    Meeting as Meeting,
+    ReactionKinetics as ReactionKinetics,
+    SurfaceKinetics as SurfaceKinetics,
+    ThinLayerKinetics as ThinLayerKinetics,
+    VanMeelKinetics as VanMeelKinetics,
+)
+from granum.drying.gas_solid.layer import (
+    LayerDryer as LayerDryer,
+)
+from granum.drying.gas_solid.matter import (
+    Matter as Matter,
+)
+from granum.drying.gas_solid.mixed import (
+    Bed as Bed,
+    Found as Found,
+    Gas as Gas,
+    Life as Life,
+    Lived as Lived,
+    Solid as Solid,
+    Spread as Spread,
 )
 from granum.drying.isotherms.adsorption import (
     Bet as Bet,

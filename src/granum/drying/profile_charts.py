@@ -11,7 +11,7 @@ import numpy as np
 from granum.core import chart
 from granum.core.i18n import _
 from granum.core.kinds import MoistureDryBasis, Ratio, Series, Temperature
-from granum.drying.contact.cells import Profile
+from granum.drying.gas_solid.cells import Profile
 from granum.streams.stream import Stream
 
 ZERO = 273.15

@@ -18,11 +18,11 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, Dried, DryerFigures, Through, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.layer import LayerDryer
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed
+from granum.drying.gas_solid.column import Zone
+from granum.drying.gas_solid.dryer import NOTES, Dried, DryerFigures, Through, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.layer import LayerDryer
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream

@@ -12,12 +12,12 @@ from granum.core import equipment
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Fraction, Law, Length, Power, Speed, Temperature, Within
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Inlet, Network
-from granum.drying.contact.conveyed import Path, convey, liquid_density
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, ready, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.liquor import composition, counted
-from granum.drying.contact.matter import Matter
+from granum.drying.gas_solid.cells import Inlet, Network
+from granum.drying.gas_solid.conveyed import Path, convey, liquid_density
+from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Through, ready, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.liquor import composition, counted
+from granum.drying.gas_solid.matter import Matter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits

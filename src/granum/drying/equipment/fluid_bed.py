@@ -14,12 +14,12 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Contact, Inlet, Network, Profile
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, ready, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.liquor import composition, counted
-from granum.drying.contact.matter import Matter
-from granum.drying.contact.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
+from granum.drying.gas_solid.cells import Contact, Inlet, Network, Profile
+from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, ready, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.liquor import composition, counted
+from granum.drying.gas_solid.matter import Matter
+from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
 from granum.fluidization.formulas.bubbles import (
     bubble_diameter_darton,
     bubble_exchange_rate_cloud,
@@ -41,7 +41,7 @@ AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
     source="kunii1991, ch. 16; vanecek1966; groenewold1997",
     title="Fluidized-bed dryer",
 )
-class FluidBedDryer(ContactDryer):
+class FluidBedDryer(CellDryer):
     """Each particle dries by its own kinetics in the gas of the dense phase; part of the gas passes by in
     bubbles.
 
@@ -60,7 +60,7 @@ class FluidBedDryer(ContactDryer):
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
 
-    limits: ClassVar[Limits] = ContactDryer.limits | {
+    limits: ClassVar[Limits] = CellDryer.limits | {
         "fluidized": Limit(
             "gas velocity over minimum fluidization velocity", 1.5, 100.0, "dimensionless", "kunii1991"
         ),

@@ -36,7 +36,6 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.units import format_number
-from granum.drying.contact.dryer import ready
 from granum.drying.equipment.drum import ContactDried
 from granum.drying.formulas.contact_drying import (
     contact_time_mixing,
@@ -44,6 +43,7 @@ from granum.drying.formulas.contact_drying import (
     penetration_drying,
 )
 from granum.drying.formulas.heat import heat_transfer_coefficient_penetration
+from granum.drying.gas_solid.dryer import ready
 from granum.drying.profile_charts import contact_chart
 from granum.drying.wet_surface import boiled
 from granum.numerics import Root, find_root, safe_divide

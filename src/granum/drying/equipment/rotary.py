@@ -20,11 +20,11 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Contact, Network
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas.rotary import residence_time_friedman_marshall, volumetric_heat_transfer_rotary
+from granum.drying.gas_solid.cells import Contact, Network
+from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.matter import Matter
 from granum.streams.cakes import solid_diameter
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
@@ -35,7 +35,7 @@ TABLE = NOTES.format(table="IV.6")
 @equipment(
     "rotary_dryer", source="friedman1949; friedman1949part2; treybal1980, ch. 12", title="Rotary dryer"
 )
-class RotaryDryer(ContactDryer):
+class RotaryDryer(CellDryer):
     """Drum with flights: time of passage after Friedman and Marshall, heat by the volume, tanks in series for
     the spread of residence times.
 
@@ -58,7 +58,7 @@ class RotaryDryer(ContactDryer):
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
 
-    limits: ClassVar[Limits] = ContactDryer.limits | {
+    limits: ClassVar[Limits] = CellDryer.limits | {
         "filled": Limit("share of the drum filled with solid", 0.03, 0.15, "dimensionless", "friedman1949"),
         "flux": Limit("gas per cross-section of the drum", 0.5, 5.0, "kg/(m^2*s)", "treybal1980, ch. 12"),
         "slender": Limit("length over diameter of the drum", 4.0, 10.0, "dimensionless", "perry2008, ch. 12"),

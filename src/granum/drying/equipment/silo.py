@@ -22,12 +22,12 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.column import Zone
-from granum.drying.contact.dryer import NOTES, DryerFigures, Through, dried, ready, sized, warmed
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.layer import LayerDryer, joined
-from granum.drying.contact.liquor import counted
 from granum.drying.formulas.beds import heat_transfer_coefficient_through_bed, pressure_gradient_shedd
+from granum.drying.gas_solid.column import Zone
+from granum.drying.gas_solid.dryer import NOTES, DryerFigures, Through, dried, ready, sized, warmed
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.layer import LayerDryer, joined
+from granum.drying.gas_solid.liquor import counted
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream, empty

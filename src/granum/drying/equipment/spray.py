@@ -24,13 +24,13 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Inlet, Network
-from granum.drying.contact.conveyed import Path, convey, drop_ratio, liquid_density
-from granum.drying.contact.dryer import NOTES, Dried, Dryer, DryerFigures, Through, parted, ready, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.liquor import composition, counted
-from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import Liquor
+from granum.drying.gas_solid.cells import Inlet, Network
+from granum.drying.gas_solid.conveyed import Path, convey, drop_ratio, liquid_density
+from granum.drying.gas_solid.dryer import NOTES, Dried, Dryer, DryerFigures, Through, parted, ready, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.liquor import composition, counted
+from granum.drying.gas_solid.matter import Matter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 from granum.streams.units import Limits

@@ -34,15 +34,15 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Contact, Network
-from granum.drying.contact.column import Zone, mean_moisture, pass_zones
-from granum.drying.contact.dryer import ready
-from granum.drying.contact.kinetics import VanMeelKinetics
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas.assisted import wet_surface
 from granum.drying.formulas.contact_drying import temperature_outlet_tray
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
 from granum.drying.formulas.times import drying_time
+from granum.drying.gas_solid.cells import Contact, Network
+from granum.drying.gas_solid.column import Zone, mean_moisture, pass_zones
+from granum.drying.gas_solid.dryer import ready
+from granum.drying.gas_solid.kinetics import VanMeelKinetics
+from granum.drying.gas_solid.matter import Matter
 from granum.drying.wet_surface import boiled
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable

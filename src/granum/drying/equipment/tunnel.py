@@ -19,11 +19,11 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Contact, Network
-from granum.drying.contact.dryer import NOTES, ContactDryer, Dried, DryerFigures, Through, sized
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.matter import Matter
 from granum.drying.formulas.heat import heat_transfer_coefficient_parallel
+from granum.drying.gas_solid.cells import Contact, Network
+from granum.drying.gas_solid.dryer import NOTES, CellDryer, Dried, DryerFigures, Through, sized
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.matter import Matter
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
@@ -31,7 +31,7 @@ TABLE = NOTES.format(table="IV.8")
 
 
 @equipment("tunnel_dryer", source="keey1978; geankoplis2003, ch. 9", title="Tunnel dryer")
-class TunnelDryer(ContactDryer):
+class TunnelDryer(CellDryer):
     """Trucks in a row with gas along their surface, with or against them, close enough to count as a steady
     flow.
 
@@ -49,7 +49,7 @@ class TunnelDryer(ContactDryer):
     temperature_limit: Temperature | None = None
     cells: Annotated[int, Within(1, 2000)] = 40
 
-    limits: ClassVar[Limits] = ContactDryer.limits | {
+    limits: ClassVar[Limits] = CellDryer.limits | {
         "inlet": Limit("gas temperature at the inlet", 303.15, 523.15, "K", TABLE),
         "capacity": Limit("water evaporated per volume and hour", 1.0, 50.0, "kg/(hour*m^3)", TABLE),
         "velocity": Limit("gas velocity over the product", 0.6, 8.0, "m/s", "treybal1980, ch. 12"),

@@ -23,7 +23,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.dryer import Dried
+from granum.drying.gas_solid.dryer import Dried
 from granum.drying.wet_surface import crystallized
 from granum.humid_gas.relations import wet_bulb_balance
 from granum.numerics import find_root, safe_divide

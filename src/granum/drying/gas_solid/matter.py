@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.errors import InputError
 from granum.core.i18n import _
-from granum.drying.contact.liquor import crystals
+from granum.drying.gas_solid.liquor import crystals
 from granum.numerics import safe_divide
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture

@@ -9,11 +9,6 @@ import pytest
 
 import granum as gr
 from granum.core.errors import ApplicabilityError
-from granum.drying.contact.cells import NO_WATER, Contact, Network
-from granum.drying.contact.column import Zone, pass_zones
-from granum.drying.contact.conveyed import Flight, Path, relaxed
-from granum.drying.contact.kinetics import DiffusionKinetics, SurfaceKinetics, VanMeelKinetics
-from granum.drying.contact.matter import Matter
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.flash import FlashDryer
@@ -22,6 +17,11 @@ from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.equipment.silo import SiloDryer
 from granum.drying.equipment.spray import SprayDryer
 from granum.drying.equipment.tunnel import TunnelDryer
+from granum.drying.gas_solid.cells import NO_WATER, Contact, Network
+from granum.drying.gas_solid.column import Zone, pass_zones
+from granum.drying.gas_solid.conveyed import Flight, Path, relaxed
+from granum.drying.gas_solid.kinetics import DiffusionKinetics, SurfaceKinetics, VanMeelKinetics
+from granum.drying.gas_solid.matter import Matter
 from granum.drying.isotherms.adsorption import Gab
 from granum.humid_gas.formulas.state import state
 from granum.streams.audit import closure

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import ENTHALPY, Contact, Inlet, Network, Profile
+from granum.drying.gas_solid.cells import ENTHALPY, Contact, Inlet, Network, Profile
 
 
 class Zone(NamedTuple):

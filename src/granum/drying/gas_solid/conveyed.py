@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import (
+from granum.drying.gas_solid.cells import (
     ENTHALPY,
     Contact,
     Entering,
@@ -19,8 +19,8 @@ from granum.drying.contact.cells import (
     left,
     march,
 )
-from granum.drying.contact.kinetics import AbstractKinetics
-from granum.drying.contact.matter import Matter
+from granum.drying.gas_solid.kinetics import AbstractKinetics
+from granum.drying.gas_solid.matter import Matter
 from granum.numerics import Cells, Rates, solve_chain
 from granum.particles.formulas.transfer import nusselt_number_ranz_marshall
 from granum.streams.stream import Stream

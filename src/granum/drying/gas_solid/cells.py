@@ -15,8 +15,8 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 
-from granum.drying.contact.kinetics import AbstractKinetics, Meeting
-from granum.drying.contact.matter import Matter, slope
+from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
+from granum.drying.gas_solid.matter import Matter, slope
 from granum.numerics import Cells, Rates, advance_chain, solve_chain
 
 ENTHALPY = 1e5  # J/kg, the unit of enthalpy among the unknowns

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from granum.core.errors import ApplicabilityError
-from granum.drying.contact.cells import Contact, Inlet, Network
-from granum.drying.contact.dryer import ready
-from granum.drying.contact.kinetics import (
+from granum.drying.gas_solid.cells import Contact, Inlet, Network
+from granum.drying.gas_solid.dryer import ready
+from granum.drying.gas_solid.kinetics import (
     DiffusionKinetics,
     Meeting,
     ReactionKinetics,
@@ -18,7 +18,7 @@ from granum.drying.contact.kinetics import (
     ThinLayerKinetics,
     VanMeelKinetics,
 )
-from granum.drying.contact.matter import Matter
+from granum.drying.gas_solid.matter import Matter
 from granum.drying.isotherms.adsorption import Gab
 from granum.drying.thin_layers.exponential import Page
 from granum.humid_gas.formulas.state import state

@@ -25,9 +25,9 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from granum.drying.contact.cells import Profile
-from granum.drying.contact.kinetics import LEAST, AbstractKinetics, Meeting
-from granum.drying.contact.matter import Matter, slope, temperature_at
+from granum.drying.gas_solid.cells import Profile
+from granum.drying.gas_solid.kinetics import LEAST, AbstractKinetics, Meeting
+from granum.drying.gas_solid.matter import Matter, slope, temperature_at
 from granum.numerics import crossing_pair
 from granum.numerics.quick_roots import falling_root
 

@@ -23,8 +23,8 @@ from granum.core.kinds import (
     PositiveNumber,
     Temperature,
 )
-from granum.drying.contact.matter import NEAR_BOILING, Matter
 from granum.drying.formulas.characteristic import CHARACTERISTIC_LINEAR
+from granum.drying.gas_solid.matter import NEAR_BOILING, Matter
 from granum.drying.isotherms.base import AbstractIsotherm
 from granum.drying.thin_layers.base import AbstractThinLayer
 from granum.numerics import find_root

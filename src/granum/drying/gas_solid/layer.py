@@ -7,11 +7,11 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.drying.contact.cells import Contact, Network, Profile
-from granum.drying.contact.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
-from granum.drying.contact.dryer import Dryer, Through, ready, solved
-from granum.drying.contact.liquor import counted
-from granum.drying.contact.matter import Matter
+from granum.drying.gas_solid.cells import Contact, Network, Profile
+from granum.drying.gas_solid.column import Passage, Zone, mean_moisture, pass_zones, product_enthalpy
+from granum.drying.gas_solid.dryer import Dryer, Through, ready, solved
+from granum.drying.gas_solid.liquor import counted
+from granum.drying.gas_solid.matter import Matter
 from granum.streams.stream import Stream
 
 

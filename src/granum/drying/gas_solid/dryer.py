@@ -29,10 +29,10 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
-from granum.drying.contact.cells import Contact, Inlet, Profile
-from granum.drying.contact.kinetics import AbstractKinetics, Meeting
-from granum.drying.contact.liquor import composition, counted, moistened
-from granum.drying.contact.matter import Matter, temperature_at
+from granum.drying.gas_solid.cells import Contact, Inlet, Profile
+from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
+from granum.drying.gas_solid.liquor import composition, counted, moistened
+from granum.drying.gas_solid.matter import Matter, temperature_at
 from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
@@ -194,7 +194,7 @@ class Dryer(Unit):
         return figures.evaporation_rate * 3600.0 / self.extent()
 
 
-class ContactDryer(Dryer):
+class CellDryer(Dryer):
     """A dryer whose solid flows through cells: a subclass says how solid and gas flow and meet
     (``contact``).
     """
@@ -234,7 +234,7 @@ class ContactDryer(Dryer):
 
 
 @ready
-def _steady(dryer: ContactDryer, feed: Stream, gas: Stream) -> Through:
+def _steady(dryer: CellDryer, feed: Stream, gas: Stream) -> Through:
     core = dryer.core(feed, gas)
     return Through(core.steady(dryer.inlet(counted(feed), gas)), jnp.sum(core.solid))
 
