@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -20,6 +21,9 @@ from granum.shell import (
     pairs,
     tell_version,
 )
+
+if TYPE_CHECKING:
+    from granum.core.index import Entry
 
 app = typer.Typer(
     name="granum",
@@ -360,15 +364,11 @@ def list_cards(
     sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "",
 ) -> None:
     """List the cards."""
-    from granum.core import registry
+    from granum.core.index import entries
 
-    cards = [thing.card for thing in registry.everything().values()]
     needles = " ".join(words or ()).lower().split()
-    cards = [c for c in cards if not sort or c.sort == sort]
-    # what no name says may stand in a description
-    found = [c for c in cards if c.answers(needles)] or [
-        c for c in cards if all(n in c.doc.lower() for n in needles)
-    ]
+    cards = [c for c in entries().values() if not sort or c.sort == sort]
+    found = [c for c in cards if c.answers(needles)] or _described(cards, needles)
     if as_json:
         emit(
             {
@@ -378,9 +378,17 @@ def list_cards(
             }
         )
     else:
-        from granum.reports.terminal import print_list
+        from granum.reports.listing import print_list
 
         print_list(found)
+
+
+def _described(cards: Sequence[Entry], needles: Sequence[str]) -> list[Entry]:
+    """What no name says may stand in a description."""
+    from granum.core import registry
+
+    things = registry.everything()
+    return [c for c in cards if all(n in things[c.key].card.doc.lower() for n in needles)]
 
 
 @app.command()

@@ -17,7 +17,7 @@ from granum.core import sources as sources_module
 from granum.core.formulas import Formula
 from granum.core.glossary import quantity_in
 from granum.core.i18n import catalog
-from granum.core.sources import bibliography, keys_of
+from granum.core.sources import bibliography, keys_of, reference
 from granum.reports.mathml import mathml
 
 
@@ -38,9 +38,9 @@ def test_declaration_is_complete(key: str) -> None:
         ), f"'{p.name}' has no kind"
         if p.kind and isinstance(p.default, int | float):
             assert p.kind.contains(float(p.default)), f"the default of '{p.name}' lies outside its own bounds"
-    assert card.english_summary.endswith("."), "the docstring starts with one sentence"
+    assert card.entry.english_summary.endswith("."), "the docstring starts with one sentence"
     assert "<math" in mathml(card.equation or "x")
-    for text in (card.given_title, card.english_summary):
+    for text in (card.given_title, card.entry.english_summary):
         assert not text or text in catalog("fr"), f"no French for: {text}"
     known = {*card.inputs, *(p.name for p in card.outputs)}
     body = inspect.getsource(
@@ -53,7 +53,7 @@ def test_declaration_is_complete(key: str) -> None:
 def test_one_word_one_source() -> None:
     glossary_module.glossary()
     assert not glossary_module.duplicates
-    bibliography()
+    assert all(reference(key) for key in bibliography())
     assert not sources_module.duplicates
 
 

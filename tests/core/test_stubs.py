@@ -12,12 +12,16 @@ import pytest
 
 import granum as gr
 from granum.core.registry import everything
-from granum.core.stubs import PACKAGES, path_of, stub_of
+from granum.core.stubs import PACKAGES, index, path_of, path_of_index, stub_of
 
 
 @pytest.mark.parametrize("domain", PACKAGES)
 def test_stub_lists_what_the_domain_offers(domain):
     assert path_of(domain).read_text(encoding="utf-8") == stub_of(domain), "run: python -m granum.core.stubs"
+
+
+def test_the_index_lists_every_card():
+    assert path_of_index().read_text(encoding="utf-8") == index(), "run: python -m granum.core.stubs"
 
 
 def test_stub_of_the_package_has_all_its_rooms():

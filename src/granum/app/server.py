@@ -27,9 +27,9 @@ from granum.app.tasks import calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
-from granum.core.cards import plain
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
+from granum.core.index import entries, plain
 from granum.core.units import unit_system
 
 STATIC = Path(str(files("granum") / "app" / "static"))
@@ -406,7 +406,7 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "summary": c.summary,
             "other_names": c.other_names,
         }
-        for c in (t.card for t in registry.everything().values())
+        for c in entries().values()
     ]
     return found, bytes(Answer({"cards": found}).body)
 

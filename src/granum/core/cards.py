@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import unicodedata
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from granum.core.docstrings import written_doc
-from granum.core.glossary import ending, quantity_in, term
-from granum.core.i18n import _
+from granum.core.index import Entry
 from granum.core.limits import Limit
 from granum.core.parameters import Parameter
 
@@ -43,54 +42,43 @@ class Card:
     given_title: str
     doc: str
     module: str
+    attribute: str
     limits: tuple[Limit, ...] = ()
     arguments: tuple[Parameter, ...] = ()
+
+    @cached_property
+    def entry(self) -> Entry:
+        """Its line of the index."""
+        return Entry(
+            key=self.key,
+            sort=self.sort,
+            family=self.family,
+            given_title=self.given_title,
+            english_summary=" ".join(self.doc.split("\n\n", 1)[0].split()),
+            gives=" ".join(p.name for p in self.outputs),
+            module=self.module,
+            attribute=self.attribute,
+        )
 
     @property
     def domain(self) -> str:
         """First part of the key."""
-        return self.key.split(".", 1)[0]
+        return self.entry.domain
 
     @property
     def name(self) -> str:
         """Second part of the key."""
-        return self.key.split(".", 1)[1]
+        return self.entry.name
 
     @property
     def title(self) -> str:
-        """Title in the current language: as declared, else the glossary label with the author of the
-        correlation.
-        """
-        if self.given_title:
-            return _(self.given_title)
-        word = quantity_in(self.name)
-        if word is None:
-            return self.name.replace("_", " ").capitalize()
-        label = term(word).label
-        rest = self.name[len(word) :].strip("_")
-        label = label[0].upper() + label[1:]
-        return f"{label} ({ending(rest)})" if rest else label
+        """Title in the current language."""
+        return self.entry.title
 
     @property
     def summary(self) -> str:
         """First sentence of the docstring, in the current language."""
-        return _(self.english_summary)
-
-    @property
-    def english_summary(self) -> str:
-        """First paragraph of the docstring."""
-        return " ".join(self.doc.split("\n\n", 1)[0].split())
-
-    @property
-    def other_names(self) -> str:
-        """Other names, in either language, of what it is about and what it gives."""
-        words = dict.fromkeys(map(quantity_in, (self.name, self.family, *(p.name for p in self.outputs))))
-        return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
-
-    def answers(self, words: Iterable[str]) -> bool:
-        """Whether all words stand in key, title, summary or other names; case and accents do not count."""
-        text = plain(f"{self.key} {self.title} {self.summary} {self.other_names}")
-        return all(plain(word) in text for word in words)
+        return self.entry.summary
 
     @property
     def citation(self) -> str:
@@ -170,12 +158,7 @@ def make_card(
         given_title=title,
         doc=written_doc(thing),
         module=thing.__module__,
+        attribute=thing.__name__,
         limits=limits,
         arguments=arguments,
     )
-
-
-def plain(text: str) -> str:
-    """Small letters without accents, by which texts are compared in a search."""
-    apart = unicodedata.normalize("NFD", text.lower())
-    return "".join(letter for letter in apart if not unicodedata.combining(letter))

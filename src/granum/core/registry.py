@@ -15,6 +15,7 @@ from typing import Any
 from granum.core.cards import domain_of
 from granum.core.errors import InputError, nearest, unknown_name
 from granum.core.i18n import _
+from granum.core.index import Entry, entries
 
 DOMAINS = (
     "materials",
@@ -68,17 +69,28 @@ def everything(domains: Iterable[str] = DOMAINS) -> dict[str, Any]:
     return {key: thing for key, thing in sorted(_declared.items()) if key.split(".")[0] in domains}
 
 
+def known(key: str) -> Any:
+    """The declared thing of a key, None where there is none.
+
+    Only the module that declares it is imported.
+    """
+    entry = entries().get(key)
+    if entry is not None and key not in _declared:
+        importlib.import_module(entry.module)
+    if key not in _declared and key.partition(".")[0] in DOMAINS:  # not in the index yet
+        load(key.partition(".")[0])
+    return _declared.get(key)
+
+
 def find(key: str) -> Any:
     """The declared thing of a key, or an error that suggests the nearest one.
 
     >>> find("particles.reynolds_number").card.domain
     'particles'
     """
-    domain, _dot, _name = key.partition(".")
-    if domain in DOMAINS:
-        load(domain)
-        if key in _declared:
-            return _declared[key]
+    found = known(key)
+    if found is not None:
+        return found
     if nearest(key, everything()) is None:
         word = key.rpartition(".")[2] or key
         raise InputError(
@@ -92,37 +104,37 @@ def find(key: str) -> Any:
 
 def family(name: str) -> dict[str, Any]:
     """All laws of a family by key: what may be passed where ``Law(name)`` is expected."""
-    everything()
+    for entry in entries().values():
+        if entry.family == name:
+            known(entry.key)
     return dict(sorted(_families.get(name, {}).items()))
 
 
-def _short_names(family_name: str) -> dict[str, Any]:
-    """Members of a family known so far, by key, by name and by the author's part of the name."""
-    short: dict[str, Any] = {}
-    for key, thing in _families.get(family_name, {}).items():
+def _short_names(family_name: str, keys: Iterable[str]) -> dict[str, str]:
+    """Keys of a family by key, by name and by the author's part of the name."""
+    short: dict[str, str] = {}
+    for key in keys:
         own = key.split(".", 1)[1]
-        short |= {key: thing, own: thing, own.removeprefix(family_name).strip("_"): thing}
+        short |= {key: key, own: key, own.removeprefix(family_name).strip("_"): key}
     return short
 
 
 def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
     """A law of a family by key, by name or by the author's part of the name; modules are built with
     ``options``, formulas keep them.
-
-    Domains are imported one after the other until the name is found, those already in use first.
     """
-    found = None
-    for domain in sorted(DOMAINS, key=lambda d: d not in _loaded):
-        load(domain)
-        found = _short_names(family_name).get(name)
-        if found is not None:
-            break
-    if found is None:
+    listed = [entry.key for entry in entries().values() if entry.family == family_name]
+    key = _short_names(family_name, [*listed, *_families.get(family_name, {})]).get(name)
+    if key is None:
+        everything()  # declared, but not in the index yet
+        key = _short_names(family_name, _families.get(family_name, {})).get(name)
+    if key is None:
         names = {
             own.removeprefix(family_name).strip("_") or own
             for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))
         }
         raise unknown_name(_("Law"), name, names, where)
+    found = known(key)
     if isinstance(found, type):
         return found(**(options or {}))
     if options:
@@ -147,6 +159,12 @@ def abilities(family_name: str) -> tuple[str, ...]:
         for m in members
     ]
     return tuple(sorted(set.intersection(*shared) - {"called", "evaluate"})) if shared else ()
+
+
+@cache
+def _attributes(domain: str) -> dict[str, Entry]:
+    """The cards of a domain by the name that they have in Python."""
+    return {entry.attribute: entry for entry in entries().values() if entry.domain == domain}
 
 
 def public_names(domain: str) -> dict[str, Any]:
@@ -178,10 +196,9 @@ def domain_names(package: str, *offered: str) -> tuple[Callable[[str], Any], Cal
     def lookup(name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        found = public_names(domain)
+        entry = _attributes(domain).get(name)
+        found = public_names(domain) if entry is None else {name: known(entry.key)}
         if name not in found:
-            from granum.core.errors import nearest
-
             close = nearest(name, found)
             hint = f"; did you mean '{close}'?" if close else ""
             raise AttributeError(f"granum.{domain} has no '{name}'{hint}")

@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING
 
 from granum.core.errors import unknown_name
+
+if TYPE_CHECKING:
+    from bibtexparser.model import Entry
 
 duplicates: list[str] = []
 """Keys that stand in more than one file; a contract test keeps this empty."""
 
 
 @cache
-def bibliography() -> dict[str, dict[str, str]]:
-    """All entries by key."""
+def bibliography() -> dict[str, Entry]:
+    """All entries by key, as they stand in the files."""
     from bibtexparser.entrypoint import parse_string
-    from bibtexparser.middlewares import LatexDecodingMiddleware
 
-    entries: dict[str, dict[str, str]] = {}
+    entries: dict[str, Entry] = {}
     for path in sorted((files("granum") / "references").iterdir(), key=lambda p: p.name):
         if path.name.endswith(".bib"):
-            library = parse_string(
-                path.read_text(encoding="utf-8"), append_middleware=[LatexDecodingMiddleware()]
-            )
+            library = parse_string(path.read_text(encoding="utf-8"))
             if library.failed_blocks:
                 raise ValueError(
                     f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}"
@@ -31,8 +31,22 @@ def bibliography() -> dict[str, dict[str, str]]:
             for entry in library.entries:
                 if entry.key in entries:
                     duplicates.append(f"{entry.key} (again in {path.name})")
-                entries[entry.key] = {name: str(found.value) for name, found in entry.fields_dict.items()}
+                entries[entry.key] = entry
     return entries
+
+
+@cache
+def reference(key: str) -> dict[str, str]:
+    """The fields of one entry, with the letters that LaTeX writes by commands."""
+    from bibtexparser.library import Library
+    from bibtexparser.middlewares import LatexDecodingMiddleware
+
+    found = bibliography().get(key)
+    if found is None:
+        raise unknown_name("source", key, bibliography())
+    decoder = LatexDecodingMiddleware(allow_inplace_modification=False)
+    (decoded,) = decoder.transform(Library([found])).entries
+    return {name: str(field.value) for name, field in decoded.fields_dict.items()}
 
 
 def keys_of(source: str) -> list[str]:
@@ -47,9 +61,7 @@ def cite(source: str) -> str:
         if not part:
             continue
         key, _, place = part.partition(",")
-        entry: dict[str, Any] | None = bibliography().get(key.strip())
-        if entry is None:
-            raise unknown_name("source", key.strip(), bibliography())
+        entry = reference(key.strip())
         authors = (
             entry.get("author", entry.get("organization", entry.get("editor", "")))
             .replace("\n", " ")

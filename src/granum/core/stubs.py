@@ -1,14 +1,18 @@
-"""Type stubs of the domains, whose names are found at run time: ``python -m granum.core.stubs`` writes them,
-a test compares them.
+"""What is written down of what is found at run time: type stubs of the domains and the index of all cards.
+``python -m granum.core.stubs`` writes them, a test compares them.
 """
 
 from __future__ import annotations
 
+import csv
+import io
 import sys
+from dataclasses import asdict, fields
 from importlib import import_module
 from pathlib import Path
 
-from granum.core.registry import DOMAINS
+from granum.core.index import Entry
+from granum.core.registry import DOMAINS, everything
 
 PACKAGES = ("core", *DOMAINS)
 ROOT = Path(__file__).parents[1]
@@ -35,7 +39,22 @@ def path_of(domain: str) -> Path:
     return ROOT / domain / "__init__.pyi"
 
 
+def index() -> str:
+    """The text of ``granum/core/index.csv``: a line for every card."""
+    text = io.StringIO()
+    table = csv.DictWriter(text, [f.name for f in fields(Entry)], lineterminator="\n")
+    table.writeheader()
+    table.writerows(asdict(thing.card.entry) for thing in everything().values())
+    return text.getvalue()
+
+
+def path_of_index() -> Path:
+    """Where the index stands."""
+    return ROOT / "core" / "index.csv"
+
+
 if __name__ == "__main__":
+    path_of_index().write_text(index(), encoding="utf-8")
     for one in PACKAGES:
         path_of(one).write_text(stub_of(one), encoding="utf-8")
         sys.stdout.write(f"{one}\n")

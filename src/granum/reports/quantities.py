@@ -85,7 +85,7 @@ def figure_named(name: str, unit: str, card: str = "") -> Parameter:
     """A figure of which the name and the SI unit are known, such as an estimate of a card."""
     from granum.core import registry
 
-    thing = registry.everything().get(card)
+    thing = registry.known(card)
     declared = {p.name: p.kind for p in (*thing.card.parameters, *thing.card.outputs)} if thing else {}
     kinds = {n: kind_of(a) for n, a in getattr(thing, "estimates", {}).items()} | declared
     kind = kinds.get(name)
@@ -125,7 +125,7 @@ def defaults_text(data: dict[str, Any]) -> str:
     """What a fit took because it was not given, in one line; empty where nothing was."""
     from granum.core import registry
 
-    thing = registry.everything().get(data["card"])
+    thing = registry.known(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
     shown = [
         f"{declared[n].label} = {value_text(value, declared[n])}"
@@ -139,7 +139,7 @@ def origins_text(data: dict[str, Any]) -> str:
     """Which conditions of a fit a stated fluid gave, in one line; empty where none was stated."""
     from granum.core import registry
 
-    thing = registry.everything().get(data["card"])
+    thing = registry.known(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
     given = {n: found for n, found in data.get("from", {}).items() if n in declared}
     shown = [f"{declared[n].label} = {value_text(found['value'], declared[n])}" for n, found in given.items()]
@@ -151,7 +151,7 @@ def ranges_text(data: dict[str, Any]) -> str:
     """What the estimates of a fit hold for, in one line; empty where nothing is known."""
     from granum.core import registry
 
-    thing = registry.everything().get(data["card"])
+    thing = registry.known(data["card"])
     declared = {p.name: p for p in thing.card.parameters} if thing else {}
     shown = [
         f"{declared[n].label} {range_text(ends[0], ends[1], declared[n])}"

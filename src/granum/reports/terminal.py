@@ -166,24 +166,6 @@ def print_next(told: dict[str, Any], found: Any) -> None:
     console.print(Text(_("Expected standard errors: {errors}").format(errors=errors), style="dim"))
 
 
-def print_list(cards: Sequence[Card]) -> None:
-    """The outcome of ``granum list``: one line a card, whole where the output goes to a file or another
-    program.
-    """
-    console = _console()
-    width = max((len(card.key) for card in cards), default=0)
-    for card in cards:
-        sort = "" if card.sort == "formula" else f" ({_(card.sort)})"
-        line = Text.assemble((card.key.ljust(width), "bold"), "  ", card.title, (sort, "dim"))
-        console.print(
-            line,
-            no_wrap=True,
-            overflow="ellipsis" if console.is_terminal else "ignore",
-            crop=console.is_terminal,
-        )
-    console.print(_("{count} cards").format(count=len(cards)))
-
-
 def print_card(card: Card) -> None:
     """The outcome of ``granum show``."""
     console = _console()

@@ -1,0 +1,97 @@
+"""The index of all cards: what finding one needs, without importing what declares it.
+
+It stands in ``granum/core/index.csv``, which ``python -m granum.core.stubs`` writes and a test compares.
+"""
+
+from __future__ import annotations
+
+import csv
+import unicodedata
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from granum.core.glossary import ending, quantity_in, term
+from granum.core.i18n import _
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the index: what can be said of a card by its names alone.
+
+    Parameters
+    ----------
+    key: ``domain.name``, as typed on the command line.
+    sort, family: as on the card.
+    given_title, english_summary: its texts.
+    gives: names of its outputs, with spaces between.
+    module, attribute: where it is declared.
+    """
+
+    key: str
+    sort: str
+    family: str
+    given_title: str
+    english_summary: str
+    gives: str
+    module: str
+    attribute: str
+
+    @property
+    def domain(self) -> str:
+        """First part of the key."""
+        return self.key.split(".", 1)[0]
+
+    @property
+    def name(self) -> str:
+        """Second part of the key."""
+        return self.key.split(".", 1)[1]
+
+    @property
+    def title(self) -> str:
+        """Title in the current language: as declared, else the glossary label with the author of the
+        correlation.
+        """
+        if self.given_title:
+            return _(self.given_title)
+        word = quantity_in(self.name)
+        if word is None:
+            return self.name.replace("_", " ").capitalize()
+        label = term(word).label
+        rest = self.name[len(word) :].strip("_")
+        label = label[0].upper() + label[1:]
+        return f"{label} ({ending(rest)})" if rest else label
+
+    @property
+    def summary(self) -> str:
+        """First sentence of the docstring, in the current language."""
+        return _(self.english_summary)
+
+    @property
+    def other_names(self) -> str:
+        """Other names, in either language, of what it is about and what it gives."""
+        words = dict.fromkeys(map(quantity_in, (self.name, self.family, *self.gives.split())))
+        return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
+
+    def answers(self, words: Iterable[str]) -> bool:
+        """Whether all words stand in key, title, summary or other names; case and accents do not count."""
+        text = plain(f"{self.key} {self.title} {self.summary} {self.other_names}")
+        return all(plain(word) in text for word in words)
+
+
+@cache
+def entries() -> dict[str, Entry]:
+    """All cards of the package by key.
+
+    >>> entries()["particles.reynolds_number"].module
+    'granum.particles.formulas.groups'
+    """
+    text = (files("granum") / "core" / "index.csv").read_text(encoding="utf-8")
+    return {row["key"]: Entry(**row) for row in csv.DictReader(text.splitlines())}
+
+
+def plain(text: str) -> str:
+    """Small letters without accents, by which texts are compared in a search."""
+    apart = unicodedata.normalize("NFD", text.lower())
+    return "".join(letter for letter in apart if not unicodedata.combining(letter))
