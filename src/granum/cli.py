@@ -144,7 +144,7 @@ def _unsolved(problem: ConvergenceError, as_json: bool, partial: bool) -> None:
     if as_json:
         problem.details["partial"] = problem.last.as_json()  # type: ignore[attr-defined]
         return
-    from granum.reports.terminal import print_run
+    from granum.reports.terminal_run import print_run
 
     print_run(problem.last, partial=True)
 
@@ -187,7 +187,7 @@ def run(
     if as_json:
         emit(outcome.as_json())
     else:
-        from granum.reports.terminal import print_run
+        from granum.reports.terminal_run import print_run
 
         print_run(outcome, saved=[p for p in (report, tables) if p is not None])
 

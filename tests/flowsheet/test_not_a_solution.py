@@ -15,7 +15,7 @@ import granum as gr
 from granum.cli import app
 from granum.core import flags
 from granum.core.errors import ConvergenceError
-from granum.flowsheet import Flowsheet
+from granum.flowsheet import Flowsheet, ladder
 from granum.flowsheet.run import Line
 from granum.flowsheet.watching import Watch
 from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
@@ -249,6 +249,13 @@ def test_a_dryer_knows_its_vapor_wherever_it_stands(tmp_path, liquids, gases, ga
     )
 
 
+@pytest.fixture
+def from_the_first_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Watched at once, without the passes that are made before anybody looks."""
+    monkeypatch.setattr(ladder, "OPENING", (1, 1))
+
+
+@pytest.mark.usefixtures("from_the_first_pass")
 def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:
     told: list[tuple[str, int, float]] = []
     watch = Watch(lambda *row: told.append(row))
@@ -261,6 +268,7 @@ def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:
     assert "Stopped after" in problem.message
 
 
+@pytest.mark.usefixtures("from_the_first_pass")
 def test_time_is_bounded() -> None:
     problem = refusal(loop(Heater(temperature=333.15)), Watch(seconds=1e-9))
     assert "Not solved within" in problem.message

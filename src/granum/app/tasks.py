@@ -24,17 +24,15 @@ from granum.core.i18n import _, current_language
 from granum.core.units import format_number
 from granum.flowsheet.watching import Watch
 from granum.reports.quantities import (
-    audit_text,
     check_row,
     defaults_text,
     estimate_rows,
     origins_text,
     ranges_text,
     statistics_text,
-    stream_figures,
-    stream_table,
     value_text,
 )
+from granum.reports.streams import audit_text, stream_figures, stream_table
 
 LONGEST = 900.0  # s that a line may take
 

@@ -30,6 +30,11 @@ class Tried(NamedTuple):
 PATIENT: dict[str, Any] = {"method": Anderson(window=10, damping=0.4), "max_steps": 2000}
 EXACT: dict[str, Any] = {"method": Newton(), "max_steps": 50}
 RUNGS = 3
+PASSES = 200
+OPENING = (40, 10)
+"""Passes through a loop, without and with specifications, that are made before anybody watches: most lines
+need fewer.
+"""
 
 
 def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designed:
@@ -55,9 +60,17 @@ def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Trie
 
 
 @compiled
-def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], watched: bool) -> Tried:
-    """The line with its specifications, figures, checks and audit: one compilation."""
-    return _measured(sheet, targets, watched=watched)
+def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any) -> Tried:
+    """The line with its specifications, figures, checks and audit: one compilation, which the next process
+    finds in the cache.
+    """
+    return _measured(sheet, targets, max_steps=passes)
+
+
+@compiled
+def _watched(sheet: Flowsheet, targets: tuple[Target, ...]) -> Tried:
+    """The same, telling of each pass: code that calls back can be kept in no cache."""
+    return _measured(sheet, targets, watched=True)
 
 
 @compiled
@@ -89,16 +102,18 @@ def climb(
 
     def attempt(solver: Callable[..., Tried], *more: Any) -> tuple[Tried, list[Fault]]:
         found = (watch.run if watch is not None else _at_once)(
-            lambda: solver(as_arrays(sheet), targets, watch is not None, *more)
+            lambda: solver(as_arrays(sheet), targets, *more)
         )
         return found, wrongs(found, targets)
 
-    found, wrong = attempt(_quickly)
+    found, wrong = attempt(_quickly, np.asarray(PASSES if watch is None else OPENING[bool(targets)]))
+    if watch is not None and wrong and _loops_fail(sheet, targets, wrong):
+        found, wrong = attempt(_watched)
     for solver in (_patiently, _by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
         if watch is not None and (watch.stopped or watch.late):
             break
         torn = {n: found.designed.solution.streams[n] for block in sheet.blocks for n in block.tears}
-        other, told = attempt(solver, torn)
+        other, told = attempt(solver, watch is not None, torn)
         if not told:
             return other, []
         if np.all(other.findings.finite) or not np.all(found.findings.finite):

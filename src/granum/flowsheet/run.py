@@ -294,7 +294,7 @@ class Run:
         }
 
     def _repr_html_(self) -> str:
-        return notebooks.shown("granum.reports.terminal:print_run", self)
+        return notebooks.shown("granum.reports.terminal_run:print_run", self)
 
     def to_pandas(self) -> pd.DataFrame:
         """Every stream a row, SI: temperature, pressure, flow of every species (``solid.quartz``), median

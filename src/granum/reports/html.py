@@ -21,7 +21,6 @@ from granum.core.units import format_number, from_si
 from granum.estimation.results import by_fit
 from granum.reports.mathml import mathml
 from granum.reports.quantities import (
-    audit_text,
     check_row,
     defaults_text,
     estimate_rows,
@@ -29,9 +28,9 @@ from granum.reports.quantities import (
     origins_text,
     ranges_text,
     statistics_text,
-    stream_table,
     value_text,
 )
+from granum.reports.streams import audit_text, stream_table
 from granum.streams.stream import main_phase
 
 
