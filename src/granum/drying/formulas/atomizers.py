@@ -7,7 +7,7 @@ from typing import Annotated
 
 import jax.numpy as jnp
 
-from granum.core import formula, impossible, watch
+from granum.core import formula, impossible
 from granum.core.constants import HOUR, RPM
 from granum.core.kinds import (
     Density,
@@ -89,7 +89,6 @@ def droplet_diameter_lefebvre(
 
 @formula(
     source="masters1991",
-    fitted={"tip_speed": (100.0, 200.0)},
     equation=(
         r"d_{32} = 1.4\times 10^{4}\,\frac{\dot m^{0.24}}{(N d)^{0.83}(n b)^{0.12}}\ \mathrm{\mu m},\quad "
         r"\dot m\ \mathrm{in\ kg/h},\ N\ \mathrm{in\ rpm}"
@@ -114,12 +113,9 @@ def droplet_diameter_masters(
 
     By hand, 1000 kg/h, 15 000 rpm, 0.2 m, 24 vanes of 20 mm: 14 000 · 5.248/(3000^0.83 · 0.48^0.12) = 104 µm.
 
-    Wheels of spray dryers turn with 100 to 200 m/s at the rim (Masters).
-
     >>> round(droplet_diameter_masters("1000 kg/hour", "15000 rpm", 0.2, 0.02) * 1e6)
     104
     """
-    watch(tip_speed=0.5 * rotation_speed * diameter)
     load = (mass_flow * HOUR) ** 0.24
     return (
         MICRON

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 
-from granum.core import formula, watch
+from granum.core import formula
 from granum.core.constants import HOUR
 from granum.core.kinds import (
     HeatTransferCoefficient,
@@ -23,7 +23,6 @@ BORDER = 350.0
 
 @formula(
     source="geankoplis2003, ch. 9; wilke1945; gamson1943",
-    fitted={"reynolds": (50.0, 4000.0)},
     equation=(
         r"h = 0.151\,\frac{G^{0.59}}{d^{0.41}}\ (\mathrm{Re}>350),\quad h = "
         r"0.214\,\frac{G^{0.49}}{d^{0.51}}\ (\mathrm{Re}<350),\quad G\ \mathrm{in\ kg/(m^2 h)}"
@@ -41,14 +40,13 @@ def heat_transfer_coefficient_through_bed(
     Geankoplis, granular paste in cylinders of equivalent diameter 13.5 mm: G = 2570 kg/(m² h) gives
     90.9 W/(m² K).
 
-    The two forms are those of Wilke and Hougen, from 50, and of Gamson and others, to 4000.
+    The two forms are those of Wilke and Hougen and of Gamson and others.
 
     >>> round(heat_transfer_coefficient_through_bed("2570 kg/(m^2*hour)", "13.5 mm"), 0)
     91.0
     """
     G, d = gas_mass_flux * HOUR, particle_diameter
     Re = gas_mass_flux * d / VISCOSITY
-    watch(reynolds=Re)
     return jnp.where(Re > BORDER, 0.151 * G**0.59 / d**0.41, 0.214 * G**0.49 / d**0.51)
 
 
