@@ -262,7 +262,7 @@ def equipment_cost_mixer(
 
 @formula(
     source="williams1947; peters2003, ch. 6",
-    fitted={"capacity_ratio": (0.1, 10.0), "scaling_exponent": (0.3, 1.0)},
+    fitted={"capacity_ratio": (0.1, 10.0)},
     equation=r"C = C_0\left(\frac{S}{S_0}\right)^{n}",
     title="Cost of a larger or smaller piece of the same kind",
     typical={"scaling_exponent": (0.4, 0.9)},
@@ -272,10 +272,10 @@ def purchased_cost_scaled(
 ) -> Cost:
     """Cost of equipment of another capacity from a known price, by the six-tenths rule.
 
-    Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment lie
-    between 0.3 and 1.
+    Twice the capacity costs half as much again: 2**0.6 = 1.52. Exponents of single kinds of equipment go from
+    less than 0.2 to more than 1 (Peters and others).
 
-    Peters and others advise against it beyond ten times the capacity.
+    They advise against it beyond ten times the capacity.
 
     >>> round(purchased_cost_scaled(purchased_cost_known=100.0, capacity_ratio=2.0), 1)
     151.6
