@@ -6,7 +6,7 @@ from typing import Any
 
 import jax.numpy as jnp
 
-from granum.core import formula, limit_active
+from granum.core import formula, limit_active, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -144,13 +144,16 @@ def bubble_diameter_mori_wen(
 @formula(
     source="werther1976; kunii1991, ch. 6",
     equation=r"d_b = 0.00853\,[1 + 27.2(U-U_{mf})]^{1/3}(1 + 6.84 z)^{1.21}",
-    typical=SPEEDS,
+    fitted={"minimum_fluidization_velocity": (0.01, 0.08), "excess_velocity": (0.05, 0.3)},
+    typical={**SPEEDS, "superficial_velocity": (0.15, 0.3), "minimum_fluidization_velocity": (0.01, 0.08)},
 )
 def bubble_diameter_werther(
     superficial_velocity: Speed, minimum_fluidization_velocity: Speed, height: Distance
 ) -> Length:
     """Bubble diameter at a height above a porous plate by Werther, for powders of group B in vessels wider
     than 0.2 m.
+
+    Grains of 100 to 350 µm, 5 to 30 cm/s of gas beyond minimum fluidization (Kunii and Levenspiel).
 
     >>> round(
     ...     bubble_diameter_werther(superficial_velocity=0.3, minimum_fluidization_velocity=0.05, height=0.0),
@@ -159,6 +162,7 @@ def bubble_diameter_werther(
     0.0169
     """
     extra = surplus(superficial_velocity, minimum_fluidization_velocity)
+    watch(excess_velocity=superficial_velocity - minimum_fluidization_velocity)
     return 0.00853 * (1.0 + 27.2 * extra) ** (1.0 / 3.0) * (1.0 + 6.84 * height) ** 1.21
 
 

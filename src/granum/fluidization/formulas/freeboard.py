@@ -109,13 +109,18 @@ def disengaging_height_smolders(
     return 6.0 * safe_power(extra * bubble_diameter, 0.6)
 
 
-@formula(source="geldart1979", equation=r"K^*_\infty = 23.7\,\rho_g U\,e^{-5.4\,v_t/U}", typical=ESCAPE)
+@formula(
+    source="geldart1979; kunii1991, ch. 7",
+    equation=r"K^*_\infty = 23.7\,\rho_g U\,e^{-5.4\,v_t/U}",
+    fitted={"superficial_velocity": (0.6, 3.0)},
+    typical=ESCAPE,
+)
 def elutriation_flux_geldart(
     superficial_velocity: Speed, terminal_velocity: Speed, fluid_density: Density
 ) -> MassFlux:
     """Elutriation rate constant of a size class above the disengaging height by Geldart and others.
 
-    The flux of a class is the constant times its mass fraction in the bed.
+    The flux of a class is the constant times its mass fraction in the bed. Gas velocities of 0.6 to 3 m/s.
 
     >>> round(elutriation_flux_geldart(superficial_velocity=1.0, terminal_velocity=0.5, fluid_density=1.2), 3)
     1.911

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import formula, limit_active
+from granum.core import formula, limit_active, watch
 from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import (
     Acceleration,
@@ -58,6 +58,7 @@ class TwoPhaseBed(NamedTuple):
 @formula(
     source="davidson1963; kunii1991, ch. 6 and 10; darton1977",
     equation=r"X = \int_0^H \frac{K_{be}}{u_b}\,dz,\quad B = \left(1 - \frac{U_{mf}}{U}\right)e^{-X}",
+    fitted={"bubble_ratio": (0.0, 0.6)},
     typical=BED,
 )
 def two_phase_bed(
@@ -79,6 +80,8 @@ def two_phase_bed(
     bubbles through a well-mixed emulsion: of a dryer whose emulsion gas is saturated, the gas leaves with one
     minus the bypass of the possible load. With the thermal diffusivity in place of the diffusivity the same
     holds for heat.
+
+    A bed of known diameter slugs where its bubbles are wider than 0.6 of it (Kunii and Levenspiel).
 
     Never more than the surplus gas passes by:
 
@@ -115,6 +118,8 @@ def two_phase_bed(
         step = weight * span * level / (1.0 - share)
         expanded, units = expanded + step, units + step * exchange / rise
     bubble, rise, share, exchange = at(height / 2.0)
+    if diameter is not None:
+        watch(bubble_ratio=jnp.where(bubbling, bubble / diameter, 0.0))
     bypass = jnp.maximum(1.0 - first / U, 0.0) * jnp.exp(-units)
     found = TwoPhaseBed(bubble, rise, share, expanded, exchange, units, bypass)
     none = TwoPhaseBed(0.0, 0.0, 0.0, height, 0.0, 0.0, 0.0)

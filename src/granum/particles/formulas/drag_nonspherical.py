@@ -140,6 +140,7 @@ class GanserShape(eqx.Module):
     "drag_coefficient",
     name="bagheri_bonadonna",
     source="bagheri2016",
+    fitted={"reynolds": (0.0, 3e5)},
     equation=r"C_D = \frac{24 k_S}{\mathrm{Re}}\left[1 + 0.125\left(\mathrm{Re}\frac{k_N}{k_S}\right)^{2/3}\right]"  # noqa: E501
     r" + \frac{0.46\,k_N}{1 + 5330/(\mathrm{Re}\,k_N/k_S)}",
 )

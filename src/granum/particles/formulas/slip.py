@@ -82,7 +82,9 @@ def slip_factor_davies(knudsen_number: Ratio) -> PositiveNumber:
 
 
 @formula(
-    source="allen1985", equation=r"C_c = 1 + \mathrm{Kn}\left(1.142 + 0.558\,e^{-0.999/\mathrm{Kn}}\right)"
+    source="allen1985",
+    equation=r"C_c = 1 + \mathrm{Kn}\left(1.142 + 0.558\,e^{-0.999/\mathrm{Kn}}\right)",
+    fitted={"knudsen_number": (0.03, 7.2)},
 )
 def slip_factor_allen_raabe(knudsen_number: Ratio) -> PositiveNumber:
     """Cunningham's slip correction of solid spheres by Allen and Raabe.
