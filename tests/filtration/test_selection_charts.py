@@ -34,6 +34,15 @@ def test_plain_advice():
     assert "settles too slowly" in found.speaks_against[found.separator.index("scroll decanter")]
 
 
+def test_the_size_is_the_number_of_machines_and_the_area_on_which_the_flow_settles():
+    """36 m³/h of grains that fall at (20 µm)²·1500·g/(18·1 mPa s) = 0.327 mm/s need 30.6 m²."""
+    found = separator_choice("20 um", 1500, 0.005, "36 m^3/hour")
+    sizes = dict(zip(found.separator, found.separator_size, strict=True))
+    assert sizes["gravity thickener"] == "1 machine, settling area 31 m²"
+    assert sizes["tubular bowl centrifuge"] == "8 machines, like 31 m² of settling area"
+    assert sizes["candle filter"] == "1 machine"
+
+
 def test_every_machine_has_a_french_name_and_a_sound_range():
     for m in dataset("filtration", "separators_svarovsky2001"):
         assert m["name"] in catalog("fr")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import exp, log
+from math import ceil, exp, log
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -33,6 +33,7 @@ class Separators(NamedTuple):
 
     separator: Annotated[str, Series("machines")]
     suitability: Annotated[Fraction, Series("machines")]
+    separator_size: Annotated[str, Series("machines")]
     speaks_for: Annotated[str, Series("machines")]
     speaks_against: Annotated[str, Series("machines")]
 
@@ -42,6 +43,21 @@ def _outside(value: float, low: float, high: float) -> float:
     if value < low:
         return log(low / max(value, 1e-12))
     return log(value / high) if value > high else 0.0
+
+
+def _size(machine: dict[str, Any], flow: float, falling: float) -> str:
+    """How many of the largest ones take the flow, and the settling area that they need between them, or
+    stand for where they spin.
+    """
+    count = max(ceil(flow / machine["flow_high"] - 1e-9), 1)
+    told = [_("1 machine") if count == 1 else _("{count} machines").format(count=count)]
+    if machine["settles"] and falling > 0.0:
+        area = format_number(flow / falling, 2)
+        least = (
+            _("settling area {area} m²") if machine["effect"] == 1 else _("like {area} m² of settling area")
+        )
+        told.append(least.format(area=area))
+    return ", ".join(told)
 
 
 @procedure(
@@ -62,6 +78,9 @@ def separator_choice(
 
     The suitability is 1 where every figure lies in the range the machine is commonly used for, and falls by a
     factor e for each decade outside. The ranges are orders of magnitude: use the list to decide what to test.
+
+    The size tells how many machines of the largest kind take the flow and, of those in which solids settle,
+    the area Q/v on which such grains settle out by Stokes' law: in plan, or as the Σ of what spins.
 
     >>> separator_choice(
     ...     "300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True
@@ -137,6 +156,7 @@ def separator_choice(
                 exp(-missing / DECADE_OUT),
                 number["liquid_left"],
                 number["name"],
+                _size(number, volume_flow, falling),
                 "; ".join(good),
                 "; ".join(why),
             )
