@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
+from jax import lax
 
 from granum.drying.gas_solid.cells import (
     ENTHALPY,
@@ -129,8 +130,8 @@ def convey(
             matter, kinetics, solid_flow * times, 1.0 / times, dry, network, exchange, heat_loss=lost
         )
 
-    def split(v: Cells, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any]:
-        """The core for speeds at the ends of the cells, and what these lack."""
+    def split(v: Cells, first: Any, network: Network, lengths: Any) -> tuple[Contact, Any, Any]:
+        """The core for speeds at the ends of the cells, what these lack, and the times in the cells."""
         X, own, Y = v.lanes[..., 0], v.lanes[..., 2], v.shared[:, :1]
         Tg = matter.gas_temperature(ENTHALPY * v.shared[:, 1:], Y)
         density = matter.gas_density(Tg, Y)
@@ -139,14 +140,16 @@ def convey(
         ends, times = relaxed(
             path, Flight(gas_speed, density * (1.0 + Y), viscosity_of(Tg), lengths), before, own, X
         )
-        return contact(times, jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST), network, lengths), (
-            ends - own
-        ) / times
+        slip = jnp.hypot(gas_speed - 0.5 * (before + own), SLOWEST)
+        return contact(times, slip, network, lengths), (ends - own) / times, times
 
     def rates(v: Cells, fresh: Entering, first: Any, network: Network, lengths: Any) -> Rates:
-        core, lack = split(v, first, network, lengths)
+        core, lack, times = split(v, first, network, lengths)
         found = core.rates(v, fresh)
-        return found._replace(lanes=jnp.concatenate([found.lanes, lack[..., None]], axis=-1))
+        # Newton's method sees the balance of a whole passage, which is linear in what solid and gas carry off:
+        # so it closes with every step, however fast the finest drops change
+        lanes = found.lanes * (times / lax.stop_gradient(times))[..., None]
+        return found._replace(lanes=jnp.concatenate([lanes, lack[..., None]], axis=-1))
 
     lengths = path.steps[:, None]
     still = contact(jnp.ones((n, m)), 1.0, network, lengths)
@@ -176,6 +179,6 @@ def convey(
             largest_change=moving,
         )
         states, converged = found.state, found.converged
-    core, _lack = split(states, start, network, lengths)
+    core, _lack, _times = split(states, start, network, lengths)
     place = jnp.cumsum(path.steps) / jnp.sum(path.steps)
     return core.profile(states, converged)._replace(place=place), jnp.sum(core.solid)

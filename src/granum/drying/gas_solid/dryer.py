@@ -147,6 +147,8 @@ class Dryer(Unit):
     def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
         found = self.through(feed, gas, *more, *others.values())
         unsolved(found.profile.converged, type(self).card, reason=UNSOLVED)
+        humidity, T = found.profile.humidity, found.profile.gas_temperature
+        self.kinetics.tell(Matter.of(counted(feed), gas).relative_humidity(T, humidity), T)
         return found
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:

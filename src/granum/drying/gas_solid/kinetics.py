@@ -38,6 +38,7 @@ EXACT = (
 )
 # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
 REA_FOOT = 1e-3
+DAMP = 0.95  # relative humidity from which on a surface may be wetted however moist the solid is
 DRINKING = 0.05  # driving force per characteristic moisture below equilibrium
 FOOT = 1e-4  # characteristic moisture below which every curve is a straight line to equilibrium
 # of the critical moisture, over which the rate falls where equilibrium comes near to it or lies above
@@ -117,6 +118,14 @@ class AbstractKinetics(eqx.Module):
     @abstractmethod
     def equilibrium(self, at: Meeting) -> Any:
         """Moisture that the solid tends to in this gas."""
+
+    def tell(self, relative_humidity: Any, gas_temperature: Any) -> None:
+        """Where gas that dried lies beyond the data of its isotherm: told once for a dryer, because what runs
+        in loops tells nothing.
+        """
+        isotherm = getattr(self, "isotherm", None)
+        if isotherm is not None:
+            isotherm.tell(relative_humidity, gas_temperature)
 
 
 def _stefan(heat_capacity: Any, latent: Any, difference: Any) -> Any:
@@ -212,6 +221,9 @@ class ReactionKinetics(AbstractKinetics):
     """Chen's approach: vapor pressure at the surface falls by an activation energy along the product's master
     curve; defaults of skim milk.
 
+    Differs from the print: solid moister than in equilibrium with the vapor at its own temperature takes up
+    none, unless that vapor would condense.
+
     >>> float(ReactionKinetics()())
     0.998
     """
@@ -233,9 +245,16 @@ class ReactionKinetics(AbstractKinetics):
             -self.rea_coefficient * jnp.maximum(over, 1e-6) ** self.rea_exponent
         )
         activity = jnp.exp(relative * at.gas_temperature / at.temperature * jnp.log(at.relative_humidity))
+        film = at.film_rate(activity)
         # a factor below one leaves a rest of vapor pressure at equilibrium: it is taken away over the last
         # stretch of moisture
-        rate = at.film_rate(activity) * jnp.clip(over / REA_FOOT, 0.0, 1.0)
+        drying = jnp.clip(over / REA_FOOT, 0.0, 1.0)
+        # counted from the gas, the activity of cold solid in hot gas is far too low: what is as moist as
+        # its own temperature asks for is not wetted, unless the gas is beyond saturation there
+        own = at._replace(gas_temperature=at.temperature)
+        dew = (at.matter.relative_humidity(at.temperature, at.humidity) - DAMP) / (1.0 - DAMP)
+        wetting = jnp.clip(jnp.maximum((self.equilibrium(own) - at.moisture) / REA_FOOT, dew), 0.0, 1.0)
+        rate = film * jnp.where(film > 0, drying, wetting)
         return rate + DRINKING * at.conductance * jnp.minimum(over / REA_FOOT, 0.0)
 
 

@@ -40,11 +40,16 @@ class AbstractIsotherm(eqx.Module):
 
     def told_activity(self, X: Any, T: Any) -> Any:
         """The same, told where it lies outside the ranges of the law."""
-        found = {"water_activity": self.activity(X, T), "temperature": T}
+        a = self.activity(X, T)
+        self.tell(a, T)
+        return a
+
+    def tell(self, a: Any, T: Any) -> None:
+        """Where water activity or temperature lie outside the ranges of the law."""
+        found = {"water_activity": a, "temperature": T}
         card = getattr(self, "card", None)  # a module written for a purpose has none
         if card is not None:
             flags.ranged(card, {name: found[name] for name in card.fitted if name in found})
-        return found["water_activity"]
 
     def net_isosteric_heat(self, X: Any, T: Any) -> Any:
         """Heat of sorption beyond vaporization, J/kg of water: −(R/M_w) [∂ ln a/∂(1/T)]_X
