@@ -38,7 +38,8 @@ FIRST, LAST, STRETCHES = (
 )  # ages in residence times: the first stretch, the oldest particle, how many stretches
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
-COOLER, WARMER = 100.0, 5.0  # K that the gas may be below the coldest and above the hottest inlet
+# K that the gas may be below the wet bulb of dry gas as cold as the coldest inlet, and above the hottest inlet
+COOLER = WARMER = 5.0
 CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its vapor goes into the solid
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
@@ -314,7 +315,11 @@ class Bed(eqx.Module):
         inlets = jnp.append(before.temperature, fresh.temperature)
         shares = jnp.asarray(life().share)[:, None] if ages else 1.0
         most = fresh.humidity + jnp.sum(F * before.moisture)
-        low = jnp.stack([-1e-9, jnp.maximum(jnp.min(inlets) - COOLER, COLD)])
+        # dry gas as cold as whatever enters: far below its wet bulb solid would drink from gas that has nothing
+        # to give, and the signs of the balances would tell nothing
+        coldest = self.meeting(before.moisture, before.temperature, Gas(0.0, jnp.min(inlets)), None)
+        chilled = self.heat_loss / (self.gas_flow * m.gas_heat_capacity(fresh.temperature, 0.0))
+        low = jnp.stack([-1e-9, jnp.maximum(coldest.wet_bulb - jnp.maximum(chilled, 0.0) - COOLER, COLD)])
         high = jnp.stack([most * (1.0 + 1e-6) + 1e-9, jnp.max(inlets) + WARMER + CONDENSING * fresh.humidity])
 
         def lacks(x: Any, start: Any) -> tuple[Any, Any, Any]:
