@@ -7,9 +7,11 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.core import flags
 from granum.core.errors import ApplicabilityError
+from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.gas_solid.cells import Contact, Inlet, Network
-from granum.drying.gas_solid.dryer import ready
+from granum.drying.gas_solid.dryer import Through, ready
 from granum.drying.gas_solid.kinetics import (
     DiffusionKinetics,
     Meeting,
@@ -213,6 +215,39 @@ def test_kinetics_vanish_at_their_equilibrium_and_agree_when_wet() -> None:
     assert float(laws[3].rate(wet)[0, 0]) == pytest.approx(float(wet.film_rate()[0, 0]))
     cold = Meeting(0.5 * one, 283.0 * one, 300.0 * one, 0.02 * one, one, MATTER)  # dew point 24.7 °C
     assert float(laws[3].rate(cold)[0, 0]) < 0.0
+
+
+def test_a_dryer_without_solution_names_the_likely_cause(monkeypatch) -> None:
+    core = contact(3, Network.counter_current(3))
+    lost = Through(core.profile(core.start(INLET), jnp.asarray(False)), 1.0)
+    monkeypatch.setattr(RotaryDryer, "through", lambda _self, _feed, _gas: lost)
+    gas = empty(MIXTURE, 400.0).replace(gas=jnp.array([1.0, 0.01]))
+    for X, cause in ((0.0, "all but dry"), (0.2, "less solid")):
+        feed = empty(MIXTURE).replace(solid=jnp.full((1, 2), 0.5), liquid=jnp.array([X]))
+        with flags.collect() as records:
+            RotaryDryer(5.0, 1.0, SurfaceKinetics(0.05), 0.03).inside(feed, gas)
+        (told,) = flags.describe(records)
+        assert told["flag"] == "not converged"
+        assert cause in told["message"]
+
+
+def test_milk_is_wetted_by_what_condenses_alone() -> None:
+    """Chen's law counts the activity of cold solid from the hot gas, far too low: powder at 17 °C that holds
+    more than its isotherm gives there was wetted by air of 128 °C.
+    """
+    law, one = ReactionKinetics(isotherm=Gab(0.06, 10.0, 0.9)), jnp.ones((1, 1))
+    cold = Meeting(one, 290.0 * one, 401.0 * one, 0.006 * one, one, MATTER)  # dew point 6.5 °C
+    rest = law.equilibrium(cold._replace(gas_temperature=cold.temperature))
+    assert float(law.rate(cold._replace(moisture=rest + 2e-3))[0, 0]) >= 0.0
+    assert float(law.rate(cold._replace(moisture=rest - 2e-3))[0, 0]) < 0.0
+    assert float(law.rate(cold._replace(temperature=275.0 * one))[0, 0]) < 0.0
+    # in gas beyond saturation drops at their equilibrium are wetted as those a little above and below
+    X = law.equilibrium(cold) + jnp.linspace(-2e-3, 4e-3, 13)[:, None]
+    warm = 301.5 + 0.0 * X
+    damp = Meeting(X, warm, warm, 0.02465 + 0.0 * X, 1.0 + 0.0 * X, MATTER)
+    rates = law.rate(damp._replace(moisture=law.equilibrium(damp) + X - law.equilibrium(cold)))[:, 0]
+    assert np.all(np.diff(rates) >= 0.0)
+    assert float(rates[-1]) < 0.0
 
 
 def test_gas_that_meets_a_large_surface_against_the_solid_is_solved() -> None:

@@ -101,6 +101,22 @@ def test_equal_curves() -> None:
     )  # Langmuir
 
 
+def test_grain_equations_run_out_to_dry() -> None:
+    """Chung and Pfost's equation ends at a water activity above zero; below it solid that is nearly dry had
+    nothing to settle at, and dryers were not solved.
+    """
+    wheat = grains.ChungPfost(529.43, 17.609, 50.998)
+    same = emp.Bradley(isotherm_base=float(np.exp(-17.609)), isotherm_coefficient=529.43 / (25.0 + 50.998))
+    T, a = 298.15, np.geomspace(1e-6, 0.9, 60)
+    X = np.asarray(wheat.moisture(a, T))
+    assert np.all(np.diff(X) > 0.0)
+    assert float(wheat.moisture(1e-9, T)) < 1e-12
+    np.testing.assert_allclose(same.moisture(a, T), X, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(wheat.activity(X, T), a, rtol=1e-6)
+    printed = -np.log(-(25.0 + 50.998) * np.log(a) / 529.43) / 17.609
+    np.testing.assert_allclose(X[printed > 0.01], printed[printed > 0.01], rtol=1e-5)
+
+
 def test_isosteric_heat() -> None:
     corn = ISOTHERMS[-3]
     T, X = 298.15, 0.15

@@ -146,8 +146,8 @@ def convey(
     def rates(v: Cells, fresh: Entering, first: Any, network: Network, lengths: Any) -> Rates:
         core, lack, times = split(v, first, network, lengths)
         found = core.rates(v, fresh)
-        # Newton's method sees the balance of a whole passage, which is linear in what solid and gas carry off:
-        # so it closes with every step, however fast the finest drops change
+        # Newton's method sees the balance of a whole passage, which is linear in what solid and gas carry
+        # off: so it closes with every step, however fast the finest drops change
         lanes = found.lanes * (times / lax.stop_gradient(times))[..., None]
         return found._replace(lanes=jnp.concatenate([lanes, lack[..., None]], axis=-1))
 

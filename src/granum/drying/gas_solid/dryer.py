@@ -43,7 +43,14 @@ WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
 UNSOLVED = (
     "The steady state of the dryer was not found: its figures are no result. Take less solid in it, or "
-    "more gas."
+    "more gas; where gas and solid come to equilibrium at once, fewer cells or layers, or a smaller surface "
+    "or heat transfer coefficient, help too."
+)
+ALL_DRY = 1e-4  # kg/kg
+NOTHING_TO_DRY = (
+    "The steady state of the dryer was not found: its figures are no result. Its feed is all but dry and "
+    "takes the vapor out of the gas at once: give the feed the moisture it has in ambient air, or leave the "
+    "dryer out."
 )
 PLAIN = {
     "xla_cpu_use_fusion_emitters": False,
@@ -146,9 +153,12 @@ class Dryer(Unit):
 
     def inside(self, feed: Stream, gas: Stream, *more: Any, **others: Any) -> Through:
         found = self.through(feed, gas, *more, *others.values())
-        unsolved(found.profile.converged, type(self).card, reason=UNSOLVED)
+        solid, card = counted(feed), type(self).card
+        dry, known = solid.moisture_dry_basis < ALL_DRY, found.profile.converged
+        unsolved(known | dry, card, reason=UNSOLVED)
+        unsolved(known | ~dry, card, reason=NOTHING_TO_DRY)
         humidity, T = found.profile.humidity, found.profile.gas_temperature
-        self.kinetics.tell(Matter.of(counted(feed), gas).relative_humidity(T, humidity), T)
+        self.kinetics.tell(Matter.of(solid, gas).relative_humidity(T, humidity), T)
         return found
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:

@@ -80,7 +80,9 @@ class Meeting(NamedTuple):
         """Moisture at which the gas dries no further; zero for a solid without isotherm."""
         if isotherm is None:
             return 0.0 * self.moisture
-        return isotherm.moisture(self.relative_humidity, self.gas_temperature) + 0.0 * self.moisture
+        humidity = self.matter.relative_humidity(self.gas_temperature, self.humidity)
+        some = jnp.clip(humidity / LEAST, 0.0, 1.0)  # from gas without vapor nothing can be drunk
+        return some * isotherm.moisture(self.relative_humidity, self.gas_temperature) + 0.0 * self.moisture
 
     @property
     def wet_bulb(self) -> Any:

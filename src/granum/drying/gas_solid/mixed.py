@@ -38,7 +38,7 @@ FIRST, LAST, STRETCHES = (
 )  # ages in residence times: the first stretch, the oldest particle, how many stretches
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
-# K that the gas may be below the wet bulb of dry gas as cold as the coldest inlet, and above the hottest inlet
+# K that the gas may be below the wet bulb of dry gas as cold as the coldest inlet, and above the hottest one
 COOLER = WARMER = 5.0
 CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its vapor goes into the solid
 ENTHALPY = 1e5  # J/kg
@@ -315,8 +315,8 @@ class Bed(eqx.Module):
         inlets = jnp.append(before.temperature, fresh.temperature)
         shares = jnp.asarray(life().share)[:, None] if ages else 1.0
         most = fresh.humidity + jnp.sum(F * before.moisture)
-        # dry gas as cold as whatever enters: far below its wet bulb solid would drink from gas that has nothing
-        # to give, and the signs of the balances would tell nothing
+        # dry gas as cold as whatever enters: far below its wet bulb solid would drink from gas that has
+        # nothing to give, and the signs of the balances would tell nothing
         coldest = self.meeting(before.moisture, before.temperature, Gas(0.0, jnp.min(inlets)), None)
         chilled = self.heat_loss / (self.gas_flow * m.gas_heat_capacity(fresh.temperature, 0.0))
         low = jnp.stack([-1e-9, jnp.maximum(coldest.wet_bulb - jnp.maximum(chilled, 0.0) - COOLER, COLD)])

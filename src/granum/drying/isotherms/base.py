@@ -20,6 +20,8 @@ SMALLEST, LARGEST = (
     1.0 - 1e-9,
 )  # water activities between which an inverse without closed form is sought
 
+BEND = 1e-3  # kg/kg over which an equation that ends at some water activity runs out to dry
+
 
 class AbstractIsotherm(eqx.Module):
     """Equilibrium moisture, dry basis, as a function of water activity and temperature.
@@ -69,6 +71,19 @@ def activity_by_search(isotherm: AbstractIsotherm, X: Any, T: Any, highest: floa
         lambda a, X, T: isotherm.moisture(a, T) - X, SMALLEST, highest, inside, T, start=0.5
     ).value
     return jnp.where(low >= X, SMALLEST, jnp.where(high <= X, highest, root))
+
+
+def run_out(X: Any) -> Any:
+    """Moisture of an equation that falls below nothing: bent to nothing. A sharp end, below which gas takes
+    or gives no water, leaves a dryer whose solid is nearly dry without a state to settle in.
+    """
+    return BEND * jnp.logaddexp(X / BEND, 0.0)
+
+
+def before_bend(X: Any) -> Any:
+    """What the equation gave before `run_out`."""
+    X = jnp.maximum(X, 1e-30)
+    return X + BEND * jnp.log(-jnp.expm1(-X / BEND))
 
 
 def bounded(a: Any) -> Any:

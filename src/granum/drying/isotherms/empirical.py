@@ -11,7 +11,15 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import MoistureDryBasis, Number, PositiveNumber, Temperature, WaterActivity
-from granum.drying.isotherms.base import ROOM, SMALLEST, AbstractIsotherm, activity_by_search, bounded
+from granum.drying.isotherms.base import (
+    ROOM,
+    SMALLEST,
+    AbstractIsotherm,
+    activity_by_search,
+    before_bend,
+    bounded,
+    run_out,
+)
 
 
 class _Called(AbstractIsotherm):
@@ -419,6 +427,8 @@ class Bradley(_Called):
 
     The range is that of ``isotherm_chung_pfost``.
 
+    Differs from the print: where the equation falls below no moisture, it bends to none within 0.001 kg/kg.
+
     >>> round(float(Bradley(isotherm_base=1e-5, isotherm_coefficient=3.0).activity(0.1, 298.15)), 4)
     0.3873
     """
@@ -428,12 +438,12 @@ class Bradley(_Called):
     isotherm_coefficient: PositiveNumber
 
     def moisture(self, a: Any, T: Any) -> Any:
-        return jnp.maximum(
-            jnp.log(-jnp.log(bounded(a)) / self.isotherm_coefficient) / jnp.log(self.isotherm_base), 0.0
+        return run_out(
+            jnp.log(-jnp.log(bounded(a)) / self.isotherm_coefficient) / jnp.log(self.isotherm_base)
         )
 
     def activity(self, X: Any, T: Any) -> Any:
-        return jnp.exp(-self.isotherm_coefficient * self.isotherm_base ** jnp.asarray(X))
+        return jnp.exp(-self.isotherm_coefficient * self.isotherm_base ** before_bend(X))
 
 
 @law(
@@ -449,6 +459,8 @@ class Chen(_Called):
 
     The range is that of ``isotherm_chung_pfost``.
 
+    Differs from the print: where the equation falls below no moisture, it bends to none within 0.001 kg/kg.
+
     >>> round(float(Chen(isotherm_coefficient=3.0, isotherm_exponent=11.5129).activity(0.1, 298.15)), 3)
     0.387
     """
@@ -460,13 +472,13 @@ class Chen(_Called):
 
     def moisture(self, a: Any, T: Any) -> Any:
         reach = jnp.maximum(self.isotherm_offset - jnp.log(bounded(a)), SMALLEST)
-        return jnp.maximum(-jnp.log(reach / self.isotherm_coefficient) / self.isotherm_exponent, 0.0)
+        return run_out(-jnp.log(reach / self.isotherm_coefficient) / self.isotherm_exponent)
 
     def activity(self, X: Any, T: Any) -> Any:
         return jnp.minimum(
             jnp.exp(
                 self.isotherm_offset
-                - self.isotherm_coefficient * jnp.exp(-self.isotherm_exponent * jnp.asarray(X))
+                - self.isotherm_coefficient * jnp.exp(-self.isotherm_exponent * before_bend(X))
             ),
             1.0,
         )

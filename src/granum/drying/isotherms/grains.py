@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.kinds import MoistureDryBasis, Number, PositiveNumber, Temperature, WaterActivity
-from granum.drying.isotherms.base import ROOM, AbstractIsotherm, bounded
+from granum.drying.isotherms.base import ROOM, AbstractIsotherm, before_bend, bounded, run_out
 
 
 class _Called(AbstractIsotherm):
@@ -75,6 +75,8 @@ class ChungPfost(_Called):
 
     The data behind the standard lie between 0.2 and 0.95.
 
+    Differs from the print: where the equation falls below no moisture, it bends to none within 0.001 kg/kg.
+
     >>> corn = ChungPfost(
     ...     isotherm_coefficient=312.30, isotherm_exponent=16.958, isotherm_temperature_offset=30.205
     ... )
@@ -93,11 +95,11 @@ class ChungPfost(_Called):
             * jnp.log(bounded(a))
             / self.isotherm_coefficient
         )
-        return jnp.maximum(-jnp.log(scaled) / self.isotherm_exponent, 0.0)
+        return run_out(-jnp.log(scaled) / self.isotherm_exponent)
 
     def activity(self, X: Any, T: Any) -> Any:
         heat = self.isotherm_coefficient / (_celsius(T) + self.isotherm_temperature_offset)
-        return jnp.exp(-heat * jnp.exp(-self.isotherm_exponent * jnp.asarray(X)))
+        return jnp.exp(-heat * jnp.exp(-self.isotherm_exponent * before_bend(X)))
 
 
 @law(
