@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import contextvars
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from tests.sharing.commands import granum
 
 from granum import __version__
-from granum.cli import app
 from granum.particles import terminal_velocity
 
 TERMINAL = ["calc", "particles.terminal_velocity"]
@@ -22,14 +19,6 @@ GOOD = [
     "fluid_density=1020kg/m3",
     "dynamic_viscosity=1.2cP",
 ]
-ROOT = Path(__file__).parents[1]
-
-
-def granum(*words: str) -> tuple[int, str, str]:
-    outcome = contextvars.copy_context().run(
-        CliRunner().invoke, app, list(words)
-    )  # the language ends with the command
-    return outcome.exit_code, outcome.stdout, outcome.stderr
 
 
 def test_version() -> None:

@@ -4,13 +4,12 @@ tests/studies/test_line_gradients.py.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 
-CASE = Path(__file__).parents[1] / "examples" / "potassium-nitrate" / "line.toml"
+CASE = EXAMPLES / "potassium-nitrate" / "line.toml"
 
 
 @pytest.fixture(scope="module")

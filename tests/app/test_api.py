@@ -17,6 +17,7 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tests.sharing.falling import SPHERE
 
 from granum.app import exercises
 from granum.app.forms import read_entry
@@ -29,12 +30,6 @@ from granum.core.i18n import catalog
 from granum.core.units import from_si
 
 APP = Path(str(files("granum") / "app"))
-SPHERE = {
-    "particle_diameter": "85 um",
-    "particle_density": "2630 kg/m3",
-    "fluid_density": "1020 kg/m3",
-    "dynamic_viscosity": "1.2 cP",
-}
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from typing import Any
 
 import httpx
 import pytest
+from tests.sharing.falling import SPHERE, STOKES
 
 from granum.app import jobs, tasks, wear
 from granum.app import studies as app_studies
@@ -24,13 +25,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import language
 from granum.studies import Study, engine
 
-SPHERE = {
-    "particle_diameter": "85 um",
-    "particle_density": "2630 kg/m3",
-    "fluid_density": "1020 kg/m3",
-    "dynamic_viscosity": "1.2 cP",
-}
-STOKES = {"card": "particles.terminal_velocity_stokes", "inputs": SPHERE, "varied": ["particle_diameter"]}
+STUDY = {"card": STOKES, "inputs": SPHERE, "varied": ["particle_diameter"]}
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +56,7 @@ def finished(client: httpx.Client, study: dict[str, Any]) -> httpx.Response:
 
 def test_a_sweep_follows_the_law(client: httpx.Client) -> None:
     table = {"kind": "sweep", "over": {"particle_diameter": {"from": "20 um", "to": "80 um", "steps": 4}}}
-    outcome = finished(client, STOKES | {"table": table}).json()["outcome"]
+    outcome = finished(client, STUDY | {"table": table}).json()["outcome"]
     v = outcome["cases"]["terminal_velocity"]
     assert [x / v[0] for x in v] == pytest.approx([1.0, 4.0, 9.0, 16.0])  # Stokes: the square of the diameter
     assert outcome["charts"]
@@ -70,7 +65,7 @@ def test_a_sweep_follows_the_law(client: httpx.Client) -> None:
 
 
 def test_choices_of_a_card_and_of_a_line(client: httpx.Client) -> None:
-    found = client.post("/api/studies/choices", json=STOKES).json()
+    found = client.post("/api/studies/choices", json=STUDY).json()
     diameter = next(i for i in found["inputs"] if i["name"] == "particle_diameter")
     assert (diameter["value"], diameter["unit"]) == ("", "um")  # varied, so without a value of its own
     assert found["figures"][0]["name"] == "terminal_velocity"
@@ -86,10 +81,10 @@ def test_choices_of_a_card_and_of_a_line(client: httpx.Client) -> None:
     [
         {},
         {"card": "no.card", "table": {"kind": "sweep"}},
-        STOKES | {"table": "sweep"},
-        STOKES | {"table": {"kind": "guess"}},
-        STOKES | {"table": {"kind": "sweep", "over": {"nothing": {"from": 1, "to": 2}}}},
-        STOKES
+        STUDY | {"table": "sweep"},
+        STUDY | {"table": {"kind": "guess"}},
+        STUDY | {"table": {"kind": "sweep", "over": {"nothing": {"from": 1, "to": 2}}}},
+        STUDY
         | {
             "table": {
                 "kind": "monte_carlo",
@@ -97,7 +92,7 @@ def test_choices_of_a_card_and_of_a_line(client: httpx.Client) -> None:
                 "uncertain": {"particle_diameter": {"distribution": "normal"}},
             }
         },
-        STOKES
+        STUDY
         | {"table": {"kind": "sweep", "over": {"particle_diameter": {"from": 1, "to": 2, "steps": 1e300}}}},
         {"case": "title = ", "table": {"kind": "sweep"}},
     ],
@@ -110,7 +105,7 @@ def test_a_study_that_cannot_be_is_explained(client: httpx.Client, study: dict[s
 
 def test_a_study_can_be_cancelled(client: httpx.Client) -> None:
     table = {"kind": "monte_carlo", "samples": 20000, "uncertain": {"drag": {}}}
-    name = client.post("/api/studies", json=STOKES | {"table": table}).json()["id"]
+    name = client.post("/api/studies", json=STUDY | {"table": table}).json()["id"]
     assert client.delete(f"/api/studies/{name}").json() == {"state": "cancelled"}
     assert client.get("/api/studies/nobody").status_code == 422
 
@@ -127,7 +122,7 @@ def test_what_nobody_asks_about_is_cancelled(crew: Crew, monkeypatch: pytest.Mon
         held.find("other")
 
 
-SPREAD = STOKES | {
+SPREAD = STUDY | {
     "table": {
         "kind": "monte_carlo",
         "samples": 20_000,
@@ -177,7 +172,7 @@ def test_every_kind_of_study_shows_a_part_of_itself(
 ) -> None:
     monkeypatch.setitem(engine.CHUNKS, "batched", 4)
     said = [""]
-    wanted = STOKES | {"varied": list(table.get("over") or table["uncertain"]), "table": table}
+    wanted = STUDY | {"varied": list(table.get("over") or table["uncertain"]), "table": table}
     found = tasks.TASKS["study"](
         wanted, Tell(lambda share, note: said.append(note), lambda: "left" in said[-1])
     )

@@ -7,7 +7,6 @@ through all cards.
 
 from __future__ import annotations
 
-import os
 import random
 from urllib.parse import quote
 
@@ -15,10 +14,10 @@ import pytest
 from selenium.webdriver.common.by import By
 from tests.app.browsing import Page
 from tests.app.typist import Typist, complaints
+from tests.sharing.samples import SAMPLES
 
 from granum.core import registry
 
-SAMPLES = int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0"))
 QUICK = (
     "particles.terminal_velocity_stokes",
     "particles.drag_coefficient_haider_levenspiel",

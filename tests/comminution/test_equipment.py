@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import runpy
 from itertools import pairwise
-from pathlib import Path
 
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.linalg import inv
+from tests.sharing.places import EXAMPLES
 
 from granum.cases.reading import read, read_text
 from granum.comminution.breakage import AustinBreakage, AustinSelection
@@ -21,7 +21,7 @@ from granum.core.errors import InputError
 from granum.particles.partition import IdealPartition, LogisticPartition, RosinRammlerPartition
 from granum.streams.audit import closure
 
-CIRCUIT = Path(__file__).parents[2] / "examples" / "grinding-circuit" / "circuit.toml"
+CIRCUIT = EXAMPLES / "grinding-circuit" / "circuit.toml"
 
 
 @pytest.fixture(scope="module")

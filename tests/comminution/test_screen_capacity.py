@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.sharing.places import EXAMPLES
 
 from granum.cases.reading import read
 from granum.comminution.breakage import AustinBreakage, AustinSelection
@@ -19,7 +18,7 @@ from granum.core.errors import ApplicabilityError, InputError
 from granum.particles.partition import LogisticPartition
 from granum.streams.audit import closure
 
-CIRCUIT = Path(__file__).parents[2] / "examples" / "grinding-circuit" / "circuit.toml"
+CIRCUIT = EXAMPLES / "grinding-circuit" / "circuit.toml"
 
 
 def capacity(h=20e-3, Q=0.25, R=0.40, X=0.15, **more):

@@ -10,18 +10,14 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from tests.sharing.samples import EVERYTHING
 
-from granum.core import registry
 from granum.core.bounds import figures, limits
 from granum.core.cards import Card
 from granum.core.formulas import Formula
 from granum.core.parameters import Parameter
 from granum.core.results import Result
 
-# GRANUM_DOMAINS=particles,porous limits a run to the rooms one is working in.
-EVERYTHING = registry.everything(
-    tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS
-)
 FORMULAS = {key: thing for key, thing in EVERYTHING.items() if isinstance(thing, Formula)}
 ELEMENTWISE = {
     k: f for k, f in FORMULAS.items() if not any(p.series for p in (*f.card.parameters, *f.card.outputs))

@@ -4,17 +4,12 @@ source, or its fields stay empty.
 
 from __future__ import annotations
 
-import os
-
 import pytest
+from tests.sharing.samples import EVERYTHING
 
 from granum.app.forms import card_form
 from granum.app.tasks import inputs_for
-from granum.core import registry
 
-EVERYTHING = registry.everything(
-    tuple(filter(None, os.environ.get("GRANUM_DOMAINS", "").split(","))) or registry.DOMAINS
-)
 OPENED = {
     key: thing for key, thing in EVERYTHING.items() if thing.card.sort in ("formula", "procedure", "chart")
 }

@@ -4,17 +4,15 @@ else may happen.
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
+from tests.sharing.samples import SAMPLES
 
 import granum as gr
 from granum.core.errors import GranumError
 from granum.core.kinds import Kind
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = (
     "humid-air/line",
     "filters/drum",
@@ -22,9 +20,6 @@ QUICK = (
     "grinding-circuit/circuit",
     "potassium-nitrate/line",
 )
-SAMPLES = int(
-    os.environ.get("GRANUM_RANDOM_SAMPLES", "0")
-)  # all examples with so many changes each; otherwise a few of the quick ones
 LINES = (
     sorted(str(p.relative_to(EXAMPLES))[:-5] for p in EXAMPLES.glob("*/*.toml") if "[units." in p.read_text())
     if SAMPLES

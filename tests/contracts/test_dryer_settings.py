@@ -4,7 +4,6 @@ is none.
 
 from __future__ import annotations
 
-import os
 from typing import Any, get_type_hints
 
 import jax
@@ -20,6 +19,7 @@ from tests.contracts.dryer_settings import (
     WITH_CELLS,
     Setting,
 )
+from tests.sharing.samples import SAMPLES
 
 from granum.core.kinds import kind_of
 from granum.drying.gas_solid.dryer import PLAIN
@@ -31,7 +31,6 @@ from granum.streams.audit import closure
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
 
-SAMPLES = int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0"))
 COOL = {"compiler_options": PLAIN} if jax.default_backend() == "cpu" else {}
 AIR = 1.2  # more of it for the second run of each
 SLACK = 1e-6

@@ -17,7 +17,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from tests.contracts import separator_cases, unit_cases
-from tests.contracts.unit_search import FEED, OWN, QUICK, SAMPLES, THERE, Case, present, rows
+from tests.contracts.unit_search import FEED, OWN, QUICK, THERE, Case, present, rows
+from tests.sharing.samples import SAMPLES
 
 from granum.core import registry
 from granum.flowsheet import Flowsheet, solve

@@ -10,7 +10,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.contracts.drawing import ELEMENTWISE, EVERYTHING, FORMULAS, draw, quickly
+from tests.contracts.drawing import ELEMENTWISE, FORMULAS, draw, quickly
+from tests.sharing.samples import EVERYTHING
 
 from granum.core import glossary as glossary_module
 from granum.core import sources as sources_module

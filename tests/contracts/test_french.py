@@ -8,6 +8,7 @@ from string import Formatter
 
 import pytest
 from babel.messages.extract import extract_from_dir
+from tests.sharing.places import EXAMPLES
 
 import granum
 from granum.core.glossary import glossary
@@ -48,7 +49,7 @@ def test_messages_have_french(package: str) -> None:
 
 
 def test_titles_and_descriptions_of_the_examples_have_french() -> None:
-    files = [p.read_text(encoding="utf-8") for p in (Path(__file__).parents[2] / "examples").rglob("*.toml")]
+    files = [p.read_text(encoding="utf-8") for p in EXAMPLES.rglob("*.toml")]
     cases = [tomllib.loads(text) for text in files if "[units." in text]
     for key in ("title", "description"):
         words = {case[key] for case in cases if key in case}

@@ -9,7 +9,8 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
-from tests.contracts.drawing import EVERYTHING, SETS, amiss, drawn, ordinary, random_inputs
+from tests.contracts.drawing import SETS, amiss, drawn, ordinary, random_inputs
+from tests.sharing.samples import EVERYTHING
 
 from granum.core import bounds
 from granum.core.errors import ApplicabilityError, GranumError

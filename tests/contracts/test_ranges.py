@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.contracts.drawing import EVERYTHING, ordinary
+from tests.contracts.drawing import ordinary
+from tests.sharing.samples import EVERYTHING
 
 from granum.core.parameters import Parameter
 

@@ -9,7 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from tests.contracts.separator_cases import UNITS, case_of, slurry
-from tests.contracts.unit_search import SAMPLES, rows, tried, wrong
+from tests.contracts.unit_search import rows, tried, wrong
+from tests.sharing.samples import SAMPLES
 
 from granum.core.errors import ApplicabilityError
 from granum.cyclones.equipment.liquid import Hydrocyclone

@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.contracts import unit_cases
-from tests.contracts.unit_search import EMPTY, SAMPLES, Case, Tried, disordered, rows, tried, wrong
+from tests.contracts.unit_search import EMPTY, Case, Tried, disordered, rows, tried, wrong
+from tests.sharing.samples import SAMPLES
 
 GROUPS = {
     "mills": unit_cases.mills,

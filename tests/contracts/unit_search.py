@@ -4,7 +4,6 @@ at once.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, get_type_hints
 
@@ -19,7 +18,6 @@ from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 from granum.streams.units import Unit
 
-SAMPLES = int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0"))  # settings of each unit, in the long run
 FEED, THERE, OWN = 8, 3, 6
 EMPTY = 8  # rows that leave something out, at the beginning
 """A row of numbers from 0 to 1: eight for the feeds, three that say what is there at all, six for the

@@ -6,9 +6,9 @@ import json
 import subprocess
 import sys
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
+from tests.sharing.places import ROOT
 
 import granum as gr
 from granum.core.registry import everything
@@ -99,7 +99,7 @@ def test_help_tells_what_is_declared():
 
 
 def test_the_tree_of_the_documentation_is_that_of_the_package():
-    place = Path(__file__).parents[2] / "docs"
+    place = ROOT / "docs"
     script = importlib.util.spec_from_file_location("house", place / "house.py")
     house = importlib.util.module_from_spec(script)
     script.loader.exec_module(house)

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.crystallization.cases import (
+from tests.sharing.crystallization import (
     B_ORDER,
     DENSITY,
     DURATION,
@@ -15,13 +15,16 @@ from tests.crystallization.cases import (
     KB,
     KG,
     START,
+    Constant,
+    ConstantBirths,
+    by_scipy,
     linear_cooling,
     model,
     seeds,
 )
 
-from granum.crystallization.formulas.growth import GrowthLaw, PowerLawDissolution, PowerLawGrowth
-from granum.crystallization.formulas.nucleation import NoNucleation, NucleationLaw, PowerLawNucleation
+from granum.crystallization.formulas.growth import PowerLawDissolution, PowerLawGrowth
+from granum.crystallization.formulas.nucleation import NoNucleation, PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import AntisolventSolubility, PolynomialSolubility
 from granum.crystallization.population.lagrangian import Model, SolventVolume, march
 from granum.crystallization.population.operations import Addition, Flashing, HeatData, Jacketed, Programmed
@@ -29,43 +32,9 @@ from granum.crystallization.population.packets import Seeds, SizeMap
 from granum.crystallization.vessels.crystals import Crystal
 
 
-class Constant(GrowthLaw):
-    value: float
-
-    def __call__(self, solute_per_solvent, solubility_per_solvent, temperature):
-        return self.value + 0.0 * solute_per_solvent
-
-
-class ConstantBirths(NucleationLaw):
-    value: float
-
-    def __call__(self, solute_per_solvent, solubility_per_solvent, temperature, magma_density):
-        return self.value + 0.0 * solute_per_solvent
-
-
 def published(mass=0.5, steps=400, **more):
     times = jnp.linspace(0.0, DURATION, steps + 1)
     return march(model(**more), Programmed(linear_cooling), seeds(mass), START, 1.0, times)
-
-
-def by_scipy(mass=0.5):
-    """Moments of the continuous parabola, integrated by LSODA at 1e-11: written apart from the package."""
-    x, w = np.polynomial.legendre.leggauss(20)
-    size, weight = 100e-6 + 10e-6 * x, (1 - x**2) * w
-    m = np.array([np.sum(weight * size**k) for k in range(5)])
-    m *= mass / 1000 / (DENSITY * m[3])
-    total = START + DENSITY * m[3]
-
-    def rates(t, y):
-        y = y * m
-        T = 32 - 4 * t / DURATION
-        saturated = 0.1286 + 5.88e-3 * T + 1.721e-4 * T * T
-        S = max((total - DENSITY * y[3]) / saturated - 1, 0)
-        G, B = KG * S**G_ORDER, KB * S**B_ORDER * DENSITY * y[3]
-        return np.array([B, G * y[0], 2 * G * y[1], 3 * G * y[2], 4 * G * y[3]]) / m
-
-    y = solve_ivp(rates, (0, DURATION), np.ones(5), method="LSODA", rtol=1e-11, atol=1e-13).y[:, -1] * m
-    return y, total - DENSITY * y[3]
 
 
 def test_published_seeded_batch_agrees_with_the_moment_solution():

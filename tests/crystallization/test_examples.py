@@ -4,17 +4,15 @@ package.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from tests.crystallization.test_batch import by_scipy
+from tests.sharing.crystallization import by_scipy
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.cases.studying import read_studies
 from granum.crystallization.recipes import optimal_cooling
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 BATCH = EXAMPLES / "seeded-crystallizer" / "batch.toml"
 
 

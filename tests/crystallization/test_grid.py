@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from jax import lax
-from tests.crystallization.cases import DURATION, START, linear_cooling, model, seeds
+from tests.sharing.crystallization import DURATION, START, linear_cooling, model, seeds
 
 from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.formulas.agglomeration import (

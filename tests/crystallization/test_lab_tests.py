@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.crystallization.cases import DENSITY, START, model
+from tests.sharing.crystallization import DENSITY, START, model
+from tests.sharing.places import EXAMPLES
 
 from granum.core.errors import InputError
 from granum.crystallization.formulas.programs import TemperaturePoints
@@ -25,8 +24,6 @@ from granum.crystallization.lab_tests.solubility import (
 from granum.crystallization.population.lagrangian import SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 # Urea of Bennett and Van Buren as worked in Perry's Handbook: Tyler meshes 14, 20, 28, 35, 48, 65, 100.
 EDGES = np.array([1.168, 0.833, 0.589, 0.417, 0.295, 0.208, 0.147])[::-1] * 1e-3

@@ -8,7 +8,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from tests.crystallization.cases import DENSITY, DURATION, KB, KG, START, linear_cooling, model, seeds
+from tests.sharing.crystallization import (
+    DURATION,
+    GROWTH,
+    NUCLEATION,
+    SEEDED,
+    SOLUBILITY,
+    START,
+    linear_cooling,
+    mixture,
+    model,
+    seeds,
+)
 
 from granum.core.errors import ApplicabilityError, InputError
 from granum.crystallization.charts import size_distribution_chart, solubility_chart
@@ -46,23 +57,7 @@ from granum.crystallization.population.operations import Programmed
 from granum.crystallization.recipes import choose, optimal_cooling
 from granum.crystallization.vessels.batch import batch
 from granum.streams.audit import closure
-from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
-
-SOLUBILITY = {"law": "polynomial_solubility", "coefficients": [0.1286, 5.88e-3, 1.721e-4]}
-GROWTH = {"law": "power_law_growth", "growth_coefficient": KG, "growth_order": 1.32}
-NUCLEATION = {"law": "secondary_nucleation", "nucleation_coefficient": KB, "nucleation_order": 1.78}
-SEEDED = {
-    "solute_per_solvent": START,
-    "solubility": SOLUBILITY,
-    "growth": GROWTH,
-    "nucleation": NUCLEATION,
-    "duration": DURATION,
-    "crystal_density": DENSITY,
-    "seed_mass_per_solvent": 5e-4,
-    "seed_size": "100 um",
-    "seed_width": "20 um",
-}
 
 
 def test_three_engines_agree():
@@ -229,19 +224,6 @@ def test_charts_draw():
     area = [float(np.nansum(t.y) * (t.x[1] - t.x[0])) for t in drawing.data]
     assert area[0] == pytest.approx(0.5, rel=1e-3)  # g of seed per kg
     assert area[-1] > 50 * area[0]
-
-
-def mixture() -> Mixture:
-    edges = (0.0, *map(float, np.geomspace(2e-5, 2.5e-3, 40)))
-    return Mixture(
-        (Species("potassium nitrate", (("potassium nitrate", 1.0),), (2110.0,), (920.0,), -345e3),),
-        (
-            Species("water", (("water", 1.0),), (998.0,), (4186.0,)),
-            Species("potassium nitrate", (("potassium nitrate", 1.0),), (2500.0,), (900.0,)),
-        ),
-        (Species("water", (("water", 1.0),), (), (1900.0,), 2.501e6, 0.018),),
-        edges,
-    )
 
 
 @pytest.mark.parametrize("kind", ["msmpr", "evaporative", "vacuum", "classified", "batch"])

@@ -11,20 +11,25 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.crystallization.cases import (
+from tests.sharing.crystallization import (
     B_ORDER,
     DENSITY,
     DURATION,
     G_ORDER,
+    GROWTH,
     KB,
     KG,
+    NUCLEATION,
+    SEEDED,
+    SOLUBILITY,
     START,
+    Constant,
+    ConstantBirths,
     linear_cooling,
+    mixture,
     model,
     seeds,
 )
-from tests.crystallization.test_batch import Constant, ConstantBirths
-from tests.crystallization.test_recipes import GROWTH, NUCLEATION, SEEDED, SOLUBILITY, mixture
 
 from granum.core.errors import ApplicabilityError, CaseError, InputError
 from granum.core.flags import collect
@@ -192,7 +197,7 @@ def test_equipment_closes_its_balances(kind):
 
 def test_tube_does_to_its_feed_what_the_batch_does():
     tube = UNITS["tube"]()
-    T = tube._time(FEED)
+    T = tube.operate(feed=FEED).figures.residence_time
     vessel = BatchCrystallizer(temperature_program=tube.temperature_program, duration=float(T), **LAWS)
     np.testing.assert_allclose(
         tube(feed=FEED).product.solid, vessel(feed=FEED).product.solid, rtol=1e-10, atol=1e-15

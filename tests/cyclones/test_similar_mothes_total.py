@@ -5,11 +5,11 @@ total efficiency, drawings.
 from __future__ import annotations
 
 import runpy
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.sharing.places import EXAMPLES
 
 from granum.cases import read
 from granum.core.errors import ApplicabilityError, InputError
@@ -20,7 +20,7 @@ from granum.cyclones.geometry import StandardCyclone
 from granum.cyclones.total import cyclone_for_efficiency
 from granum.particles.size_laws import RosinRammler
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "cyclone"
+FOLDER = EXAMPLES / "cyclone"
 AIR = (2000.0, 1.2, 1.8e-5)
 
 
@@ -166,7 +166,7 @@ def test_drawings() -> None:
 
 
 def test_pair_of_the_example_and_its_script() -> None:
-    found = read(EXAMPLES / "pair.toml").solve().as_json()
+    found = read(FOLDER / "pair.toml").solve().as_json()
     assert found["audit"]["mass_closure"] < 1e-12
     assert all(check["ok"] for unit in found["units"].values() for check in unit["checks"])
     first, second = (
@@ -177,4 +177,4 @@ def test_pair_of_the_example_and_its_script() -> None:
     )
     assert "clean_air" in streams
     assert first > 0.9 > second  # the first is overloaded, the second sees the fines
-    runpy.run_path(str(EXAMPLES / "cyclone.py"))
+    runpy.run_path(str(FOLDER / "cyclone.py"))

@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.streams import air, wet
 
 import granum as gr
 from granum.core.errors import ApplicabilityError
@@ -33,15 +34,6 @@ FINE = mixture_of(["water"], ["starch"], ["dry air", "water"], [4e-6, 4e-5, 1.6e
 ONE = mixture_of(["water"], ["starch"], ["dry air", "water"], [4e-4, 6e-4])
 
 
-def wet(flow: float, X: float, T: float = 300.0, mixture=ONE) -> Stream:
-    n = len(mixture.sizes)
-    return empty(mixture, T).replace(solid=jnp.full((1, n), flow / n), liquid=jnp.array([flow * X]))
-
-
-def air(flow: float, Y: float, T: float, mixture=ONE) -> Stream:
-    return empty(mixture, T).replace(gas=jnp.array([flow, flow * Y]))
-
-
 def solved(name: str):
     run = gr.read(f"examples/dryers/{name}.toml").solve()
     assert run.audit["mass_closure"] < 1e-9
@@ -67,7 +59,7 @@ def test_a_fluidized_bed_of_every_size_from_dust_to_lumps_is_solved() -> None:
     """
     mixture = mixture_of(["water"], ["starch"], ["dry air", "water"], list(np.geomspace(1e-5, 4e-3, 9)))
     dryer = FluidBedDryer(area=1.0, mass=200.0, kinetics=SurfaceKinetics(critical_moisture=0.005))
-    found = dryer.profile(wet(0.22, 0.07, 298.0, mixture), air(0.83, 0.009, 388.0, mixture))
+    found = dryer.profile(wet(mixture, 0.22, 0.07, 298.0), air(mixture, 0.83, 0.009, 388.0))
     assert found.converged
     water = jnp.sum(found.water) + found.vapor
     np.testing.assert_allclose(water, 0.22 * 0.07 + 0.83 * 0.009, rtol=1e-9)
@@ -161,7 +153,7 @@ def test_layer_follows_hukill() -> None:
     small: Hukill's closed form.
     """
     n, T, w = 60, 323.15, 0.01
-    feed, gas = wet(1.0, 1.0), air(1.0, w, T)
+    feed, gas = wet(ONE, 1.0, 1.0), air(ONE, 1.0, w, T)
     Tw = state(temperature=T, humidity_ratio=w).wet_bulb_temperature
     matter = Matter.of(feed, gas)
     units, exchange, per_solid = 2.0, 30.0, 15.0e-3
@@ -207,7 +199,7 @@ def test_drops_have_the_mean_size_of_the_atomizer() -> None:
     mixture = mixture_of(["water"], ["starch"], ["dry air", "water"], list(np.geomspace(2e-6, 4e-4, 61)))
     dryer = SprayDryer(10.0, 4.0, GivenDrops("100 um"), SurfaceKinetics(0.3), dry_density=1000.0)
     feed = empty(mixture).replace(solid=jnp.full((1, 60), 1.0 / 60), liquid=jnp.array([1.5]))
-    shares = dryer.shares(feed, air(10.0, 0.01, 450.0, mixture))
+    shares = dryer.shares(feed, air(mixture, 10.0, 0.01, 450.0))
     ratio = (1000.0 * (1.0 / float(feed.solid_density) + 1.5 / 997.0)) ** (1.0 / 3.0)
     assert float(jnp.sum(shares)) == pytest.approx(1.0, abs=1e-12)
     assert 1.0 / float(jnp.sum(shares / (ratio * jnp.asarray(mixture.sizes)))) == pytest.approx(
@@ -219,43 +211,43 @@ KINETICS = SurfaceKinetics(critical_moisture=0.3)
 SIZED = {  # how each type is sized, feed, gas
     "rotary": (
         lambda f, g: RotaryDryer.size(0.1, f, g, 1.5, KINETICS, cells=8),
-        wet(0.5, 0.4),
-        air(3.0, 0.01, 450.0),
+        wet(ONE, 0.5, 0.4),
+        air(ONE, 3.0, 0.01, 450.0),
     ),
     "tunnel": (
         lambda f, g: TunnelDryer.size(0.1, f, g, 0.1, 1.0, 20.0, KINETICS, cells=8),
-        wet(0.1, 0.4),
-        air(3.0, 0.01, 360.0),
+        wet(ONE, 0.1, 0.4),
+        air(ONE, 3.0, 0.01, 360.0),
     ),
     "silo": (
         lambda f, g: SiloDryer.size(0.1, f, g, 0.3, 600.0, DiffusionKinetics(1e-9, 4e-3), layers=5, steps=10),
-        wet(0.5, 0.3),
-        air(8.0, 0.01, 360.0),
+        wet(ONE, 0.5, 0.3),
+        air(ONE, 8.0, 0.01, 360.0),
     ),
     "flash": (
         lambda f, g: FlashDryer.size(0.1, f, g, 20.0, KINETICS, cells=20),
-        wet(0.5, 0.4),
-        air(4.0, 0.01, 450.0),
+        wet(ONE, 0.5, 0.4),
+        air(ONE, 4.0, 0.01, 450.0),
     ),
     "fluidized bed": (
         lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS, cells=4),
-        wet(0.5, 0.4),
-        air(8.0, 0.01, 400.0),
+        wet(ONE, 0.5, 0.4),
+        air(ONE, 8.0, 0.01, 400.0),
     ),
     "fluidized bed, mixed": (
         lambda f, g: FluidBedDryer.size(0.1, f, g, 1.0, KINETICS),
-        wet(0.5, 0.4),
-        air(8.0, 0.01, 400.0),
+        wet(ONE, 0.5, 0.4),
+        air(ONE, 8.0, 0.01, 400.0),
     ),
     "spray": (
         lambda f, g: SprayDryer.size(0.1, f, g, 3.0, GivenDrops("100 um"), KINETICS, cells=20),
-        wet(0.1, 1.5, mixture=FINE),
-        air(4.0, 0.01, 450.0, FINE),
+        wet(FINE, 0.1, 1.5),
+        air(FINE, 4.0, 0.01, 450.0),
     ),
     "belt": (
         lambda f, g: BeltDryer.size(0.1, f, 0.8, g, 0.05, 500.0, KINETICS, layers=6, steps=12),
-        wet(0.05, 0.8),
-        air(1.0, 0.01, 380.0),
+        wet(ONE, 0.05, 0.8),
+        air(ONE, 1.0, 0.01, 380.0),
     ),
 }
 
@@ -275,15 +267,15 @@ def test_sizing_and_rating_agree_and_balances_close(name: str) -> None:
 
 def test_what_cannot_be_is_said() -> None:
     damp = Gab(0.06, 10.0, 0.9)
-    feed, gas = wet(0.5, 0.4), air(3.0, 0.01, 330.0)
+    feed, gas = wet(ONE, 0.5, 0.4), air(ONE, 3.0, 0.01, 330.0)
     with pytest.raises(ApplicabilityError, match="equilibrium with the inlet gas"):
         TunnelDryer.size(0.001, feed, gas, 0.1, 1.0, 20.0, SurfaceKinetics(0.3, isotherm=damp), cells=5)
     with pytest.raises(ApplicabilityError, match="already as dry"):
         TunnelDryer.size(0.5, feed, gas, 0.1, 1.0, 20.0, KINETICS, cells=5)
     with pytest.raises(ApplicabilityError, match="more or hotter gas"):
-        TunnelDryer.size(0.05, feed, air(0.5, 0.01, 330.0), 0.1, 1.0, 20.0, KINETICS, cells=5)
+        TunnelDryer.size(0.05, feed, air(ONE, 0.5, 0.01, 330.0), 0.1, 1.0, 20.0, KINETICS, cells=5)
     hot = TunnelDryer(7200.0, 0.1, 1.0, 20.0, KINETICS, temperature_limit=320.0, cells=5)
-    little = air(20.0, 0.01, 360.0)
+    little = air(ONE, 20.0, 0.01, 360.0)
     inlets = {"feed": feed, "gas": little}
     failed = {c.name for c in hot.operate(**inlets).checks if not c.ok}
     assert "product temperature over its limit" in failed
@@ -303,7 +295,7 @@ def test_flash_dryer_in_a_recycle() -> None:
         "flash": FlashDryer(25.0, 1.4, KINETICS, feed_velocity=3.0, cells=20),
         "splitter": Splitter(0.5),
     }
-    feeds = {"wet": wet(0.8, 0.7), "air": air(24.0, 0.01, 458.0)}
+    feeds = {"wet": wet(ONE, 0.8, 0.7), "air": air(ONE, 24.0, 0.01, 458.0)}
     links = {
         "wet": ("", "mixer.fresh"),
         "air": ("", "flash.gas"),
@@ -326,8 +318,8 @@ def test_a_layer_in_long_steps_dries_as_in_short_ones() -> None:
     """
     dryer, feed, gas = (
         BeltDryer(100.0, 0.05, 500.0, KINETICS, layers=6, steps=12),
-        wet(0.05, 0.8),
-        air(5.0, 0.01, 380.0),
+        wet(ONE, 0.05, 0.8),
+        air(ONE, 5.0, 0.01, 380.0),
     )
     found, out = dryer.profile(feed, gas), dryer(feed, gas)
     assert bool(found.converged)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
@@ -15,7 +14,7 @@ from granum.drying.balances import savings as s
 from granum.drying.balances.convective import dryer_balance
 from granum.drying.balances.indices import dry_gas_flow_evaporation
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "dryers"
+FOLDER = EXAMPLES / "dryers"
 MAIZE = {
     "mass_flow_inlet": 100.0,
     "moisture_dry_basis_inlet": 0.54,
@@ -431,7 +430,7 @@ def test_heat_pump_and_direct_firing():
 
 
 def test_convective_dryer_in_a_line():
-    run = gr.read(EXAMPLES / "balance.toml").solve()
+    run = gr.read(FOLDER / "balance.toml").solve()
     assert run.figure("dryer.evaporation_rate") * 3600 == pytest.approx(23.3, rel=0.005)
     assert run.figure("dryer.humidity_ratio_outlet") == pytest.approx(20.1e-3, rel=0.005)
     assert run.figure("dryer.heat_duty_heater") == pytest.approx(2284 / 3600 * 26e3, rel=0.02)
@@ -441,7 +440,7 @@ def test_convective_dryer_in_a_line():
 
 
 def test_convective_dryer_says_what_fails():
-    line = gr.read(EXAMPLES / "balance.toml")
+    line = gr.read(FOLDER / "balance.toml")
     with pytest.raises(ConvergenceError, match=r"dryer.*would hold .* times the vapor that saturates it"):
         line.with_values(**{"dryer.temperature_inlet": 313.15}).solve()
     warm = line.with_values(**{"dryer.temperature_limit": 280.0}).solve()
@@ -480,7 +479,7 @@ def test_closed_form_of_dry_air():
 def test_study_of_recirculation_stops_at_the_driest_air_it_may_leave():
     from granum.cases.studying import read_studies
 
-    best = read_studies(EXAMPLES / "recirculation.toml")["best"].run()
+    best = read_studies(FOLDER / "recirculation.toml")["best"].run()
     share = float(best.values["recirculated_fraction"])
     again = dryer_balance(
         evaporation_rate=1000 / 3600,

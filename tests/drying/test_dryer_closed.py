@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import jax.numpy as jnp
 import pytest
+from tests.sharing.streams import wet
 
 import granum as gr
 from granum.core.errors import InputError
@@ -17,10 +18,6 @@ from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 
 MIXTURE = mixture_of(["water"], ["starch"], ["dry air", "water"], [1e-3, 1e-2])
-
-
-def slurry(solid: float, water: float, T: float) -> Stream:
-    return empty(MIXTURE, T).replace(solid=jnp.array([[solid]]), liquid=jnp.array([water]))
 
 
 @ready
@@ -67,7 +64,7 @@ def test_heat_pump_dryer_beside_coolprop() -> None:
     taken = (1.0 - bypass) * (air("H", T=T2, W=w2) - air("H", T=coil, R=1.0)) - (w2 - w1) * condensate
     work = taken / (0.5 * 328.15 / (328.15 - 280.15) - 1.0)
     dryer = ClosedDryer(HeatPumpCircuit(phi, coil, bypass, 0.5, 5.0), T1, 0.0)
-    figures, checks = checked(dryer, slurry(1e-6, 1.0, 303.15))
+    figures, checks = checked(dryer, wet(MIXTURE, 1e-6, 1e6, 303.15))
     assert float(figures.temperature_outlet) == pytest.approx(T2, abs=0.1)
     assert float(figures.mass_flow_circulating) == pytest.approx(1.0 / (w2 - w1), rel=0.01)
     assert float(figures.shaft_power) == pytest.approx(work / (w2 - w1), rel=0.01)
@@ -82,7 +79,7 @@ def test_superheated_steam_and_its_recompression() -> None:
     compression of steam from a feed at boiling heat the notes' table III.2 has 160 to 200 kJ/kg.
     """
     dryer = ClosedDryer(SteamCircuit(393.15), 473.15, 0.0)
-    figures, checks = checked(dryer, slurry(1e-6, 1.0, 293.15))
+    figures, checks = checked(dryer, wet(MIXTURE, 1e-6, 1e6, 293.15))
     assert float(figures.mass_flow_circulating) == pytest.approx(16.57, rel=0.01)
     assert all(checks.values())
     run = gr.read("examples/dryers/steam.toml").solve()
@@ -91,7 +88,7 @@ def test_superheated_steam_and_its_recompression() -> None:
     assert run.figure("dryer.heat_duty_heater") < 0.0  # more than the circuit needs
     assert all(c.ok for c in run.units["dryer"].checks)
     _figures, checks = checked(
-        ClosedDryer(SteamCircuit("95 degC", "2 bar"), "150 degC", 0.05), slurry(1.0, 2.0, 373.0)
+        ClosedDryer(SteamCircuit("95 degC", "2 bar"), "150 degC", 0.05), wet(MIXTURE, 1.0, 2.0, 373.0)
     )
     assert sorted(checks.values()) == [
         False,

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.core.errors import ApplicabilityError, InputError
@@ -261,7 +262,7 @@ def test_a_batch_spreads_and_edges_dry_first():
 
 
 def test_freeze_dryer_in_a_line():
-    run = gr.read(HERE.parents[1] / "examples" / "dryers" / "freeze.toml").solve()
+    run = gr.read(EXAMPLES / "dryers" / "freeze.toml").solve()
     assert run.figure("dryer.drying_time_primary") / 3600 == pytest.approx(6.66, abs=0.01)
     assert run.figure("dryer.temperature_product") - 273.15 == pytest.approx(-14.77, abs=0.02)
     assert run.audit["mass_closure"] < 1e-12
@@ -292,7 +293,7 @@ def test_layer_of_food():
 
 def test_a_freeze_dryer_whose_duct_is_not_given(tmp_path: Path) -> None:
     """It has no choked flow to show, which is no reason to refuse it."""
-    example = Path(__file__).parents[2] / "examples/dryers/freeze.toml"
+    example = EXAMPLES / "dryers" / "freeze.toml"
     (tmp_path / "freeze.toml").write_text(
         "\n".join(row for row in example.read_text().splitlines() if not row.startswith("duct_diameter"))
     )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
+from tests.sharing.samples import SAMPLES
 
 import granum as gr
 from granum.core.errors import InputError
@@ -26,9 +27,9 @@ from granum.streams.stream import empty
 MIXTURE = mixture_of(["water"], ["calcite"], ["dry air", "water"], [0.9e-3, 1.1e-3])
 MATTER = Matter(MIXTURE, jnp.ones((1, 1)), jnp.array([1.0, 0.0]), 101325.0)
 WET = 0.1
-EXAMPLE = Path(__file__).parents[2] / "examples/dryers/fluid-bed.toml"
+EXAMPLE = EXAMPLES / "dryers" / "fluid-bed.toml"
 WIDE = mixture_of(["water"], ["calcite"], ["dry air", "water"], list(np.geomspace(1e-4, 4e-3, 5)))
-BEDS = max(200, int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0")))
+BEDS = max(200, SAMPLES)
 COOL = {"compiler_options": PLAIN} if jax.default_backend() == "cpu" else {}
 
 

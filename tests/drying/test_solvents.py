@@ -1,12 +1,11 @@
 """Every dryer dries with every pair of gas and vapor, whatever the order in which the gases stand."""
 
-import os
-from pathlib import Path
-
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
+from tests.sharing.samples import SAMPLES
 
 import granum as gr
 from granum.core.errors import ApplicabilityError
@@ -33,7 +32,6 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import Stream, empty
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 WET = SurfaceKinetics(0.05)
 DRYERS = {
     "bed": FluidBedDryer(0.5, 60.0, WET, cells=2),
@@ -54,7 +52,7 @@ LONG = {  # each compiles for a quarter of a minute
     "flash": FlashDryer(10.0, 0.2, WET, feed_velocity=1.0, cells=20),
     "spray": SprayDryer(4.0, 2.0, GivenDrops(8e-5, 20.0), WET, dry_density=1200.0, cells=20),
 }
-DRYERS |= LONG if os.environ.get("GRANUM_RANDOM_SAMPLES") else {}
+DRYERS |= LONG if SAMPLES else {}
 BOTH = ("bed", "balance", "tray", "drum", "condenser")  # tried in both orders, which compiles them twice
 
 

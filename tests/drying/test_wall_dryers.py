@@ -5,12 +5,12 @@ integrations.
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 from scipy.special import erf
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.core.errors import ApplicabilityError, ConvergenceError, InputError
@@ -20,7 +20,7 @@ from granum.drying.gas_solid.matter import Matter
 from granum.humid_gas import state
 from granum.streams.audit import closure
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "dryers"
+FOLDER = EXAMPLES / "dryers"
 
 
 def inlets_of(line):
@@ -31,7 +31,7 @@ def test_tray_of_the_textbook():
     """Dutta's example: 43.3 W/(m² K), 41.5 °C, 1.412 g/(m² s); 1.10 h and 2.63 h to 0.005 from 0.28 with
     35 kg/m².
     """
-    run = gr.read(EXAMPLES / "tray.toml").solve()
+    run = gr.read(FOLDER / "tray.toml").solve()
     assert run.figure("oven.heat_transfer_coefficient") == pytest.approx(43.3, rel=0.005)
     assert run.figure("oven.surface_temperature") - 273.15 == pytest.approx(41.5, abs=0.4)
     assert run.figure("oven.drying_rate_constant") == pytest.approx(1.412e-3, rel=0.02)
@@ -43,7 +43,7 @@ def test_tray_of_the_textbook():
 
 
 def test_tray_reports_what_cannot_be():
-    line = gr.read(EXAMPLES / "tray.toml")
+    line = gr.read(FOLDER / "tray.toml")
     with pytest.raises(ConvergenceError, match=r"'oven' has no solution.*without end"):
         line.with_values(**{"oven.equilibrium_moisture": 0.01, "oven.temperature_limit": 350.0}).solve()
     damp, inlets = line.with_values(**{"oven.radiated_heat": 2000.0}).sheet.units["oven"], inlets_of(line)
@@ -55,7 +55,7 @@ def test_a_load_on_trays_over_time():
     air cools as the closed form says; the edge that meets the air first leads; the whole takes as long as
     mean fluxes say.
     """
-    line = gr.read(EXAMPLES / "tray.toml")
+    line = gr.read(FOLDER / "tray.toml")
     unit, inlets = dataclasses.replace(line.sheet.units["oven"], tray_gap=0.04), inlets_of(line)
     feed, gas = inlets["feed"], inlets["gas"]
     figures = unit.operate(**inlets).figures
@@ -155,7 +155,7 @@ def test_paddle_dryer_has_the_capacity_of_the_notes():
     """Tables IV.21 and IV.22: sludge from 70 to 3.2 % with steam at 120 to 130 °C, 10 to 15 kg/(m² h), 10 min
     to 10 h.
     """
-    line = gr.read(EXAMPLES / "paddle.toml")
+    line = gr.read(FOLDER / "paddle.toml")
     run = line.solve()
     assert 10.0 <= run.figure("dryer.evaporation_per_area") * 3600 <= 15.0
     assert 600 <= run.figure("dryer.residence_time") <= 36000
@@ -175,14 +175,14 @@ def test_paddle_dryer_has_the_capacity_of_the_notes():
 
 def test_paddle_curve_conserves_heat():
     """Heat through the wall, integrated over the way, is what vapor and bed took up."""
-    line = gr.read(EXAMPLES / "paddle.toml")
+    line = gr.read(FOLDER / "paddle.toml")
     unit, feed = (
         dataclasses.replace(line.sheet.units["dryer"], pasty_moisture=None),
         line.sheet.feeds["sludge"],
     )
     bed = unit.curve(feed)
     X, T = np.asarray(bed.moisture), np.asarray(bed.temperature)
-    boiling, wall, coefficient, capacity, _liquid = (float(x) for x in unit._heat(feed))
+    boiling, wall, coefficient, capacity, _liquid = (float(x) for x in unit.inside(feed).heat)
     heat = []
     for x, t in zip(X, T, strict=True):
         p = c.penetration_drying(float(x), 403.15, float(t), wall, coefficient, capacity, 2256.5e3)
@@ -198,11 +198,11 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     """By hand: a mixture of 3.33 kg of solid and water at rest for the contact time takes 2√(ρcλ/(πt)); its
     water leaves at h ΔT/L until 1 kg/kg.
     """
-    line = gr.read(EXAMPLES / "paddle.toml")
+    line = gr.read(FOLDER / "paddle.toml")
     unit, feed = line.sheet.units["dryer"], line.sheet.feeds["sludge"]
     inlets = {"feed": feed}
     figures = unit.operate(**inlets).figures
-    X, capacity = 7 / 3, float(unit._heat(feed)[3])
+    X, capacity = 7 / 3, float(unit.inside(feed).heat.capacity)
     held = (capacity + X * 4216.0) / (
         1.0 / float(feed.solid_density) + X / 958.4
     )  # water of 100 °C, steam tables
@@ -226,7 +226,7 @@ def test_drum_dryer_of_the_notes():
     """Tables IV.3 and IV.4: potato flakes from 80 to about 5 %, 100 to 180 °C, 3 to 30 s, 15 to 40 kg/(m² h);
     1.1 to 1.6 kg of steam.
     """
-    line = gr.read(EXAMPLES / "drum.toml")
+    line = gr.read(FOLDER / "drum.toml")
     run = line.solve()
     moisture = run.figure("drum.moisture_dry_basis")
     assert moisture / (1 + moisture) == pytest.approx(0.05, abs=0.015)
@@ -247,7 +247,7 @@ def test_drum_dryer_of_the_notes():
 
 
 def test_drum_sized_and_run_meet():
-    line = gr.read(EXAMPLES / "drum.toml")
+    line = gr.read(FOLDER / "drum.toml")
     unit, feed = line.sheet.units["drum"], line.sheet.feeds["mash"]
     more = {"heat_transfer_coefficient": 780.0, "critical_moisture": 0.5}
     for moisture in (0.05, 0.2, 0.5, 1.5):

@@ -8,9 +8,8 @@ import json
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from tests.sharing.commands import granum
 
-from granum.cli import app
 from granum.core.errors import GranumError
 from granum.estimation import CardData, fit, fit_together, next_experiment, optimal_design
 
@@ -109,27 +108,23 @@ def test_on_the_command_line(tmp_path) -> None:
         "particle_density=2650kg/m3",
         "fluid_density=1000kg/m3",
     ]
-    outcome = CliRunner().invoke(
-        app, [*words, "--estimate", "dynamic_viscosity=2mPa*s", "--json", "--chart", str(tmp_path / "c.html")]
+    code, out, _err = granum(
+        *words, "--estimate", "dynamic_viscosity=2mPa*s", "--json", "--chart", tmp_path / "c.html"
     )
-    assert outcome.exit_code == 0
-    assert json.loads(outcome.stdout)["parameters"]["dynamic_viscosity"]["value"] == pytest.approx(
-        2.7e-3, rel=0.05
-    )
+    assert code == 0
+    assert json.loads(out)["parameters"]["dynamic_viscosity"]["value"] == pytest.approx(2.7e-3, rel=0.05)
     assert "plotly" in (tmp_path / "c.html").read_text()
-    outcome = CliRunner().invoke(
-        app, [*words, "--estimate", "dynamic_viscosity", "--robust", "--next", "--json"]
-    )
-    told = json.loads(outcome.stdout)["next"]  # v = k d²: the largest grain tells most
+    _code, out, _err = granum(*words, "--estimate", "dynamic_viscosity", "--robust", "--next", "--json")
+    told = json.loads(out)["next"]  # v = k d²: the largest grain tells most
     assert told["at"]["particle_diameter"]["value"] == pytest.approx(150e-6)
     assert 0.5 < told["shrinkage"] < 1.0
     assert (
         "Next measurement: particle diameter"
-        in CliRunner().invoke(app, [*words, "--estimate", "dynamic_viscosity", "--next"]).stdout
+        in granum(*words, "--estimate", "dynamic_viscosity", "--next")[1]
     )
-    outcome = CliRunner().invoke(app, words)
-    assert outcome.exit_code == 2
-    assert "--estimate dynamic_viscosity" in outcome.stderr
+    code, _out, err = granum(*words)
+    assert code == 2
+    assert "--estimate dynamic_viscosity" in err
 
 
 def test_sets_fitted_together_weigh_as_they_scatter() -> None:

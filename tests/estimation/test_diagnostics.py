@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy import stats
-from tests.estimation.lab_data import data, keys
+from tests.sharing.lab_data import data, keys
 
 from granum.core import registry
 from granum.core.errors import ConvergenceError, InputError

@@ -7,17 +7,17 @@ number.
 from __future__ import annotations
 
 import io
-import os
 
 import numpy as np
 import pytest
+from tests.sharing.samples import SAMPLES
 
 from granum.core.errors import GranumError, InputError
 from granum.estimation import read_table
 from granum.estimation.tables import as_csv
 from granum.filtration.lab_tests.leaf_test import LeafTest
 
-FILES = max(300, int(os.environ.get("GRANUM_RANDOM_SAMPLES", "0")))
+FILES = max(300, SAMPLES)
 COLUMNS = [p for p in LeafTest.card.parameters if p.series]
 SPOILED = [
     "",

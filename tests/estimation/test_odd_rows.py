@@ -8,7 +8,7 @@ import io
 
 import numpy as np
 import pytest
-from tests.estimation.lab_data import data, keys
+from tests.sharing.lab_data import data, keys
 
 from granum.core import registry
 from granum.core.errors import ConvergenceError, InputError

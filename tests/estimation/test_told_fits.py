@@ -5,11 +5,11 @@ numbers.
 from __future__ import annotations
 
 import io
-from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.estimation.lab_data import data
+from tests.sharing.lab_data import data
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.estimation import CardData, fit
@@ -18,8 +18,6 @@ from granum.filtration.lab_tests.rate_tests import VariablePressureTest
 from granum.flowsheet.fitted import fit_notices
 from granum.settling import kynch
 from granum.settling.lab_tests import batch_test
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def test_false_alarms_are_rare_where_scatter_is_in_proportion() -> None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 LINES = ("sewage-sludge", "ore-grinding", "batch-pharma", "starch-drying")
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import io
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 from granum.core.errors import ApplicabilityError, InputError, UnitError
 from granum.filtration.formulas.constant_pressure import filtration_time_constant_pressure
@@ -14,7 +14,7 @@ from granum.filtration.formulas.mass_balance import dry_cake_per_filtrate
 from granum.filtration.formulas.readings import ruth_constants_readings
 from granum.filtration.lab_tests.leaf_test import LeafTest
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "leaf-filter"
+FOLDER = EXAMPLES / "leaf-filter"
 GEANKOPLIS = {
     "area": "0.0439 m2",
     "pressure_drop": "338 kPa",
@@ -24,7 +24,7 @@ GEANKOPLIS = {
 
 
 def test_geankoplis_example_14_2_1_leaves_out_the_first_point():
-    found = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS).fit()
+    found = LeafTest.read(FOLDER / "leaf_geankoplis.csv", **GEANKOPLIS).fit()
     # printed: slope 3.00e6 s/m6 and intercept 6400 s/m3 read from a drawn line, α = 1.863e11 m/kg, R =
     # 10.63e10 1/m
     assert found["cake_resistance"].value == pytest.approx(1.863e11, rel=0.005)
@@ -35,11 +35,11 @@ def test_geankoplis_example_14_2_1_leaves_out_the_first_point():
     assert low < 1.863e11 < high
     assert [f["flag"] for f in found.flags] == ["points excluded"]
     assert found.statistics["points_excluded"] == 1
-    whole = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS, first_points_excluded="0").fit()
+    whole = LeafTest.read(FOLDER / "leaf_geankoplis.csv", **GEANKOPLIS, first_points_excluded="0").fit()
     assert whole["cake_resistance"].value == pytest.approx(
         1.79e11, rel=0.005
     )  # by numpy.polyfit over all ten points
-    figure = LeafTest.read(EXAMPLES / "leaf_geankoplis.csv", **GEANKOPLIS).chart()
+    figure = LeafTest.read(FOLDER / "leaf_geankoplis.csv", **GEANKOPLIS).chart()
     assert figure.data[-1].name == "excluded"
     assert len(figure.data[-1].x) == 1
 
@@ -50,7 +50,7 @@ def test_holdich_spreadsheet():
     W = dry_cake_per_filtrate(solids_mass_fraction=0.1, liquid_density=1000, wet_to_dry_mass_ratio=1280 / 635)
     assert pytest.approx(125.24655, rel=1e-7) == W
     test = LeafTest.read(
-        EXAMPLES / "leaf_holdich.csv",
+        FOLDER / "leaf_holdich.csv",
         area="2.72 m2",
         pressure_drop="3 bar",
         dynamic_viscosity="1 mPa*s",
@@ -119,7 +119,7 @@ def test_flags_settling_and_negative_intercept():
 def test_clear_messages():
     with pytest.raises(InputError, match="Did you mean 'pressure_drop'"):
         LeafTest.read(
-            EXAMPLES / "leaf_holdich.csv",
+            FOLDER / "leaf_holdich.csv",
             area=1,
             presure_drop=1e5,
             dynamic_viscosity=1e-3,
@@ -127,7 +127,7 @@ def test_clear_messages():
         )
     with pytest.raises(UnitError, match="unit 's' does not fit"):
         LeafTest.read(
-            EXAMPLES / "leaf_holdich.csv",
+            FOLDER / "leaf_holdich.csv",
             area="3 s",
             pressure_drop=1e5,
             dynamic_viscosity=1e-3,

@@ -4,7 +4,6 @@ units.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import equinox as eqx
@@ -13,6 +12,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.sharing.places import EXAMPLES
+from tests.sharing.streams import WATER
 
 import granum as gr
 from granum.comminution.breakage import AustinBreakage, AustinSelection
@@ -29,7 +30,6 @@ from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
 from granum.streams.units import Unit
 
-WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
 SALT = Species("salt", (("salt", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
 BRINE = Mixture((), (WATER, SALT), (), (1e-6, 1e-3))
 _march = eqx.filter_jit(march)
@@ -236,7 +236,7 @@ def test_wrong_dynamics_say_what(old: str, new: str, message: str) -> None:
 
 
 def test_cycles_of_batch_units() -> None:
-    run = gr.read(Path(__file__).parents[2] / "examples" / "batch-pharma" / "line.toml").solve()
+    run = gr.read(EXAMPLES / "batch-pharma" / "line.toml").solve()
     plan = run.schedule()
     assert list(plan.cycles) == ["crystallizer", "filter", "oven"]
     assert plan.cycles["crystallizer"].length == pytest.approx(7200.0)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import jax
 import jax.numpy as jnp
 import pytest
+from tests.sharing.streams import FEED, loop
 
 from granum.core.errors import CaseError
 from granum.flowsheet import Flowsheet, line_closure, solve, solve_compiled, unit_closures
@@ -14,44 +15,23 @@ from granum.flowsheet.drawing import draw
 from granum.flowsheet.plan import Link, plan
 from granum.flowsheet.specifications import Target, design
 from granum.streams.equipment.basics import Heater, Mixer, Splitter
-from granum.streams.mixture import Mixture, Species
-from granum.streams.stream import empty
 
-WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
-MIXTURE = Mixture((), (WATER,), (), (1e-6, 1e-3))
-FEED = empty(MIXTURE, 330.0).replace(liquid=jnp.array([1.0]))
-
-
-def loop(side_fraction: float = 0.7) -> Flowsheet:
-    units = {
-        "mix": Mixer(),
-        "heat": Heater(temperature=333.15),
-        "split": Splitter(side_fraction=side_fraction),
-        "cool": Heater(temperature=300.0),
-    }
-    links = {
-        "feed": ("", "mix.fresh"),
-        "mixed": ("mix", "heat"),
-        "hot": ("heat", "split"),
-        "back_hot": ("split.side", "cool"),
-        "back": ("cool", "mix.back"),
-    }
-    return Flowsheet(units, {"feed": FEED}, links)
+HEATER = Heater(temperature=333.15)
 
 
 def test_recycle_is_the_geometric_series() -> None:
-    solution = solve_compiled(loop(0.7))
+    solution = solve_compiled(loop(HEATER))
     assert bool(solution.converged)
     assert float(solution.streams["mixed"].mass_flow) == pytest.approx(1 / (1 - 0.7), rel=1e-11)
     assert float(solution.streams["split.product"].mass_flow) == pytest.approx(1.0, rel=1e-11)
     # by hand: (330·1 + 300·7/3)/(10/3) = 309 K, heated to 333.15 K
-    assert float(solution.powers["heat"]["heat_duty"]) == pytest.approx(
+    assert float(solution.powers["middle"]["heat_duty"]) == pytest.approx(
         10 / 3 * 4000.0 * (333.15 - 309.0), rel=1e-10
     )
 
 
 def test_units_and_line_close() -> None:
-    line = loop()
+    line = loop(HEATER)
     solution = solve_compiled(line)
     assert float(line_closure(line, solution).mass) < 1e-11
     for found in unit_closures(line, solution).values():
@@ -61,7 +41,8 @@ def test_units_and_line_close() -> None:
 
 def test_gradient_through_the_recycle_is_exact() -> None:
     def duty(fraction: float) -> jax.Array:
-        return solve(loop().with_values({"split.side_fraction": fraction})).powers["heat"]["heat_duty"]
+        line = loop(HEATER).with_values({"split.side_fraction": fraction})
+        return solve(line).powers["middle"]["heat_duty"]
 
     # duty = 4000·[333.15/(1-f) − 330 − 300 f/(1-f)]; derivative 4000·33.15/(1-f)²
     expected = 4000.0 * 33.15 / 0.3**2
@@ -70,26 +51,27 @@ def test_gradient_through_the_recycle_is_exact() -> None:
 
 
 def test_a_loop_without_a_way_out_is_not_called_converged() -> None:
-    assert not bool(solve_compiled(loop(1.0)).converged)
+    assert not bool(solve_compiled(loop(HEATER, 1.0)).converged)
 
 
 def test_batch_of_lines() -> None:
-    flows = jax.jit(
-        jax.vmap(lambda f: solve(loop().with_values({"split.side_fraction": f})).streams["mixed"].mass_flow)
-    )(jnp.array([0.1, 0.5, 0.9]))
+    def mixed(fraction: jax.Array) -> jax.Array:
+        return solve(loop(HEATER).with_values({"split.side_fraction": fraction})).streams["mixed"].mass_flow
+
+    flows = jax.jit(jax.vmap(mixed))(jnp.array([0.1, 0.5, 0.9]))
     assert flows.tolist() == pytest.approx([1 / 0.9, 2.0, 10.0], rel=1e-10)
 
 
 def test_specification_finds_the_split() -> None:
     target = Target("split.side_fraction", "mix.mass_flow", 4.0, 0.0, 0.95)
-    found = design(loop(), (target,))
+    found = design(loop(HEATER), (target,))
     assert bool(found.converged)
     assert float(found.values["split.side_fraction"]) == pytest.approx(0.75, abs=1e-9)
 
 
 def test_specification_out_of_reach_is_refused() -> None:
     assert not bool(
-        design(loop(), (Target("split.side_fraction", "mix.mass_flow", 400.0, 0.0, 0.95),)).converged
+        design(loop(HEATER), (Target("split.side_fraction", "mix.mass_flow", 400.0, 0.0, 0.95),)).converged
     )
 
 
@@ -147,7 +129,7 @@ def test_wrong_connections_say_what_and_where(links: dict[str, tuple[str, str]],
 
 
 def test_drawing_names_every_unit_and_stream() -> None:
-    line = loop()
+    line = loop(HEATER)
     svg = draw(line, solve_compiled(line).streams)
     for name in (*line.order, *(k.name for k in line.links)):
         assert f'"{name}"' in svg

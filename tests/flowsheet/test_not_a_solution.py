@@ -9,36 +9,31 @@ from pathlib import Path
 
 import jax.numpy as jnp
 import pytest
-from typer.testing import CliRunner
+from tests.sharing.commands import granum
+from tests.sharing.streams import FEED, ONLY_WATER, loop
 
 import granum as gr
-from granum.cli import app
 from granum.core import flags
 from granum.core.errors import ConvergenceError
 from granum.flowsheet import Flowsheet, ladder
 from granum.flowsheet.run import Line
 from granum.flowsheet.watching import Watch
 from granum.streams.equipment.basics import Heater, Mixer, Single, Splitter
-from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
-
-WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
-MIXTURE = Mixture((), (WATER,), (), (1e-6, 1e-3))
-FEED = empty(MIXTURE, 330.0).replace(liquid=jnp.array([1.0]))
 
 
 class Leak(Mixer):
     """Loses a millionth."""
 
     def outlets(self, inside: None, **inlets: Stream) -> Single:
-        return Single(sum(inlets.values(), start=empty(MIXTURE)).part(1.0, 1.0 - 1e-6, 1.0))
+        return Single(sum(inlets.values(), start=empty(ONLY_WATER)).part(1.0, 1.0 - 1e-6, 1.0))
 
 
 class Warmer(Mixer):
     """Gives a warmth that nobody pays for."""
 
     def outlets(self, inside: None, **inlets: Stream) -> Single:
-        joined = sum(inlets.values(), start=empty(MIXTURE))
+        joined = sum(inlets.values(), start=empty(ONLY_WATER))
         return Single(joined.replace(temperature=joined.temperature + 1e-3))
 
 
@@ -46,7 +41,7 @@ class Nowhere(Mixer):
     """Gives no number."""
 
     def outlets(self, inside: None, **inlets: Stream) -> Single:
-        return Single(sum(inlets.values(), start=empty(MIXTURE)).replace(temperature=jnp.asarray(jnp.nan)))
+        return Single(sum(inlets.values(), start=empty(ONLY_WATER)).replace(temperature=jnp.asarray(jnp.nan)))
 
 
 class Unsettled(Mixer):
@@ -54,25 +49,7 @@ class Unsettled(Mixer):
 
     def outlets(self, inside: None, **inlets: Stream) -> Single:
         flags.record(flags.NOT_CONVERGED, jnp.asarray(True), jnp.zeros(()), "inner balance", "streams.mixer")
-        return Single(sum(inlets.values(), start=empty(MIXTURE)))
-
-
-def loop(middle) -> Line:
-    """The recycle of the other tests, with one unit between the mixer and the splitter."""
-    units = {
-        "mix": Mixer(),
-        "middle": middle,
-        "split": Splitter(side_fraction=0.7),
-        "cool": Heater(temperature=300.0),
-    }
-    links = {
-        "feed": ("", "mix.fresh"),
-        "mixed": ("mix", "middle.feed"),
-        "hot": ("middle", "split"),
-        "back_hot": ("split.side", "cool"),
-        "back": ("cool", "mix.back"),
-    }
-    return Line("loop", Flowsheet(units, {"feed": FEED}, links))
+        return Single(sum(inlets.values(), start=empty(ONLY_WATER)))
 
 
 def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
@@ -93,7 +70,7 @@ def refusal(line: Line, watch: Watch | None = None) -> ConvergenceError:
     ],
 )
 def test_the_unit_at_fault_is_named_inside_a_loop(unit, words) -> None:
-    problem = refusal(loop(unit))
+    problem = refusal(Line("loop", loop(unit)))
     assert words in problem.message
     assert problem.details["unit"] == "middle"
 
@@ -102,7 +79,7 @@ class Thirsty(Mixer):
     """Has no answer while one of its inlets is empty, as a dryer without gas."""
 
     def outlets(self, inside: None, **inlets: Stream) -> Single:
-        joined = sum(inlets.values(), start=empty(MIXTURE))
+        joined = sum(inlets.values(), start=empty(ONLY_WATER))
         flows = jnp.all(jnp.stack([s.mass_flow > 0 for s in inlets.values()]))
         return Single(joined.replace(temperature=jnp.where(flows, joined.temperature, jnp.nan)))
 
@@ -259,11 +236,11 @@ def from_the_first_pass(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:
     told: list[tuple[str, int, float]] = []
     watch = Watch(lambda *row: told.append(row))
-    run = loop(Heater(temperature=333.15)).solve(watch)
+    run = Line("loop", loop(Heater(temperature=333.15))).solve(watch)
     assert told[0][:2] == ("back", 1)
     assert float(run.streams["mixed"].mass_flow) == pytest.approx(1 / 0.3, rel=1e-10)
     stopped = Watch(lambda *row: stopped.stop())
-    problem = refusal(loop(Heater(temperature=333.15)), stopped)
+    problem = refusal(Line("loop", loop(Heater(temperature=333.15))), stopped)
     assert problem.details["kind"] == "stopped"
     assert "Stopped after" in problem.message
 
@@ -277,20 +254,19 @@ def test_a_line_that_settles_soon_is_solved_before_anybody_watches() -> None:
 
 @pytest.mark.usefixtures("from_the_first_pass")
 def test_time_is_bounded() -> None:
-    problem = refusal(loop(Heater(temperature=333.15)), Watch(seconds=1e-9))
+    problem = refusal(Line("loop", loop(Heater(temperature=333.15))), Watch(seconds=1e-9))
     assert "Not solved within" in problem.message
 
 
 def test_command_line_gives_no_figures_unless_asked(tmp_path: Path) -> None:
     air(tmp_path)
     path = str(tmp_path / "line.toml")
-    plain = CliRunner().invoke(app, ["run", path])
-    assert plain.exit_code == 3
-    assert plain.stdout == ""
-    assert "humid_mixer" in plain.stderr
-    data = CliRunner().invoke(app, ["run", path, "--json"])
-    assert data.exit_code == 3
-    assert set(json.loads(data.stdout)) == {"error"}
-    asked = CliRunner().invoke(app, ["run", path, "--partial"])
-    assert asked.exit_code == 3
-    assert "not a solution" in asked.stdout
+    code, out, err = granum("run", path)
+    assert (code, out) == (3, "")
+    assert "humid_mixer" in err
+    code, out, _err = granum("run", path, "--json")
+    assert code == 3
+    assert set(json.loads(out)) == {"error"}
+    code, out, _err = granum("run", path, "--partial")
+    assert code == 3
+    assert "not a solution" in out

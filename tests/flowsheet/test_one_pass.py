@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import wraps
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum import studies
@@ -17,7 +17,7 @@ from granum.settling.equipment.gravity import AbstractSettler
 from granum.settling.equipment.thickener import Thickener
 from granum.streams.units import Unit
 
-BED = (Path(__file__).parents[2] / "examples" / "fluidized-bed" / "bed.toml").read_text(encoding="utf-8")
+BED = (EXAMPLES / "fluidized-bed" / "bed.toml").read_text(encoding="utf-8")
 OTHER_LAW = BED.replace('mass = "900 kg"', 'mass = "900 kg"\nminimum_fluidization = "saxena_vogel"')
 
 
@@ -89,7 +89,7 @@ def test_only_what_is_asked_for_is_worked_out(monkeypatch) -> None:
             return own(*given, **inlets)
 
         monkeypatch.setattr(Thickener, name, wraps(own)(counted))
-    feed = gr.read(Path(__file__).parents[2] / "examples" / "potassium-nitrate" / "line.toml").sheet.feeds
+    feed = gr.read(EXAMPLES / "potassium-nitrate" / "line.toml").sheet.feeds
     feed = next(iter(feed.values()))
     unit = Thickener(area=10.0, underflow_concentration=400.0, settling=gr.settling.Vesilind("5 m/hour", 0.5))
     unit(feed)

@@ -4,11 +4,10 @@ printed example.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 from granum.cases import read
 from granum.core.errors import ApplicabilityError
@@ -17,7 +16,7 @@ from granum.fluidization.formulas import bubbles, expansion, freeboard, two_phas
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import empty
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "fluidized-bed"
+FOLDER = EXAMPLES / "fluidized-bed"
 
 
 def test_two_phase_bed_by_hand_and_limits() -> None:
@@ -193,7 +192,7 @@ def test_liquid_bed_of_coulson_and_richardson() -> None:
 
 def test_backwash_case_runs() -> None:
     # filter sand of 0.8 mm at 40 m/h: Ergun's U_mf by hand 7.83 mm/s; expands by some 9 %
-    run = read(EXAMPLES / "backwash.toml").solve()
+    run = read(FOLDER / "backwash.toml").solve()
     assert run.figure("sand.minimum_fluidization_velocity") == pytest.approx(7.83e-3, rel=5e-3)
     assert 0.08 < run.figure("sand.height_expanded") / run.figure("sand.height_settled") - 1 < 0.11
     assert run.figure("sand.pressure_drop") == pytest.approx(770 * 9.80665 * (1 - 998.2 / 2650), rel=1e-3)
@@ -202,7 +201,7 @@ def test_backwash_case_runs() -> None:
 def test_gas_bed_case_runs() -> None:
     # weight of 900 kg on 1.5 m² and 30 % more for the plate; Wen and Yu's U_mf of the mean size inside the
     # printed scatter of Ergun's
-    found = read(EXAMPLES / "bed.toml").solve().as_json()
+    found = read(FOLDER / "bed.toml").solve().as_json()
     assert found["audit"]["mass_closure"] < 1e-12
     results = {k: v["value"] for k, v in found["units"]["bed"]["results"].items()}
     assert results["pressure_drop"] == pytest.approx(1.3 * 900 * 9.80665 / 1.5, rel=1e-3)

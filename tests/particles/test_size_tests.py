@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import runpy
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 from granum.core.errors import ApplicabilityError, InputError
 from granum.particles import charts_sizes
@@ -113,7 +113,7 @@ def test_surface_and_number_of_crushed_quartz_as_printed() -> None:
     assert 0.9925 * float(number) == pytest.approx(4148e3, rel=0.005)
     with pytest.raises(ApplicabilityError, match="amounts of all classes are zero"):
         means.mean_diameter_harmonic([1e-3, 2e-3], [0.0, 0.0])
-    data = Path(__file__).parents[2] / "examples" / "size-analysis" / "crushed_quartz_mccabe2005.csv"
+    data = EXAMPLES / "size-analysis" / "crushed_quartz_mccabe2005.csv"
     test = SieveAnalysis.read(data, in_class=ArithmeticMidpoint(), sphericity=0.571, solid_density=2650)
     assert test.fit()["specific_surface_mass"].value == pytest.approx(3.309, abs=2e-3)
 
@@ -174,4 +174,4 @@ def test_charts_are_straight_where_they_should_be() -> None:
 
 
 def test_the_example_folder_holds_its_printed_numbers() -> None:
-    runpy.run_path(str(Path(__file__).parents[2] / "examples" / "size-analysis" / "size_analysis.py"))
+    runpy.run_path(str(EXAMPLES / "size-analysis" / "size_analysis.py"))

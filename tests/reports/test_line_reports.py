@@ -5,16 +5,15 @@ outside, both languages.
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.sharing.places import EXAMPLES
 
 from granum.cases import read
 from granum.core.i18n import language
 from granum.reports.html import line_report, note_steps
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 LINES = ("grinding-circuit/circuit.toml", "humid-air/line.toml", "filters/drum.toml")
 
 

@@ -1,13 +1,10 @@
 """Results in notebooks and as labelled tables."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,12 @@ any pair.
 from __future__ import annotations
 
 import runpy
-from pathlib import Path
 from typing import Any
 
 import jax
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum
 from granum.core.errors import InputError
@@ -18,7 +18,6 @@ from granum.materials import fluid
 from granum.streams.feeding import feed
 from granum.streams.from_materials import mixture_of
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 EDGES = (1e-5, 1e-4, 1e-3)
 WET = mixture_of(["water"], ["quartz", "calcite"], ["dry air", "water"], EDGES)
 EVEN = {"fractions": [0.5, 0.5]}

@@ -4,12 +4,12 @@ enthalpy polynomial with streams.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
+from tests.sharing.streams import air
 
 from granum.cases.reading import read
 from granum.core.errors import ApplicabilityError
@@ -29,10 +29,6 @@ C = 273.15
 MIXTURE = mixture_of(["water"], ["calcite"], ["dry air", "water"], [1e-6, 1e-3])
 
 
-def air(T: float, w: float, dry: float = 1.0) -> Stream:
-    return empty(MIXTURE, T).replace(gas=jnp.array([dry, dry * w]))
-
-
 def water(T: float, flow: float) -> Stream:
     return empty(MIXTURE, T).replace(liquid=jnp.array([flow]))
 
@@ -49,7 +45,7 @@ def test_mixing_of_the_course_notes() -> None:
     first, second = (
         float(state(enthalpy=h, humidity_ratio=w).temperature) for h, w in ((100e3, 0.027), (160e3, 0.04))
     )
-    inlets = {"first": air(first, 0.027, 1.5), "second": air(second, 0.04, 2.5)}
+    inlets = {"first": air(MIXTURE, 1.5, 0.027, first), "second": air(MIXTURE, 2.5, 0.04, second)}
     out = HumidMixer()(**inlets)
     figures = HumidMixer().operate(**inlets).figures
     assert float(figures.humidity_ratio) == pytest.approx(0.035, rel=5e-3)
@@ -61,25 +57,25 @@ def test_mixing_of_the_course_notes() -> None:
 
 
 def test_fog_and_injected_steam() -> None:
-    inlets = {"warm": air(35 + C, 0.03), "cold": air(-10 + C, 0.001)}
+    inlets = {"warm": air(MIXTURE, 1.0, 0.03, 35 + C), "cold": air(MIXTURE, 1.0, 0.001, -10 + C)}
     fog = HumidMixer()(**inlets)
     figures = HumidMixer().operate(**inlets).figures
     assert float(figures.relative_humidity) == pytest.approx(1.0)
     assert float(figures.condensate_flow) > 0.003
     closes(list(inlets.values()), [fog.product])
     steam = empty(MIXTURE, 100 + C).replace(gas=jnp.array([0.0, 0.005]))
-    gas = air(25 + C, 0.005)
+    gas = air(MIXTURE, 1.0, 0.005, 25 + C)
     out = HumidMixer()(gas=gas, steam=steam)
     expected = processes.injection(25 + C, 0.005, 0.005, 2675.6e3)  # saturated steam at 100 °C, steam tables
     assert float(out.product.temperature) == pytest.approx(expected.temperature, abs=0.1)
     # a spray that the gas cannot take up leaves with it, at the adiabatic saturation temperature
     wet_bulb = float(state(temperature=60 + C, humidity_ratio=0.01).wet_bulb_temperature)
-    spray = HumidMixer()(gas=air(60 + C, 0.01), spray=water(wet_bulb, 0.1))
+    spray = HumidMixer()(gas=air(MIXTURE, 1.0, 0.01, 60 + C), spray=water(wet_bulb, 0.1))
     assert float(spray.product.temperature) == pytest.approx(wet_bulb, abs=0.05)
 
 
 def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
-    gas = air(30 + C, 0.02, 2.0)
+    gas = air(MIXTURE, 2.0, 0.02, 30 + C)
     out = CondenserCooler(10 + C)(gas)
     expected = processes.cooling(30 + C, 0.02, 10 + C, 2.0)
     figures = CondenserCooler(10 + C).operate(gas=gas).figures
@@ -93,7 +89,7 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     assert float(dry.condensate.mass_flow) == 0.0
     # by hand: 2 (1.006 + 0.02 · 1.86) 20 = 41.7 kW
     assert float(dry.heat_duty) == pytest.approx(41.7e3, rel=5e-3)
-    gas = air(30 + C, 0.016)
+    gas = air(MIXTURE, 1.0, 0.016, 30 + C)
     coil = DehumidifyingCoil(8 + C, 0.1)
     out = coil(gas)
     expected = processes.dehumidifying(30 + C, 0.016, 8 + C, 0.1)
@@ -106,7 +102,7 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
 
 
 def test_humidifier_follows_the_wet_bulb_line() -> None:
-    hot = air(80 + C, 0.01)
+    hot = air(MIXTURE, 1.0, 0.01, 80 + C)
     wet_bulb = float(state(temperature=80 + C, humidity_ratio=0.01).wet_bulb_temperature)
     inlets = {"gas": hot, "water": water(wet_bulb, 0.05)}
     full = AdiabaticHumidifier(1.0)(**inlets)
@@ -119,13 +115,13 @@ def test_humidifier_follows_the_wet_bulb_line() -> None:
     thirsty = AdiabaticHumidifier(1.0)(gas=hot, water=water(wet_bulb, 0.004))
     assert float(thirsty.drain.liquid_flow) == pytest.approx(0.0, abs=1e-15)
     assert not AdiabaticHumidifier(1.0).operate(gas=hot, water=water(wet_bulb, 0.004)).checks[0].ok
-    foggy = AdiabaticHumidifier(1.0)(gas=air(20 + C, 0.02), water=water(20 + C, 0.01))
+    foggy = AdiabaticHumidifier(1.0)(gas=air(MIXTURE, 1.0, 0.02, 20 + C), water=water(20 + C, 0.01))
     assert float(foggy.drain.liquid_flow) == pytest.approx(0.01)
 
 
 def test_gradients_are_finite_and_the_mixture_is_checked() -> None:
     def outlet(T: float) -> jax.Array:
-        return DehumidifyingCoil(T, 0.1)(air(30 + C, 0.016)).product.temperature
+        return DehumidifyingCoil(T, 0.1)(air(MIXTURE, 1.0, 0.016, 30 + C)).product.temperature
 
     slope, h = jax.grad(outlet)(8 + C), 1e-3
     assert float(slope) == pytest.approx(float(outlet(8 + C + h) - outlet(8 + C - h)) / (2 * h), rel=1e-5)
@@ -145,7 +141,7 @@ def test_solvent_in_nitrogen_condenses() -> None:
 
 
 def test_the_example_line() -> None:
-    run = read(Path(__file__).parents[2] / "examples" / "humid-air" / "line.toml").solve()
+    run = read(EXAMPLES / "humid-air" / "line.toml").solve()
     assert run.audit["mass_closure"] < 1e-9
     # ASHRAE table, saturated at 8 °C: 6.68 g/kg; a tenth of the mixed 27.2 g/kg passes the coil
     assert float(run.figure("heater.humidity_ratio")) == pytest.approx(

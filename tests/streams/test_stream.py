@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.sharing.streams import WATER
 
 from granum.core.errors import InputError
 from granum.streams.audit import closure
@@ -15,7 +16,6 @@ from granum.streams.equipment.basics import Heater, Mixer, Splitter
 from granum.streams.mixture import Mixture, Species
 from granum.streams.stream import Stream, empty
 
-WATER = Species("water", (("water", 1.0),), (1000.0,), (4000.0,), 0.0, 0.018)
 VAPOR = Species("water", (("water", 1.0),), (), (2000.0,), 2.5e6, 0.018)
 AIR = Species("air", (("air", 1.0),), (), (1000.0,), 0.0, 0.029)
 SALT = Species("salt", (("salt", 1.0),), (2000.0,), (800.0,), -1e5, 0.1)

@@ -8,31 +8,23 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
+from tests.sharing.commands import granum
+from tests.sharing.falling import SETTLING
+from tests.sharing.places import EXAMPLES, ROOT
 
 from granum.cases import read_studies
-from granum.cli import app
 from granum.core.errors import GranumError
-
-ROOT = Path(__file__).parents[2]
-SETTLING = ROOT / "examples" / "studies" / "settling.toml"
-
-
-def granum(*words: str) -> tuple[int, str, str]:
-    outcome = CliRunner().invoke(app, ["study", *words])
-    return outcome.exit_code, outcome.stdout, outcome.stderr
 
 
 def test_settling_example() -> None:
     """The spread of a lognormal diameter in Stokes' range: P90/P10 of the speed is close to 1.2**(2·2·1.2816)
     = 2.55, less inertia.
     """
-    code, out, _err = granum(str(SETTLING), "--json", "--samples", "1000")
+    code, out, _err = granum("study", SETTLING, "--json", "--samples", "1000")
     data = json.loads(out)["studies"]
     assert code == 0
     assert set(data) == {"spread", "influence", "map"}
@@ -52,7 +44,8 @@ def test_settling_example() -> None:
 def test_tables_and_report(tmp_path) -> None:
     report = tmp_path / "r.html"
     code, out, _err = granum(
-        str(SETTLING),
+        "study",
+        SETTLING,
         "spread",
         "--samples",
         "200",
@@ -96,12 +89,13 @@ def test_a_card_without_a_file() -> None:
     which is the bound of the optimum.
     """
     code, out, _err = granum(
-        *FALL, "particle_diameter=2..4um", "dynamic_viscosity=1cP", "--steps", "2", "--json"
+        "study", *FALL, "particle_diameter=2..4um", "dynamic_viscosity=1cP", "--steps", "2", "--json"
     )
     speed = json.loads(out)["studies"]["sweep"]["findings"]["table"]["terminal_velocity"]
     assert code == 0
     assert speed[1] / speed[0] == pytest.approx(4.0, rel=1e-3)
     code, out, _err = granum(
+        "study",
         *FALL,
         "particle_diameter=85um+-10%",
         "dynamic_viscosity=1.2..1.4cP",
@@ -125,7 +119,7 @@ def test_a_card_without_a_file() -> None:
         "capacity_use<=0.9",
         "--json",
     ]
-    code, out, err = granum(*BELT, *wanted)
+    code, out, err = granum("study", *BELT, *wanted)
     assert code == 0, err
     best = json.loads(out)["studies"]["optimize"]["findings"]["inputs"]
     assert best["horizontal_belt_filter.pressure_drop"]["value"] == pytest.approx(0.7e5, rel=1e-6)
@@ -157,11 +151,11 @@ def test_a_card_without_a_file() -> None:
         ([str(SETTLING), "map", "--samples", "5"], "has no 'samples'"),
         ([str(SETTLING), "spread", "--out", "x.dat"], ".nc, .parquet or .csv"),
         ([str(SETTLING), "spread", "--workers", "0"], "at least 1"),
-        ([str(ROOT / "examples" / "potassium-nitrate" / "line.toml")], "declares no study"),
+        ([str(EXAMPLES / "potassium-nitrate" / "line.toml")], "declares no study"),
     ],
 )
 def test_bad_input_gets_one_message_and_status_two(words: list[str], message: str) -> None:
-    code, _out, err = granum(*words)
+    code, _out, err = granum("study", *words)
     assert code == 2
     assert message in err
     assert len(err.strip().splitlines()) == 1
@@ -203,7 +197,7 @@ def test_continues_after_a_kill(tmp_path) -> None:
         "-m",
         "granum.cli",
         "study",
-        str(SETTLING),
+        SETTLING,
         "spread",
         "--samples",
         "1000000",
@@ -261,7 +255,7 @@ def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
 
 def test_netcdf_of_the_command(tmp_path) -> None:
     code, _out, _err = granum(
-        str(SETTLING), "spread", "--samples", "100", "--out", str(tmp_path / "x.nc"), "--seed", "3"
+        "study", SETTLING, "spread", "--samples", "100", "--out", str(tmp_path / "x.nc"), "--seed", "3"
     )
     assert code == 0
     with xr.open_dataset(tmp_path / "x.nc", engine="h5netcdf") as data:

@@ -7,30 +7,13 @@ import json
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.falling import SLURRY, SPREAD, STOKES
+from tests.sharing.formulas import own_formula
 
 from granum import studies
 from granum.core.errors import GranumError
-from granum.core.formulas import Formula
 from granum.core.kinds import Fraction, Number
-from granum.core.registry import _declared, _families
 from granum.studies.engine import Progress
-
-
-def own_formula(function) -> Formula:
-    """A formula for these tests only, out of the registry again."""
-    made = Formula(
-        function,
-        source="",
-        equation="",
-        fitted={},
-        typical={},
-        title=function.__name__,
-        output="ratio",
-        family="",
-    )
-    _declared.pop(made.key)
-    _families.pop("ratio", None)
-    return made
 
 
 def ishigami(x1: Number, x2: Number, x3: Number) -> Number:
@@ -50,11 +33,6 @@ def doubled(x1: Number) -> Fraction:
 
 ISHIGAMI, ROOT, DOUBLED = own_formula(ishigami), own_formula(root), own_formula(doubled)
 CIRCLE = {name: {"distribution": "uniform", "lower": -np.pi, "upper": np.pi} for name in ("x1", "x2", "x3")}
-STOKES = "particles.terminal_velocity_stokes"
-SLURRY = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-SPREAD = {
-    "particle_diameter": {"distribution": "lognormal", "median": "20 um", "geometric_standard_deviation": 1.3}
-}
 
 
 def test_sobol_indices_of_ishigami() -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 from granum.cases import read, read_studies
 
-CASE = Path(__file__).parents[2] / "examples" / "lab-to-plant" / "line.toml"
+CASE = EXAMPLES / "lab-to-plant" / "line.toml"
 
 
 @pytest.fixture(scope="module")

@@ -4,19 +4,18 @@ differences, through the recycle.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.cases import read_studies
 from granum.flowsheet.packing import compiled
 from granum.studies.lines import LineSubject
 
-FOLDER = Path(__file__).parents[2] / "examples" / "potassium-nitrate"
+FOLDER = EXAMPLES / "potassium-nitrate"
 INPUTS = (
     "crystallizer.temperature",
     "crystallizer.volume",

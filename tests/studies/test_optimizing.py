@@ -5,30 +5,12 @@ from __future__ import annotations
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.sharing.formulas import own_formula
 
 from granum import studies
 from granum.core.errors import GranumError
-from granum.core.formulas import Formula
 from granum.core.kinds import Number
-from granum.core.registry import _declared, _families
 from granum.studies.engine import Progress
-
-
-def own_formula(function) -> Formula:
-    """A formula for these tests only, out of the registry again."""
-    made = Formula(
-        function,
-        source="",
-        equation="",
-        fitted={},
-        typical={},
-        title=function.__name__,
-        output="ratio",
-        family="",
-    )
-    _declared.pop(made.key)
-    _families.pop("ratio", None)
-    return made
 
 
 def hs71(x1: Number, x2: Number, x3: Number, x4: Number) -> Number:

@@ -13,22 +13,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from tests.sharing.commands import granum
+from tests.sharing.falling import SETTLING, SLURRY, SPREAD, STOKES
 
 from granum import studies
 from granum.cases import read_studies
-from granum.cli import app
 from granum.core.errors import ConvergenceError, InputError
 from granum.studies import engine, store
 from granum.studies.study import Study
-
-ROOT = Path(__file__).parents[2]
-SETTLING = ROOT / "examples" / "studies" / "settling.toml"
-STOKES = "particles.terminal_velocity_stokes"
-SLURRY = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-SPREAD = {
-    "particle_diameter": {"distribution": "lognormal", "median": "20 um", "geometric_standard_deviation": 1.3}
-}
 
 
 def spread(folder: Path, **how: Any) -> Any:
@@ -236,17 +228,12 @@ def test_counts_are_bounded(count: Any) -> None:
         assert len(caught.value.message) < 200
 
 
-def granum(*words: str) -> tuple[int, str, str]:
-    outcome = CliRunner().invoke(app, ["study", *words])
-    return outcome.exit_code, outcome.stdout, outcome.stderr
-
-
 def test_the_command_names_a_bad_chunk_and_refuses_what_it_cannot_write(tmp_path: Path) -> None:
     out, parts = tmp_path / "x.csv", tmp_path / "x.csv.parts"
     read_studies(SETTLING)["spread"].with_options(samples=64).run(folder=parts)
     emptied(parts / "cases-000000000.npz", tmp_path)
     words = (str(SETTLING), "spread", "--samples", "64", "--out")
-    code, told, _err = granum(*words, str(out))
+    code, told, _err = granum("study", *words, str(out))
     assert code == 0
     assert "'cases-000000000.npz' was damaged" in told
     assert not parts.exists()
@@ -256,15 +243,15 @@ def test_the_command_names_a_bad_chunk_and_refuses_what_it_cannot_write(tmp_path
         (tmp_path / "file" / "x.csv", "there is no folder"),
         (tmp_path / "folder.csv", "cannot be written: Is a directory"),
     ):
-        code, told, err = granum(*words, str(place))
+        code, told, err = granum("study", *words, str(place))
         assert (code, told) == (2, "")
         assert says in err
-    code, told, err = granum(*words, str(out), "--report", str(tmp_path / "none" / "r.html"))
+    code, told, err = granum("study", *words, str(out), "--report", str(tmp_path / "none" / "r.html"))
     assert (code, told) == (2, "")
     assert "cannot be written" in err
     parts.mkdir()
     (parts / "study.json").write_text("{")
-    code, told, err = granum(*words, str(out))
+    code, told, err = granum("study", *words, str(out))
     assert (code, len(err.strip().splitlines())) == (2, 1)
     assert "delete the folder" in err
 
@@ -290,7 +277,9 @@ def test_ctrl_c_says_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         raise KeyboardInterrupt
 
     monkeypatch.setattr(engine.Store, "save", interrupted)
-    code, _told, err = granum(str(SETTLING), "spread", "--samples", "64", "--out", str(tmp_path / "x.csv"))
+    code, _told, err = granum(
+        "study", SETTLING, "spread", "--samples", "64", "--out", str(tmp_path / "x.csv")
+    )
     assert code == 130
     assert "the same command continues there" in err
     assert list((tmp_path / "x.csv.parts").glob("cases-*.npz"))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
+from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum.comminution.breakage import AustinBreakage, AustinSelection
@@ -398,7 +398,7 @@ def three_decks() -> Case:
 
 
 def example(name: str) -> Case:
-    return Case(gr.read(Path(__file__).parents[3] / "examples" / name).sheet)
+    return Case(gr.read(EXAMPLES / name).sheet)
 
 
 CASES: dict[str, Callable[[], Case]] = {

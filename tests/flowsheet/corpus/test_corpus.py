@@ -4,15 +4,13 @@ prints the pass rate.
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.flowsheet.corpus import cases as corpus
 
 from granum.core.errors import ConvergenceError
 from granum.flowsheet import Flowsheet, closures, solve
@@ -21,13 +19,6 @@ from granum.flowsheet.run import Line
 from granum.flowsheet.specifications import Target
 from granum.numerics import Anderson, Newton
 from granum.streams.equipment.basics import Mixer, Splitter
-
-_spec = importlib.util.spec_from_file_location("corpus_cases", Path(__file__).with_name("cases.py"))
-assert _spec is not None
-assert _spec.loader is not None
-corpus = importlib.util.module_from_spec(_spec)
-sys.modules[_spec.name] = corpus
-_spec.loader.exec_module(corpus)
 
 _solve = compiled(lambda line: solve(line))
 passed: list[str] = []

@@ -4,10 +4,10 @@ scatter.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from tests.sharing.places import ROOT
 
 from granum.core import registry
 from granum.drying.formulas.diffusion import plate
@@ -19,8 +19,6 @@ from granum.filtration.formulas.expression import consolidation_ratio_terzaghi
 from granum.filtration.formulas.washing import wash_effluent_concentration
 from granum.settling.kynch import kynch_height
 from granum.settling.velocities import Vesilind
-
-ROOT = Path(__file__).parents[2]
 
 
 class Data(NamedTuple):
