@@ -23,7 +23,7 @@ from granum.app.server import create_app
 from granum.app.telling import Cancelled, Tell, progress_text
 from granum.core.errors import InputError
 from granum.core.i18n import language
-from granum.studies import Study, engine
+from granum.studies import Study, chunks
 
 STUDY = {"card": STOKES, "inputs": SPHERE, "varied": ["particle_diameter"]}
 
@@ -170,7 +170,7 @@ def test_a_stopped_study_gives_what_it_has_computed() -> None:
 def test_every_kind_of_study_shows_a_part_of_itself(
     table: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(engine.CHUNKS, "batched", 4)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 4)
     said = [""]
     wanted = STUDY | {"varied": list(table.get("over") or table["uncertain"]), "table": table}
     found = tasks.TASKS["study"](

@@ -9,7 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.core import record_steps, registry
+from granum.core import record_steps
+from granum.core.conversion import law_of
 from granum.core.errors import ApplicabilityError, InputError, nearest
 from granum.core.files import write_atomic
 from granum.particles import drag_coefficient_stokes, reynolds_number, terminal_velocity
@@ -101,5 +102,5 @@ def test_atomic_write_replaces_or_leaves(tmp_path: Path) -> None:
 
 
 def test_law_with_options_as_text() -> None:
-    found = registry.law("partition_curve", "logistic", options={"cut_size": "100 um", "sharpness": 3.0})
+    found = law_of("partition_curve", "logistic", options={"cut_size": "100 um", "sharpness": 3.0})
     assert float(found(200e-6)) == pytest.approx(8 / 9)

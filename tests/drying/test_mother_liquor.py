@@ -8,7 +8,8 @@ import jax.numpy as jnp
 import pytest
 
 from granum.core.errors import GranumError
-from granum.core.flags import collect, describe
+from granum.core.flags import collect
+from granum.core.notices import describe
 from granum.drying.equipment.atomizers import GivenDrops
 from granum.drying.equipment.belt import BeltDryer
 from granum.drying.equipment.rotary import RotaryDryer

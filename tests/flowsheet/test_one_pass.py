@@ -10,7 +10,7 @@ from tests.sharing.places import EXAMPLES
 
 import granum as gr
 from granum import studies
-from granum.core import flags
+from granum.core.notices import describe
 from granum.flowsheet import Flowsheet, march
 from granum.fluidization.equipment.bed import FluidizedBed
 from granum.settling.equipment.gravity import AbstractSettler
@@ -40,9 +40,7 @@ def test_run_note_study_and_course_tell_the_same_flags(line) -> None:
         "fluidization.minimum_fluidization_velocity_saxena_vogel",
         "reynolds",
     ) in steady or any(flag == "extrapolated" and "saxena_vogel" in card for flag, card, _name in steady)
-    assert (
-        told(row for _steps, made in run._written.values() for row in flags.describe(made.records)) == steady
-    )
+    assert told(row for _steps, made in run._written.values() for row in describe(made.records)) == steady
     course = march(line.sheet, np.linspace(0.0, 2.0, 3))
     assert told(course.flags) == steady
     assert all(row["count"] == 3 for row in course.flags if row["flag"] == "extrapolated")

@@ -16,6 +16,7 @@ import pytest
 from granum import materials as m
 from granum.core import flags
 from granum.core.errors import ApplicabilityError, InputError
+from granum.core.notices import describe
 from granum.core.sources import bibliography, keys_of
 
 # Entered without re-reading the book; tolerances are the spread seen between the two tables (13 % for
@@ -322,4 +323,4 @@ def test_solution_properties_are_flagged_beyond_the_data_of_their_coefficients()
     ):
         with flags.collect() as records:
             system.density_law(T, w)
-        assert {row["name"] for row in flags.describe(records)} == expected
+        assert {row["name"] for row in describe(records)} == expected

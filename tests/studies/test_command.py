@@ -18,6 +18,7 @@ from tests.sharing.places import EXAMPLES, ROOT
 
 from granum.cases import read_studies
 from granum.core.errors import GranumError
+from granum.studies import chunks
 
 
 def test_settling_example() -> None:
@@ -228,9 +229,7 @@ def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
     here.
     """
     distributed = pytest.importorskip("distributed")
-    import granum.studies.engine as engine
-
-    monkeypatch.setitem(engine.CHUNKS, "batched", 256)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 256)
     study = read_studies(SETTLING)["spread"].with_options(samples=6400)
     here = study.run()
     killed: list[int] = []

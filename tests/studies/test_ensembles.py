@@ -13,6 +13,7 @@ from tests.sharing.formulas import own_formula
 from granum import studies
 from granum.core.errors import GranumError
 from granum.core.kinds import Fraction, Number
+from granum.studies import chunks
 from granum.studies.engine import Progress
 
 
@@ -190,7 +191,7 @@ def test_expressions_among_the_figures() -> None:
 
 
 def test_cancel_keeps_what_is_done(monkeypatch) -> None:
-    monkeypatch.setitem(studies.engine.CHUNKS, "batched", 64)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 64)
     seen: list[Progress] = []
     found = studies.monte_carlo(
         STOKES, SPREAD, fixed=SLURRY, samples=640, progress=seen.append, cancel=lambda: len(seen) > 3
@@ -205,19 +206,17 @@ def test_memory_bounds_the_chunk(monkeypatch) -> None:
     """With little memory the chunks shrink; the figures stay."""
     usual = studies.monte_carlo(STOKES, SPREAD, fixed=SLURRY, samples=4096)
     subject = studies.subject_of("particles.terminal_velocity", SLURRY)
-    wide = studies.engine.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
-    monkeypatch.setattr(
-        studies.engine, "MEMORY", max(wide.compiled.memory_analysis().temp_size_in_bytes // 8, 1)
-    )
-    narrow = studies.engine.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
+    wide = chunks.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
+    monkeypatch.setattr(chunks, "MEMORY", max(wide.compiled.memory_analysis().temp_size_in_bytes // 8, 1))
+    narrow = chunks.Evaluator.of(subject, ("particle_diameter",), ("terminal_velocity",), 4096)
     assert narrow.size <= wide.size // 4
-    assert narrow.compiled.memory_analysis().temp_size_in_bytes <= studies.engine.MEMORY
+    assert narrow.compiled.memory_analysis().temp_size_in_bytes <= chunks.MEMORY
     x = usual.cases.x[: narrow.size]
     assert narrow(x)[0] == pytest.approx(wide(x)[0], rel=1e-12)
 
 
 def test_restart_from_disk(tmp_path, monkeypatch) -> None:
-    monkeypatch.setitem(studies.engine.CHUNKS, "batched", 32)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 32)
     folder, seen = tmp_path / "parts", []
     how = {"fixed": SLURRY, "samples": 320, "folder": folder}
     first = studies.monte_carlo(STOKES, SPREAD, **how, progress=seen.append, cancel=lambda: len(seen) > 4)

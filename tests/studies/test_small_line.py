@@ -18,7 +18,7 @@ from granum import studies
 from granum.cases import read_studies, studies_of_line
 from granum.core.errors import GranumError
 from granum.flowsheet.specifications import design
-from granum.studies import engine
+from granum.studies import chunks
 from granum.studies.lines import LineSubject, verdict
 from granum.studies.subjects import FINE, NEGATIVE, NOT_CLOSED, UNMET
 
@@ -52,14 +52,14 @@ def test_slow_lines_are_looked_after_often(line, monkeypatch) -> None:
     """
     shares = np.linspace(0.2, 1.0, 9)
     seen: list[int] = []
-    monkeypatch.setattr(engine, "SLICE", 0.0)
+    monkeypatch.setattr(chunks, "SLICE", 0.0)
     how = {"outputs": ["hot.mass_flow", "warm.heat_duty", "out.liquid.water"]}
     found = studies.sweep(
         line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done)
     )
     assert seen == list(range(10))
     assert found.column("hot.mass_flow") == pytest.approx(1 / shares, rel=1e-9)
-    monkeypatch.setattr(engine, "SLICE", 1e9)
+    monkeypatch.setattr(chunks, "SLICE", 1e9)
     at_once = studies.sweep(
         line, {"divide.side_fraction": list(shares)}, **how, progress=lambda p: seen.append(p.done)
     )

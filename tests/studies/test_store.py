@@ -19,7 +19,7 @@ from tests.sharing.falling import SETTLING, SLURRY, SPREAD, STOKES
 from granum import studies
 from granum.cases import read_studies
 from granum.core.errors import ConvergenceError, InputError
-from granum.studies import engine, store
+from granum.studies import chunks, engine, store
 from granum.studies.study import Study
 
 
@@ -29,7 +29,7 @@ def spread(folder: Path, **how: Any) -> Any:
 
 @pytest.fixture(autouse=True)
 def _small_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(engine.CHUNKS, "batched", 32)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 32)
 
 
 @pytest.fixture
@@ -172,7 +172,7 @@ def test_a_finished_study_is_read_without_compiling(kept: Path, monkeypatch: pyt
 def test_a_study_goes_on_in_chunks_of_another_size(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Less memory, or workers instead of threads, make other chunks: those on disk keep theirs."""
     (kept / "cases-000000064.npz").unlink()
-    monkeypatch.setitem(engine.CHUNKS, "batched", 8)
+    monkeypatch.setitem(chunks.CHUNKS, "batched", 8)
     found = spread(kept)
     assert found.column("terminal_velocity") == pytest.approx(by_hand(found), rel=1e-12)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from granum.core import flags
 from granum.core.errors import ApplicabilityError
+from granum.core.notices import describe
 from granum.core.parameters import Parameter
 
 ROUNDING = (
@@ -120,7 +121,7 @@ def refuse_outside(outputs: Iterable[Parameter], out: Any, card: str) -> None:
                 "",
                 CONTRADICTION,
             )
-            raise ApplicabilityError(flags.describe([record])[0]["message"], name=p.name)
+            raise ApplicabilityError(describe([record])[0]["message"], name=p.name)
 
 
 def judged(outputs: Iterable[Parameter], out: Any, card: str, source: str) -> Any:
@@ -132,7 +133,7 @@ def judged(outputs: Iterable[Parameter], out: Any, card: str, source: str) -> An
         return out
     with flags.collect(flags.OUTSIDE_DOMAIN) as records:
         record_outside(outputs, out, card, source, 0)
-    told = flags.describe(records)
+    told = describe(records)
     if told and all(np.ndim(value) == 0 for _p, value in figures(outputs, out)):
         raise ApplicabilityError(told[0]["message"])
     return without_impossible(outputs, out, records, False)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from granum.core import given, units
+from granum.core import given, registry, units
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
@@ -252,12 +252,10 @@ def _law(value: Any, parameter: Parameter, where: str) -> Any:
         from granum.core.laws import as_law
 
         return as_law(value, parameter.law, parameter.name, where)
-    from granum.core.registry import law
-
     if isinstance(value, str) and value.lstrip().startswith("{"):
         value = _table(value, parameter, where)
     if isinstance(value, str):
-        return law(parameter.law, value, where)
+        return law_of(parameter.law, value, where)
     options = dict(value)
     name = options.pop("law", None)
     if not isinstance(name, str):
@@ -267,7 +265,29 @@ def _law(value: Any, parameter: Parameter, where: str) -> Any:
             ),
             name=parameter.name,
         )
-    return law(parameter.law, name, where, options)
+    return law_of(parameter.law, name, where, options)
+
+
+def law_of(family: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
+    """A law of a family by name, with the options a user gave for it: a class is made of them; a formula
+    keeps them, converted and checked as its inputs are.
+    """
+    found = registry.law(family, name, where)
+    if isinstance(found, type):
+        return found(**(options or {}))
+    if not options:
+        return found
+    from granum.core.laws import FormulaWith
+
+    known = {p.name: p for p in found.card.parameters}
+    for name in options:
+        if name not in known:
+            raise unknown_name(_("Option"), name, known, _("for {owner}").format(owner=found.key))
+    place = _(" for {owner}").format(owner=found.key) + where
+    values = {name: convert(value, known[name], place) for name, value in options.items()}
+    fixed = {n: v for n, v in values.items() if v is None or isinstance(v, (str, bool, int))}
+    numbers = {n: v for n, v in values.items() if n not in fixed}
+    return FormulaWith(found, tuple(fixed.items()), tuple(numbers), tuple(numbers.values()))
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from granum.core.cards import Card, Ranges, key_of, make_card
 from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.docstrings import CompletedDoc
 from granum.core.i18n import _
+from granum.core.notices import describe
 from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -168,7 +169,7 @@ def _evaluate(cls: Any, /, **inputs: Any) -> Result:
         out = _called(cls, **values)
     arrays = [np.shape(x) for x in jax.tree.leaves(out)]
     shape = arrays[0] if isinstance(out, tuple) else np.broadcast_shapes(*arrays)
-    told = {"flags": flags.bits(records, shape), "notices": flags.describe(records)}
+    told = {"flags": flags.bits(records, shape), "notices": describe(records)}
     return Result(card, values, out, **told, defaults=binder.left_out((), given), origins=origins)
 
 

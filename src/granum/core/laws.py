@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,7 +9,7 @@ import equinox as eqx
 import jax
 
 from granum.core import registry
-from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.errors import GranumError, InputError
 from granum.core.given import shown
 from granum.core.i18n import _
 
@@ -26,27 +25,6 @@ class FormulaWith:
     words: tuple[tuple[str, Any], ...] = field(metadata={"static": True})
     names: tuple[str, ...] = field(metadata={"static": True})
     values: tuple[Any, ...]
-
-    @staticmethod
-    def of(formula: Any, options: Mapping[str, Any], where: str = "") -> FormulaWith:
-        """A formula with the options a user gave for it, converted and checked as inputs of the formula
-        are.
-        """
-        from granum.core.conversion import convert
-
-        known = {p.name: p for p in formula.card.parameters}
-        for name in options:
-            if name not in known:
-                raise unknown_name(_("Option"), name, known, _("for {owner}").format(owner=formula.key))
-        place = _(" for {owner}").format(owner=formula.key) + where
-        found = {name: convert(value, known[name], place) for name, value in options.items()}
-        fixed = {
-            name: value
-            for name, value in found.items()
-            if value is None or isinstance(value, (str, bool, int))
-        }
-        numbers = {name: value for name, value in found.items() if name not in fixed}
-        return FormulaWith(formula, tuple(fixed.items()), tuple(numbers), tuple(numbers.values()))
 
     @property
     def card(self) -> Any:

@@ -8,7 +8,7 @@ import importlib
 import inspect
 import pkgutil
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
@@ -119,29 +119,20 @@ def _short_names(family_name: str, keys: Iterable[str]) -> dict[str, str]:
     return short
 
 
-def law(family_name: str, name: str, where: str = "", options: Mapping[str, Any] | None = None) -> Any:
-    """A law of a family by key, by name or by the author's part of the name; modules are built with
-    ``options``, formulas keep them.
-    """
+def law(family_name: str, name: str, where: str = "") -> Any:
+    """The declared law of a family, class or formula, by key, by name or by the author's part of the name."""
     listed = [entry.key for entry in entries().values() if entry.family == family_name]
     key = _short_names(family_name, [*listed, *_families.get(family_name, {})]).get(name)
     if key is None:
         everything()  # declared, but not in the index yet
         key = _short_names(family_name, _families.get(family_name, {})).get(name)
-    if key is None:
-        names = {
-            own.removeprefix(family_name).strip("_") or own
-            for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))
-        }
-        raise unknown_name(_("Law"), name, names, where)
-    found = known(key)
-    if isinstance(found, type):
-        return found(**(options or {}))
-    if options:
-        from granum.core.laws import FormulaWith
-
-        return FormulaWith.of(found, options, where)
-    return found
+    if key is not None:
+        return known(key)
+    names = {
+        own.removeprefix(family_name).strip("_") or own
+        for own in (k.split(".", 1)[1] for k in _families.get(family_name, {}))
+    }
+    raise unknown_name(_("Law"), name, names, where)
 
 
 @cache

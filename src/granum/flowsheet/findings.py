@@ -15,6 +15,7 @@ from granum.core import flags
 from granum.core.errors import GranumError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS, Kind
+from granum.core.notices import describe
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, show
 from granum.flowsheet.sheet import Flowsheet
@@ -150,7 +151,7 @@ def _unknown(line: Flowsheet, found: Findings, unit: str) -> bool:
 
 
 def _own_words(records: Mapping[str, list[flags.Record]], unit: str) -> Iterator[Fault]:
-    for row in flags.describe([r for r in records[unit] if r.bit & WRONG]):
+    for row in describe([r for r in records[unit] if r.bit & WRONG]):
         yield Fault(
             "no value",
             unit,

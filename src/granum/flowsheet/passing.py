@@ -14,6 +14,7 @@ import jax.numpy as jnp
 from granum.core import flags
 from granum.core.errors import GranumError
 from granum.core.i18n import _
+from granum.core.notices import describe
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.streams.stream import Stream
@@ -98,4 +99,4 @@ def pass_through(
 
 def told(records: Mapping[str, list[flags.Record]]) -> list[dict[str, Any]]:
     """What was flagged in each unit, one row a message, with the unit's name."""
-    return [{"unit": unit, **row} for unit, kept in records.items() for row in flags.describe(kept)]
+    return [{"unit": unit, **row} for unit, kept in records.items() for row in describe(kept)]

@@ -47,21 +47,21 @@ from granum.materials.formulas.ice import (
     ice_vapor_pressure as ice_vapor_pressure,
 )
 from granum.materials.formulas.precipitation import (
-    SaltSaturation as SaltSaturation,
     activity_coefficient_davies as activity_coefficient_davies,
     deprotonated_fraction as deprotonated_fraction,
     salt_molality_from_product as salt_molality_from_product,
-    salt_saturation as salt_saturation,
 )
 from granum.materials.formulas.properties import (
     GasProperties as GasProperties,
     LiquidProperties as LiquidProperties,
+    SaltSaturation as SaltSaturation,
     Saturation as Saturation,
     Solubility as Solubility,
     SolutionProperties as SolutionProperties,
     VaporInGas as VaporInGas,
     gas_properties as gas_properties,
     liquid_properties as liquid_properties,
+    salt_saturation as salt_saturation,
     saturated_solution as saturated_solution,
     solubility as solubility,
     solution_properties as solution_properties,

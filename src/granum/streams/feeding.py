@@ -10,8 +10,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from granum.core import registry
-from granum.core.conversion import convert
+from granum.core.conversion import convert, law_of
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
@@ -188,7 +187,7 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
         law = options.pop("law", None)
         if law is None:
             raise InputError(_("{where}: 'sizes' needs 'law' or 'fractions'.").format(where=where))
-        sizes = registry.law("size_distribution", law, where, options)
+        sizes = law_of("size_distribution", law, where, options)
     cumulative = np.asarray(sizes(mixture.edges))
     inside = cumulative[-1] - cumulative[0]
     if inside < LEAST_INSIDE:

@@ -15,6 +15,7 @@ import numpy as np
 
 from granum.core.errors import InputError
 from granum.core.i18n import _
+from granum.studies.chunks import evaluator
 from granum.studies.store import Part
 
 RETRIES = 5
@@ -27,8 +28,6 @@ def _built(recipe: Any) -> Any:
 
 def chunk(recipe: Any, inputs: tuple[str, ...], outputs: tuple[str, ...], size: int, x: np.ndarray) -> Part:
     """One chunk, computed in the process of a worker; the model is built there once."""
-    from granum.studies.engine import evaluator
-
     return evaluator(_built(recipe), inputs, outputs, size)(x)
 
 

@@ -30,6 +30,7 @@ from granum.core.kinds import (
     Time,
     Within,
 )
+from granum.core.notices import describe
 from granum.crystallization.formulas.nucleation import NoNucleation
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.grid import Collisions, check_classes
@@ -396,7 +397,7 @@ def check_charge(size: Any, width: Any, steps: int, ratio: Any, solubility: Any,
         )
     with flags.collect() as records:
         course = np.atleast_1d(np.asarray(solubility(jnp.asarray(temperatures, dtype=float))))
-    beyond = [row for row in flags.describe(records) if row["low"] and row["high"]]
+    beyond = [row for row in describe(records) if row["low"] and row["high"]]
     if beyond:
         met, low, high = (round(beyond[0][key] - ZERO_CELSIUS, 1) for key in ("worst", "low", "high"))
         raise ApplicabilityError(

@@ -1,8 +1,8 @@
-"""Sparingly soluble salts: activity coefficients, solubility products and the saturation they give."""
+"""Sparingly soluble salts: activity coefficients and the solutions that solubility products give."""
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 import jax.numpy as jnp
 
@@ -37,47 +37,6 @@ def activity_coefficient_davies(
     A = 1.8246e6 / (dielectric * temperature) ** 1.5
     root = jnp.sqrt(jnp.maximum(ionic_strength, 1e-16))
     return 10.0 ** (-A * charge_number**2 * (root / (1.0 + root) - 0.3 * ionic_strength))
-
-
-class SaltSaturation(NamedTuple):
-    """A sparingly soluble salt in a solution of its ions."""
-
-    solubility_product: PositiveNumber
-    saturation_index: Number
-    saturation_ratio: PositiveNumber
-
-
-@formula(
-    source="davies1962, ch. 3; haynes2014, sec. 5",
-    equation=(
-        r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
-        r"10^{\mathrm{SI}/(p+q)}"
-    ),
-    typical={"cation_molality": (1e-5, 1e-2), "anion_molality": (1e-5, 1e-2), "ionic_strength": (1e-3, 0.3)},
-    fitted={"ionic_strength": (0.0, 0.5)},
-    title="Saturation of a sparingly soluble salt",
-)
-def salt_saturation(
-    cation_molality: Molality,
-    anion_molality: Molality,
-    ionic_strength: Molality,
-    salt: str = "barium sulfate",
-) -> SaltSaturation:
-    """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies
-    activity coefficients.
-
-    Free ions only: complexes and protonated forms must be taken off first. ``granum.materials.names("salt")``
-    lists the salts.
-
-    >>> round(salt_saturation(1.04e-5, 1.04e-5, 0.0, salt="barium sulfate").saturation_ratio, 2)
-    1.0
-    """
-    from granum.materials.library import salt as find
-
-    found = find(salt)
-    index = found.saturation_index(cation_molality, anion_molality, ionic_strength)
-    product = found.solubility_product + 0.0 * index
-    return SaltSaturation(product, index, 10.0 ** (index / found.ion_count))
 
 
 @formula(

@@ -19,6 +19,7 @@ from granum.core.kinds import (
     MassFraction,
     MassRatio,
     Molality,
+    Number,
     PositiveNumber,
     Pressure,
     Ratio,
@@ -28,6 +29,7 @@ from granum.core.kinds import (
     ThermalConductivity,
 )
 from granum.materials.correlation import Missing
+from granum.materials.library import session
 
 
 def _or_nan(property_of: Any, temperature: Any) -> Any:
@@ -62,9 +64,7 @@ def liquid_properties(temperature: Temperature, fluid: str = "water") -> LiquidP
     >>> round(liquid_properties("25 degC", fluid="ethanol").dynamic_viscosity * 1e3, 1)
     1.1
     """
-    from granum.materials.library import fluid as find
-
-    f = find(fluid)
+    f = session().fluid(fluid)
     laws = (
         f.liquid_density,
         f.liquid_viscosity,
@@ -99,9 +99,7 @@ def gas_properties(
     >>> round(gas_properties("20 degC").gas_density, 3)
     1.204
     """
-    from granum.materials.library import fluid as find
-
-    f = find(fluid)
+    f = session().fluid(fluid)
     laws = (f.vapor_viscosity, f.vapor_heat_capacity, f.vapor_conductivity)
     return GasProperties(f.vapor_density(temperature, pressure), *(_or_nan(law, temperature) for law in laws))
 
@@ -169,9 +167,7 @@ def solubility(temperature: Temperature, system: str = "potassium nitrate") -> S
     >>> round(100 * found.solubility_per_solvent, 1), round(found.crystal_per_solute, 3)
     (71.0, 1.837)
     """
-    from granum.materials.library import solute
-
-    s = solute(system)
+    s = session().solute(system)
     T = temperature
     ratio = s.solubility(T)
     moles, solvent = ratio / s.molar_mass, 1.0 / s.solvent.molar_mass
@@ -216,9 +212,7 @@ def saturated_solution(temperature: Temperature, system: str = "potassium nitrat
     >>> round(saturated_solution("20 degC").liquid_density / 1e3, 2)
     1.16
     """
-    from granum.materials.library import solute
-
-    s = solute(system)
+    s = session().solute(system)
     T = temperature
     ratio = s.solubility(T)
     viscosity = jnp.nan + 0.0 * T if s.viscosity_law.is_missing else s.solution_viscosity(T, ratio)
@@ -260,10 +254,47 @@ def solution_properties(
     >>> round(brine.liquid_density), round(1000 * brine.dynamic_viscosity, 1)
     (1071, 1.2)
     """
-    from granum.materials.library import solute
-
-    s = solute(system)
+    s = session().solute(system)
     T, x = temperature, solute_mass_fraction
     gap = jnp.nan + 0.0 * (T + x)
     laws = (s.density_law, s.viscosity_law, s.heat_capacity_law)
     return SolutionProperties(*(gap if getattr(law, "is_missing", False) else law(T, x) for law in laws))
+
+
+class SaltSaturation(NamedTuple):
+    """A sparingly soluble salt in a solution of its ions."""
+
+    solubility_product: PositiveNumber
+    saturation_index: Number
+    saturation_ratio: PositiveNumber
+
+
+@formula(
+    source="davies1962, ch. 3; haynes2014, sec. 5",
+    equation=(
+        r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
+        r"10^{\mathrm{SI}/(p+q)}"
+    ),
+    typical={"cation_molality": (1e-5, 1e-2), "anion_molality": (1e-5, 1e-2), "ionic_strength": (1e-3, 0.3)},
+    fitted={"ionic_strength": (0.0, 0.5)},
+    title="Saturation of a sparingly soluble salt",
+)
+def salt_saturation(
+    cation_molality: Molality,
+    anion_molality: Molality,
+    ionic_strength: Molality,
+    salt: str = "barium sulfate",
+) -> SaltSaturation:
+    """Saturation index and ratio of a salt at 25 °C from the molalities of its free ions, with Davies
+    activity coefficients.
+
+    Free ions only: complexes and protonated forms must be taken off first. ``granum.materials.names("salt")``
+    lists the salts.
+
+    >>> round(salt_saturation(1.04e-5, 1.04e-5, 0.0, salt="barium sulfate").saturation_ratio, 2)
+    1.0
+    """
+    found = session().salt(salt)
+    index = found.saturation_index(cation_molality, anion_molality, ionic_strength)
+    product = found.solubility_product + 0.0 * index
+    return SaltSaturation(product, index, 10.0 ** (index / found.ion_count))
