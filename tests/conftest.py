@@ -24,14 +24,11 @@ settings.register_profile("granum", deadline=None, max_examples=40, derandomize=
 settings.load_profile("granum")
 
 MAPS = Path("/proc/self/maps")
-MANY_MAPS = (
-    20_000  # of the 65 530 that Linux gives a process by default; every compiled function takes several
-)
+# of the 65 530 that Linux gives a process by default; every compiled function takes several
+MANY_MAPS = 20_000
 RESIDENT = Path("/proc/self/statm")
-MUCH, MORE = (
-    1.7e9,
-    0.4e9,
-)  # bytes in use at which compiled functions are forgotten, and again when so much has been added since
+# bytes in use at which compiled functions are forgotten, and again when so much has been added since
+MUCH, MORE = 1.7e9, 0.4e9
 _finished = count(1)
 _kept = 0.0
 
@@ -60,9 +57,8 @@ def _forget() -> None:
 
     jax.clear_caches()
     gc.collect()
-    trim = getattr(
-        ctypes.CDLL(None), "malloc_trim", None
-    )  # what is freed stays with the process unless glibc is asked
+    # what is freed stays with the process unless glibc is asked
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
     if trim is not None:
         trim(0)
     _kept = _resident()

@@ -282,9 +282,8 @@ def test_time_and_queue_are_bounded(crew: Crew) -> None:
 def test_memory_is_bounded(crew: Crew) -> None:
     with pytest.raises(Busy, match="memory"):
         crew.submit("fill", {"bytes": 3_000_000_000}).future.result(timeout=100)
-    assert (
-        json.loads(crew.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}
-    )  # the next job finds a new process
+    # the next job finds a new process
+    assert json.loads(crew.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}
 
 
 def test_a_worn_process_is_replaced_and_nothing_is_lost(crew: Crew, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -47,9 +47,8 @@ def test_a_result_follows_what_is_typed(page: Page, language: str, point: str) -
     shown = page.one("[data-output=terminal_velocity]")
     assert shown.text.startswith(f"5{point}28")  # Stokes by hand: 5.282 mm/s
     page.write("#field-particle_diameter", f"42{point}5")
-    page.until(
-        lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32")
-    )  # a quarter of it
+    # a quarter of it
+    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith(f"1{point}32"))
     page.one("#field-particle_diameter").send_keys(Keys.ENTER)
     page.until(lambda: "42.5" in page.browser.current_url)
     page.write("#field-particle_diameter", "-3")
@@ -276,9 +275,8 @@ def test_the_header_leads_back_to_where_one_was(page: Page) -> None:
 def test_choosing_another_unit_reads_the_same_number_in_it(page: Page) -> None:
     page.open(f"calculate/particles.terminal_velocity_stokes?{SPHERE}")
     Select(page.one("#field-particle_diameter ~ select")).select_by_visible_text("mm")
-    page.until(
-        lambda: page.one("[data-output=terminal_velocity]").text.startswith("5281 m/s")
-    )  # a thousand times wider, a million times faster
+    # a thousand times wider, a million times faster
+    page.until(lambda: page.one("[data-output=terminal_velocity]").text.startswith("5281 m/s"))
 
 
 def test_values_survive_reloading_and_changing_the_language(page: Page) -> None:
@@ -344,9 +342,8 @@ def test_a_pasted_table_is_fitted(page: Page, language: str) -> None:
     assert page.one("#table").get_attribute("value").startswith("time [s],filtrate_volume [m3]")
     row = page.one("[data-parameter=cake_resistance]")
     assert "10¹" in row.text or "× 10" in row.text
-    assert (
-        len(page.until(lambda: len(found := page.all(".plot .main-svg")) >= 2 and found)) >= 2
-    )  # fit and residuals
+    # fit and residuals
+    assert len(page.until(lambda: len(found := page.all(".plot .main-svg")) >= 2 and found)) >= 2
     page.settle()
     page.check(refused=True)  # before its columns were told, the table was refused in words
 

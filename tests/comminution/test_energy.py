@@ -106,9 +106,8 @@ def test_energy_law_by_size_and_flags_outside_it() -> None:
 
 def test_work_index_table_and_units() -> None:
     assert work_index("cement clinker") == pytest.approx(13.49 * 3.6e6 / 907.18474, rel=1e-12)
-    assert work_index("cement clinker") / KWH_T == pytest.approx(
-        14.87, abs=0.005
-    )  # metric, as reprinted elsewhere
+    # metric, as reprinted elsewhere
+    assert work_index("cement clinker") / KWH_T == pytest.approx(14.87, abs=0.005)
     assert work_index(" Quartz ") == work_indices()["quartz"]
     with pytest.raises(InputError, match="limestone"):
         work_index("lime stone")
@@ -185,7 +184,6 @@ def test_screen_effectiveness_of_a_textbook_example() -> None:
         (screening.screening_effectiveness, (0.9, 0.85, 0.2)),
         (screening.product_yield, (0.5, 0.5, 0.5)),
     ):
-        with pytest.raises(
-            ApplicabilityError, match="desired fraction of the feed"
-        ):  # richer than both products; no difference
+        # richer than both products; no difference
+        with pytest.raises(ApplicabilityError, match="desired fraction of the feed"):
             law(*x)

@@ -111,9 +111,8 @@ def test_batch_converges_with_the_square_of_the_class_width_to_the_continuous_so
         lambda _t, m: gain @ m - rate * m, (0.0, 300.0), start / start.sum(), rtol=1e-9, atol=1e-14
     )
     expected = 1.0 - path.y[:, -1].sum()
-    assert expected == pytest.approx(
-        0.463, abs=5e-4
-    )  # the figure of an independent solution of the same equation
+    # the figure of an independent solution of the same equation
+    assert expected == pytest.approx(0.463, abs=5e-4)
     errors = [share(2 * k, 4 * k) - expected for k in (1, 2, 4)]
     assert abs(errors[0]) < 0.02
     assert 3.0 < errors[0] / errors[1] < 5.5

@@ -164,15 +164,8 @@ def outcome(
 
 
 ALL = WITH_CELLS | BY_BALANCE | HUMID_GAS
-QUICK = (
-    "drum",
-    "tray",
-    "heat pump",
-    "humidifier",
-    "coil",
-    "two airs",
-    "burner",
-)  # those that compile within a second or three
+# those that compile within a second or three
+QUICK = ("drum", "tray", "heat pump", "humidifier", "coil", "two airs", "burner")
 CASES = [
     (name, product)
     for name in (ALL if SAMPLES else QUICK)

@@ -33,11 +33,8 @@ from granum.core.formulas import Formula
 WITH_SERIES = {k: f for k, f in FORMULAS.items() if any(p.series and p.kind for p in f.card.parameters)}
 ROWS = max(SETS // 100, 1)  # one call each, as a card with series takes one value of the others
 POINTS = 6
-LONG = {
-    "particles.settling_distance",
-    "drying.primary_drying",
-    "drying.freeze_drying_limit",
-}  # hundreds of steps: compiled is quicker
+# hundreds of steps: compiled is quicker
+LONG = {"particles.settling_distance", "drying.primary_drying", "drying.freeze_drying_limit"}
 
 
 def beyond(f: Formula, inputs: dict[str, np.ndarray]) -> str | None:
@@ -79,10 +76,8 @@ def test_a_row_of_values_gives_figures_within_their_bounds_or_one_message(key: s
         single = random_inputs(f.card.parameters, 1, seed)
         return {n: float(v[0]) for n, v in single.items()} | rows(f.card.parameters, POINTS, seed)
 
-    with (
-        quickly(f, {n: [v] for n, v in drawn(0).items()}),
-        np.errstate(all="ignore"),
-    ):  # NumPy rows, whose powers may overflow
+    # NumPy rows, whose powers may overflow
+    with quickly(f, {n: [v] for n, v in drawn(0).items()}), np.errstate(all="ignore"):
         for seed in range(ROWS):
             inputs = drawn(seed)
             try:

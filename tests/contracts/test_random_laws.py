@@ -28,9 +28,8 @@ def alone(law: Any) -> bool:
 
 
 LAWS = {k: t for k, t in EVERYTHING.items() if inspect.isclass(t) and t.card.sort == "law" and alone(t)}
-LAWS_OF_ONE = (
-    5  # sets of options that each law is built with; the rest of the sets are what it is called with
-)
+# sets of options that each law is built with; the rest of the sets are what it is called with
+LAWS_OF_ONE = 5
 VALUES = (
     1 / 3
     # at least so many of ordinary sets give one: options of a solubility law, drawn one by one, often leave no  # noqa: E501
@@ -58,9 +57,8 @@ def test_a_law_gives_values_within_the_bounds_of_its_kind_or_none(key: str) -> N
 @pytest.mark.parametrize("key", LAWS)
 def test_ordinary_options_give_a_law_that_has_values(key: str) -> None:
     law, rng, count = LAWS[key], np.random.default_rng(0), min(SETS, 200)
-    static = {
-        f.name for f in dataclasses.fields(law) if f.metadata.get("static")
-    }  # one value for a whole program
+    # one value for a whole program
+    static = {f.name for f in dataclasses.fields(law) if f.metadata.get("static")}
     free = [p for p in law.card.parameters if p.name not in static]
     options, given = (
         {p.name: ordinary(p, rng, count) for p in drawn(group)} for group in (free, law.card.arguments)
@@ -81,9 +79,8 @@ def test_one_value_outside_the_bounds_of_its_kind_is_refused_and_is_none_in_an_a
     curve = law(np.array([0.0, 20_000.0]))
     assert curve[0] == 1.0
     assert np.isnan(curve[1])
-    assert float(jax.jit(law)(20_000.0)) == pytest.approx(
-        -0.2, abs=1e-8
-    )  # inside a program its caller judges
+    # inside a program its caller judges
+    assert float(jax.jit(law)(20_000.0)) == pytest.approx(-0.2, abs=1e-8)
 
 
 def test_an_infinite_value_of_a_law_is_none() -> None:

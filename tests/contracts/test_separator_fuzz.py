@@ -32,9 +32,8 @@ def test_light_solids_in_a_hydrocyclone_go_with_the_liquid_and_are_told() -> Non
     unit = Hydrocyclone(0.1, 0.015)
     out = unit(feed)
     share = out.underflow.solid / feed.solid
-    np.testing.assert_allclose(
-        share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12
-    )  # oil divides like the water
+    # oil divides like the water
+    np.testing.assert_allclose(share[1], float(out.underflow.liquid_flow / feed.liquid_flow), rtol=1e-12)
     alone = unit(feed.replace(solid=feed.solid.at[1].set(0.0)))
     assert float(jnp.max(alone.underflow.solid[0])) > 0.0
     check = {c.name: c.ok for c in unit.operate(feed=feed).checks}

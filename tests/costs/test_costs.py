@@ -100,13 +100,11 @@ def test_every_row_belongs_to_a_formula_and_costs_more_when_larger() -> None:
     }
     assert choices == set(correlations())
     for name, row in correlations().items():
-        logs = np.log10(
-            np.geomspace(np.sqrt(row.smallest * row.largest), row.largest, 50)
-        )  # some printed parabolas have a minimum below
+        # some printed parabolas have a minimum below
+        logs = np.log10(np.geomspace(np.sqrt(row.smallest * row.largest), row.largest, 50))
         rises = np.diff(row.k1 + row.k2 * logs + row.k3 * logs**2) > 0
-        assert rises.all() or name == "stationary_screen", (
-            name
-        )  # whose printed parabola falls beyond 10**(1.0368/1.21) = 7.2 m²
+        # the printed parabola of that one falls beyond 10**(1.0368/1.21) = 7.2 m²
+        assert rises.all() or name == "stationary_screen", name
 
 
 def test_index_and_updating() -> None:
@@ -131,12 +129,8 @@ def test_six_tenths_rule() -> None:
 
 @pytest.mark.parametrize(
     ("rate", "years", "factor"),
-    [
-        (0.08, 20, 0.10185),
-        (0.10, 10, 0.16275),
-        (0.12, 5, 0.27741),
-        (0.05, 30, 0.06505),
-    ],  # capital recovery factors of interest tables
+    # capital recovery factors of interest tables
+    [(0.08, 20, 0.10185), (0.10, 10, 0.16275), (0.12, 5, 0.27741), (0.05, 30, 0.06505)],
 )
 def test_annuity_of_interest_tables(rate: float, years: int, factor: float) -> None:
     charge = costs.annual_capital_charge(capital_cost=1.0, interest_rate=rate, lifetime=years * YEAR)

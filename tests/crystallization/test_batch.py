@@ -256,9 +256,8 @@ def test_vacuum_batch_evaporates_what_the_heat_balance_says():
     )
     m, gone = found.crystals, found.solvent[0] - found.solvent[-1]
     freed = 3800.0 * (START + 1.0) * 4.0 + 44.5e3 * (m[-1] - m[0])
-    assert float(gone) == pytest.approx(
-        float(freed) / 2.43e6, rel=3e-2
-    )  # the capacity falls as crystals form
+    # the capacity falls as crystals form
+    assert float(gone) == pytest.approx(float(freed) / 2.43e6, rel=3e-2)
     assert float(found.solute_per_solvent[-1] * found.solvent[-1] + m[-1]) == pytest.approx(
         START + 0.5e-3, abs=1e-13
     )

@@ -31,21 +31,20 @@ def test_two_drugs_have_both_forms():
     Legendre (2007) and Pinto (2006).
     """
     printed = {
+        # temperatures, mole fractions and their scatter
         "theophylline": (
             [288.01, 297.95, 308.01, 318.11, 328.09],
             [0.0008, 0.00116, 0.00173, 0.002541, 0.003192],
             0.06,
-        ),  # scatter
+        ),
         "caffeine": (
             [288.01, 298.11, 308.09, 318.11, 328.15],
             [0.00078, 0.00132, 0.00204, 0.00322, 0.00469],
             0.02,
         ),
     }
-    transitions = {
-        "theophylline": (1990.0, 90.0, 536.8, 2.2),
-        "caffeine": (2040.0, 250.0, 414.0, 2.0),
-    }  # 414 K from memory, not opened
+    # 414 K from memory, not opened
+    transitions = {"theophylline": (1990.0, 90.0, 536.8, 2.2), "caffeine": (2040.0, 250.0, 414.0, 2.0)}
     for drug, (T, x, scatter) in printed.items():
         two, one = (materials.solute(f"{drug}{form} in ethanol").branches[0] for form in ("", " I"))
         np.testing.assert_allclose(two.law.value(np.array(T)), x, rtol=scatter)

@@ -134,9 +134,8 @@ def test_vacuum_batch_pays_its_vapor_from_its_heat():
     )
     made = out.crystals_per_solvent[-1] - out.crystals_per_solvent[0]
     freed = 3800.0 * (START + 1.0) * 4.0 + 44.5e3 * made
-    assert float(out.evaporated_fraction[-1]) == pytest.approx(
-        float(freed) / 2.43e6, rel=0.03
-    )  # the capacity falls as crystals form
+    # the capacity falls as crystals form
+    assert float(out.evaporated_fraction[-1]) == pytest.approx(float(freed) / 2.43e6, rel=0.03)
     assert np.all(np.diff(out.evaporated_fraction) >= 0)
     cooled = batch(**SEEDED, temperature_program=program)
     assert out.yield_fraction > cooled.yield_fraction
@@ -187,9 +186,8 @@ def test_equipment_closes_its_balances(kind):
         latent = 2.4e6 * float(figures.evaporation)
         assert abs(float(out.heat_duty)) < 1e-3 * latent
         assert 293.15 < float(out.vapor.temperature) < 333.15
-        antoine = (
-            10.0 ** (8.07131 - 1730.63 / (233.426 + float(out.vapor.temperature) - 273.15)) * 133.322
-        )  # its own vapor pressure
+        # its own vapor pressure
+        antoine = 10.0 ** (8.07131 - 1730.63 / (233.426 + float(out.vapor.temperature) - 273.15)) * 133.322
         assert float(out.vapor.pressure) == pytest.approx(antoine, rel=0.01)
     if kind == "tube":
         assert float(figures.residence_time) == pytest.approx(12.0 / float(FEED.slurry_volume_flow))
@@ -240,9 +238,8 @@ def test_start_up_ends_in_the_steady_state():
     out = msmpr_over_time(**VESSELS, volumes=[5.0], temperatures=[293.15], duration="20 hour", steps=1000)
     assert float(out.solute_per_solvent[-1]) == pytest.approx(float(steady.solute_per_solvent), rel=1e-5)
     assert float(out.magma_density[-1]) == pytest.approx(float(steady.magma_density), rel=1e-5)
-    assert float(out.mean_diameter[-1]) == pytest.approx(
-        4.0 * float(steady.length), rel=2e-4
-    )  # D[4,3] of an exponential number density
+    # D[4,3] of an exponential number density
+    assert float(out.mean_diameter[-1]) == pytest.approx(4.0 * float(steady.length), rel=2e-4)
     assert out.step_error < 0.05
 
 

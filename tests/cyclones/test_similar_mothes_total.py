@@ -64,9 +64,8 @@ def test_mothes_loffler_solves_its_balance() -> None:
         w_a, w_i = fall * float(velocity(r_a)) ** 2 / r_a, fall * float(velocity(r_i)) ** 2 / r_i
         inward = Q / (2 * np.pi * r_i * length)
 
-        def slopes(
-            s, y, w_a=w_a, w_i=w_i, inward=inward
-        ):  # s = ln(1 - z/length); c outer, k core; flow Q(1 - z/length) in both
+        # s = ln(1 - z/length); c outer, k core; flow Q(1 - z/length) in both
+        def slopes(s, y, w_a=w_a, w_i=w_i, inward=inward):
             c, k = y
             wall = 2 * np.pi * r_a * length / Q * w_a * c
             outwards = (

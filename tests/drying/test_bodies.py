@@ -45,9 +45,8 @@ def test_crank_is_the_limit_of_fast_films(shape: str, series) -> None:
 
 def test_wet_start_and_dry_end() -> None:
     iso = Gab(0.07, 12.0, 0.85)
-    t = np.array(
-        [0.0, 300.0, 900.0, 1e4, 3e4, 6e4, 1e5, 1.5e5, 2e5]
-    )  # as many as above: one compiled integration
+    # as many as above: one compiled integration
+    t = np.array([0.0, 300.0, 900.0, 1e4, 3e4, 6e4, 1e5, 1.5e5, 2e5])
     course = body_drying(
         t, 0.005, 4.0, 333.15, 0.01, 30.0, 3e-8, isotherm=iso, dry_density=1400.0, shrinkage_coefficient=1.4
     )

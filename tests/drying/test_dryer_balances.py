@@ -26,9 +26,8 @@ MAIZE = {
 
 def test_maize_of_the_notes():
     found = dryer_balance(**MAIZE, temperature_inlet=323.15, relative_humidity_outlet=1.0)
-    assert found.evaporation_rate == pytest.approx(
-        23.3, rel=0.005
-    )  # they round 35.065 and 64.935 before subtracting
+    # they round 35.065 and 64.935 before subtracting
+    assert found.evaporation_rate == pytest.approx(23.3, rel=0.005)
     assert found.heat_duty_minimum == pytest.approx(56.735e6, rel=0.005)
     assert found.humidity_ratio_fresh == pytest.approx(9.9e-3, rel=0.005)
     assert found.enthalpy_fresh == pytest.approx(50e3, rel=0.01)
@@ -36,9 +35,8 @@ def test_maize_of_the_notes():
     assert found.wet_bulb_temperature == pytest.approx(273.15 + 25.1, abs=0.1)
     assert found.humidity_ratio_outlet == pytest.approx(20.1e-3, rel=0.01)
     assert found.dry_gas_flow == pytest.approx(2284.0, rel=0.02)
-    assert found.volume_flow / found.dry_gas_flow == pytest.approx(
-        0.93, rel=0.002
-    )  # the notes give it as the outlet's: it is the inlet's
+    # the notes give it as the outlet's: it is the inlet's
+    assert found.volume_flow / found.dry_gas_flow == pytest.approx(0.93, rel=0.002)
     assert found.mass_efficiency == pytest.approx(1.0, abs=1e-9)
 
 
@@ -257,22 +255,17 @@ def test_wrong_sets_are_named(given, words):
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        (
-            {"temperature_inlet": 323.15, "temperature_outlet": 295.0},
-            "relative humidity of the outlet air",
-        ),  # would leave beyond saturation
-        (
-            {"temperature_inlet": 323.15, "dry_gas_flow": 1080.0},
-            "relative humidity of the outlet air",
-        ),  # too little air, too cold for the water
-        (
-            {"temperature_inlet": 303.15, "temperature_outlet": 303.2},
-            "dry-gas flow",
-        ),  # the outlet cannot be hotter than the inlet
+        # would leave beyond saturation
+        ({"temperature_inlet": 323.15, "temperature_outlet": 295.0}, "relative humidity of the outlet air"),
+        # too little air, too cold for the water
+        ({"temperature_inlet": 323.15, "dry_gas_flow": 1080.0}, "relative humidity of the outlet air"),
+        # the outlet cannot be hotter than the inlet
+        ({"temperature_inlet": 303.15, "temperature_outlet": 303.2}, "dry-gas flow"),
+        # such a solid would be wetted
         (
             {"temperature_inlet": 323.15, "relative_humidity_outlet": 1.0, "moisture_dry_basis_outlet": 0.6},
             "evaporation rate",
-        ),  # wets
+        ),
     ],
 )
 def test_impossible_dryers_say_why(more, words):

@@ -68,9 +68,8 @@ def test_heat_pump_dryer_beside_coolprop() -> None:
     assert float(figures.temperature_outlet) == pytest.approx(T2, abs=0.1)
     assert float(figures.mass_flow_circulating) == pytest.approx(1.0 / (w2 - w1), rel=0.01)
     assert float(figures.shaft_power) == pytest.approx(work / (w2 - w1), rel=0.01)
-    assert (
-        1.0 < float(figures.moisture_extraction_rate) * 3.6e6 < 4.0
-    )  # kg/kWh, the usual range (Mujumdar 2014)
+    # kg/kWh, the usual range (Mujumdar 2014)
+    assert 1.0 < float(figures.moisture_extraction_rate) * 3.6e6 < 4.0
     assert all(checks.values())
 
 
@@ -90,11 +89,8 @@ def test_superheated_steam_and_its_recompression() -> None:
     _figures, checks = checked(
         ClosedDryer(SteamCircuit("95 degC", "2 bar"), "150 degC", 0.05), wet(MIXTURE, 1.0, 2.0, 373.0)
     )
-    assert sorted(checks.values()) == [
-        False,
-        False,
-        True,
-    ]  # outlet below boiling, heat given off below the hot gas
+    # outlet below boiling, heat given off below the hot gas
+    assert sorted(checks.values()) == [False, False, True]
 
 
 def test_four_shelves_with_reheated_air() -> None:

@@ -276,9 +276,8 @@ def test_layer_of_food():
     """King's coffee: −29.4 °C and 301 µm Hg. Notes (D IV.2.2): layers of 1.5 to 3 cm dry in 10 to 72 h."""
     coffee = f.freeze_drying_slab("30 degC", "0.097 mmHg", 0.035, 3.5e-9 / 0.133322, "5 mm", 250.0, 2.0)
     assert coffee.temperature_front - 273.15 == pytest.approx(-29.4, abs=0.15)
-    assert coffee.vapor_pressure / 0.133322 == pytest.approx(
-        301, rel=0.02
-    )  # read from a chart: ice at −29.4 °C has 304
+    # read from a chart: ice at −29.4 °C has 304
+    assert coffee.vapor_pressure / 0.133322 == pytest.approx(301, rel=0.02)
     by_hand = 2.8367e6 * 250.0 * 2.0 * 0.005**2 / (2 * 0.035 * 59.3)
     assert coffee.drying_time == pytest.approx(by_hand, rel=0.01)
     thin, thick = (

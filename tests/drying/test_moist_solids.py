@@ -96,9 +96,10 @@ def test_equal_curves() -> None:
     np.testing.assert_allclose(
         ads.Gab(0.05, 10.0, 1.0).moisture(a, T25), ads.Bet(0.05, 10.0).moisture(a, T25), rtol=1e-12
     )
+    # Langmuir
     np.testing.assert_allclose(
         ads.BetLayers(0.05, 10.0, 1.0).moisture(a, T25), 0.05 * 10 * a / (1 + 10 * a), rtol=1e-9
-    )  # Langmuir
+    )
 
 
 def test_grain_equations_run_out_to_dry() -> None:

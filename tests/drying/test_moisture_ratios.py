@@ -23,9 +23,8 @@ def test_times_by_diffusion() -> None:
         for x in np.roots([1 / 9, 0, 0, 0, 0, 0, 0, 0, 1, -(np.pi**2) / 16])
         if abs(x.imag) < 1e-12 and x.real > 0
     )
-    assert m.drying_time_diffusion(0.5, 1.0, 1.0) == pytest.approx(
-        -4 / np.pi**2 * np.log(root), rel=1e-6
-    )  # two terms: x + x⁹/9 = π²/16
+    # two terms: x + x⁹/9 = π²/16
+    assert m.drying_time_diffusion(0.5, 1.0, 1.0) == pytest.approx(-4 / np.pi**2 * np.log(root), rel=1e-6)
     ratios = np.array([1.0, 0.99, 0.6, 0.2, 1e-3, 1e-6])
     for shape in ("plate", "cylinder", "sphere"):
         times = np.array([m.drying_time_diffusion(ratio, 2e-3, 1e-10, shape) for ratio in ratios])

@@ -47,9 +47,8 @@ def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     assert float(closed.energy) < 1e-12
     water, salt = out.product.liquid
     assert 0.0 < float(water) < 0.015
-    assert float(salt / water) == pytest.approx(
-        DISSOLVED, rel=1e-12
-    )  # the liquor left is still the saturated one
+    # the liquor left is still the saturated one
+    assert float(salt / water) == pytest.approx(DISSOLVED, rel=1e-12)
     assert float(jnp.sum(out.product.solid[1]) + salt) == pytest.approx(0.3 + 0.02 * DISSOLVED, rel=1e-12)
 
 

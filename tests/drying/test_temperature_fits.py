@@ -45,9 +45,8 @@ def test_best_law_and_isosteric_heat_of_the_grain_standard() -> None:
     assert abs(fit["isosteric_heat_net"].value - heat) < 3.0 * fit["isosteric_heat_net"].standard_error
     assert fit["isosteric_heat_net"].value == pytest.approx(heat, rel=0.1)
     chosen = IsothermTemperatures(T, AW, measured(0.01), model="chung_pfost")
-    assert float(chosen.law().moisture(0.7, 298.15)) == pytest.approx(
-        0.163, rel=0.01
-    )  # the standard's own value at 25 °C, 70 %
+    # the standard's own value at 25 °C, 70 %
+    assert float(chosen.law().moisture(0.7, 298.15)) == pytest.approx(0.163, rel=0.01)
     assert len(chosen.chart().data) == 8
 
 

@@ -81,9 +81,8 @@ def test_a_load_on_trays_over_time():
     assert float(unit.temperature_inlet) - float(load.gas_temperature[wet, -1]) == pytest.approx(
         cooled * (1.0 + more), rel=0.005
     )
-    assert T[wet] == pytest.approx(
-        Tw, abs=0.2
-    )  # the logarithm of Stefan flow against a difference of humidities
+    # the logarithm of Stefan flow against a difference of humidities
+    assert T[wet] == pytest.approx(Tw, abs=0.2)
     assert np.all(np.diff(X, axis=1) >= -1e-9)
     assert float(load.drying_time) == pytest.approx(float(figures.drying_time), rel=0.01)
     with pytest.raises(ApplicabilityError, match="radiated"):
@@ -160,17 +159,15 @@ def test_paddle_dryer_has_the_capacity_of_the_notes():
     assert 10.0 <= run.figure("dryer.evaporation_per_area") * 3600 <= 15.0
     assert 600 <= run.figure("dryer.residence_time") <= 36000
     assert run.figure("dryer.temperature_product") < 403.15
-    assert run.figure("dryer.energy_per_water") == pytest.approx(
-        2.65e6, rel=0.02
-    )  # boiling dryers 2400 to 3300 kJ/kg (table III.2)
+    # boiling dryers 2400 to 3300 kJ/kg (table III.2)
+    assert run.figure("dryer.energy_per_water") == pytest.approx(2.65e6, rel=0.02)
     assert run.audit["mass_closure"] < 1e-12
     assert run.audit["energy_closure"] < 1e-9
     assert all(check.ok for check in run.units["dryer"].checks)
     vacuum = line.with_values(**{"dryer.pressure": 1e4, "dryer.wall_temperature": 373.15}).solve()
     assert vacuum.figure("dryer.temperature_product") < 350.0
-    assert vacuum.figure("dryer.boiling_temperature") - 273.15 == pytest.approx(
-        45.8, abs=0.1
-    )  # steam tables at 0.1 bar
+    # steam tables at 0.1 bar
+    assert vacuum.figure("dryer.boiling_temperature") - 273.15 == pytest.approx(45.8, abs=0.1)
 
 
 def test_paddle_curve_conserves_heat():
@@ -203,9 +200,8 @@ def test_paste_boils_at_a_constant_rate_and_an_area_dries_so_far():
     inlets = {"feed": feed}
     figures = unit.operate(**inlets).figures
     X, capacity = 7 / 3, float(unit.inside(feed).heat.capacity)
-    held = (capacity + X * 4216.0) / (
-        1.0 / float(feed.solid_density) + X / 958.4
-    )  # water of 100 °C, steam tables
+    # water of 100 °C, steam tables
+    held = (capacity + X * 4216.0) / (1.0 / float(feed.solid_density) + X / 958.4)
     h = 2.0 * np.sqrt(held * 0.6 / (np.pi * float(figures.contact_time)))
     assert float(figures.heat_transfer_coefficient_paste) == pytest.approx(h, rel=1e-3)
     flux = h * (403.15 - 373.124) / 2256.5e3
@@ -232,9 +228,8 @@ def test_drum_dryer_of_the_notes():
     assert moisture / (1 + moisture) == pytest.approx(0.05, abs=0.015)
     assert 15 <= run.figure("drum.evaporation_per_area") * 3600 <= 40
     assert 3 <= run.figure("drum.contact_time") <= 30
-    assert run.figure("drum.wall_temperature") - 273.15 == pytest.approx(
-        151.8, abs=0.1
-    )  # steam tables at 5 bar
+    # steam tables at 5 bar
+    assert run.figure("drum.wall_temperature") - 273.15 == pytest.approx(151.8, abs=0.1)
     assert 1.1 <= run.figure("drum.steam_per_water") <= 1.6
     assert run.figure("drum.drying_flux") == pytest.approx(780 * (151.84 - 99.97) / 2256.5e3, rel=2e-3)
     assert run.audit["mass_closure"] < 1e-12

@@ -152,9 +152,8 @@ def test_sets_fitted_together_weigh_as_they_scatter() -> None:
     expected = (weights @ [one.value, two.value]) / weights.sum()
     found = fit_together(sets)["particle_density"]
     assert found.value == pytest.approx(expected, rel=1e-6)
-    assert found.standard_error == pytest.approx(
-        weights.sum() ** -0.5, rel=0.05
-    )  # the scatter is estimated again from all points
+    # the scatter is estimated again from all points
+    assert found.standard_error == pytest.approx(weights.sum() ** -0.5, rel=0.05)
     with pytest.raises(GranumError, match="same parameters"):
         fit_together([])
 

@@ -97,9 +97,8 @@ def test_a_stray_point_is_named_with_what_it_does():
     found = leaf(0.93).fit()
     (flag,) = [f for f in found.flags if f["flag"] == "stray point"]
     volume = leaf(0.93).filtrate_volume[7] * 1e3
-    assert flag["message"].startswith(
-        "Row 8 (time 35 min; filtrate volume "
-    )  # the first row, at time zero, is no point
+    # the first row, at time zero, is no point
+    assert flag["message"].startswith("Row 8 (time 35 min; filtrate volume ")
     assert f"{volume:.4g}"[:4] in flag["message"] or f"{volume:.3g}" in flag["message"]
     without = found.diagnostics.without["cake_resistance"]
     assert without == pytest.approx(leaf().fit()["cake_resistance"].value, rel=0.01)
@@ -128,10 +127,8 @@ def flags_of(key: str, values: np.ndarray) -> set[str]:
         found = test.fit()
     except (InputError, ConvergenceError):
         return {"refused"}
-    assert (found.defaults, found.ranges) == (
-        test.defaults(),
-        test.ranges(),
-    )  # whatever the test does to its fit
+    # whatever the test does to its fit
+    assert (found.defaults, found.ranges) == (test.defaults(), test.ranges())
     return {f["flag"] for f in found.flags}
 
 

@@ -51,10 +51,8 @@ def dressed(rng: np.random.Generator) -> tuple[bytes, np.ndarray, np.ndarray, bo
     thousands = str(rng.choice(["", "", ".", ",", "\u202f", " "]))
     if thousands == mark:
         thousands = ""
-    if thousands in (
-        ".",
-        ",",
-    ):  # a column of which every number looks like 1,200 says nothing about its marks
+    # a column of which every number looks like 1,200 says nothing about its marks
+    if thousands in (".", ","):
         for column in written:
             column[0] = 7.0
 

@@ -68,9 +68,8 @@ def test_starch_dryer_takes_the_heat_that_such_dryers_take() -> None:
     line = run("starch-drying")
     assert 3e6 < line.figure("heater.heat_duty") / line.figure("dryer.evaporation_rate") < 5e6
     assert 50.0 < float(line.streams["exhaust"].temperature) - 273.15 < 60.0
-    assert (
-        0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16
-    )  # of storage; 8 to 14 % of the whole
+    # of storage; 8 to 14 % of the whole
+    assert 0.10 < float(line.streams["starch"].moisture_dry_basis) < 0.16
     assert {c.name for c in line.units["dryer"].checks if not c.ok} == {"gas temperature at the outlet"}
 
 

@@ -96,9 +96,8 @@ def test_closed_forms_satisfy_the_differential_equation():
         out.y[0, -1], rel=1e-8
     )
     at = (dp * A / (eta * q) - Rm) * A / (alpha * W)
-    limited = solve_ivp(
-        rate, (at / q, 3000), [at], rtol=1e-11, atol=1e-15
-    )  # from where the pump reaches the pressure
+    # from where the pump reaches the pressure
+    limited = solve_ivp(rate, (at / q, 3000), [at], rtol=1e-11, atol=1e-15)
     assert cr.filtration_time_rate_then_pressure(
         limited.y[0, -1], q, A, dp, eta, alpha, W, Rm
     ) == pytest.approx(3000, rel=1e-8)

@@ -190,9 +190,8 @@ def stepped(noise=0.0, late=0.0):
             v0, v1 = V[-1], V[-1] + 0.02 * A
             cake = a0 * (dp / 1e5) ** n * W / (2 * A**2) * (v1**2 - v0**2)
             V, p, t = [*V, v1], [*p, dp], [*t, t[-1] + eta / dp * (cake + R * (v1 - v0) / A)]
-    clock, place = np.unique(
-        t, return_inverse=True
-    )  # the two readings at a step are one reading of the clock
+    # the two readings at a step are one reading of the clock
+    clock, place = np.unique(t, return_inverse=True)
     clock = clock * (1.0 + noise * np.random.default_rng(1).normal(size=len(clock))) + late * (clock > 0)
     t = clock[place]
     return {"time": t, "filtrate_volume": np.array(V), "pressure_drop": np.array(p), **CAKE}

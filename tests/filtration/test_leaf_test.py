@@ -36,9 +36,8 @@ def test_geankoplis_example_14_2_1_leaves_out_the_first_point():
     assert [f["flag"] for f in found.flags] == ["points excluded"]
     assert found.statistics["points_excluded"] == 1
     whole = LeafTest.read(FOLDER / "leaf_geankoplis.csv", **GEANKOPLIS, first_points_excluded="0").fit()
-    assert whole["cake_resistance"].value == pytest.approx(
-        1.79e11, rel=0.005
-    )  # by numpy.polyfit over all ten points
+    # by numpy.polyfit over all ten points
+    assert whole["cake_resistance"].value == pytest.approx(1.79e11, rel=0.005)
     figure = LeafTest.read(FOLDER / "leaf_geankoplis.csv", **GEANKOPLIS).chart()
     assert figure.data[-1].name == "excluded"
     assert len(figure.data[-1].x) == 1

@@ -149,9 +149,8 @@ def test_clarifier_and_thickener() -> None:
         assert np.allclose(end.solid[-1], at_rest.solid, rtol=1e-8, atol=1e-9)
         assert float(end.temperature[-1]) == pytest.approx(295.0, abs=1e-6)
     flow, volume = 0.2 + 0.6 / 1400.0, np.pi / 4 * 25.0**2 * 3.0
-    left = np.exp(
-        -flow / volume * times
-    )  # of the water at the start: salt is 2 (1 - left), liquid 200 (1 - left) and what is left of the water
+    # of the water at the start: salt is 2 (1 - left), liquid 200 (1 - left) and what is left of the water
+    left = np.exp(-flow / volume * times)
     clear = np.asarray(course.streams["clear"].liquid)
     assert (
         np.abs(

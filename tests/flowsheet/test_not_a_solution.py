@@ -97,9 +97,8 @@ def test_a_loop_starts_though_a_unit_waits_for_what_comes_round() -> None:
     line = Line("waiting", Flowsheet(units, {"cake": FEED, "air": FEED}, links))
     assert [block.tears for block in line.sheet.blocks if block.tears] == [("hot",)]
     run = line.solve()
-    assert float(run.streams["exhaust"].mass_flow) == pytest.approx(
-        4.0, rel=1e-10
-    )  # two enter, half of it goes round
+    # two enter, half of it goes round
+    assert float(run.streams["exhaust"].mass_flow) == pytest.approx(4.0, rel=1e-10)
 
 
 def test_a_loop_that_nothing_starts_names_the_unit_that_waits() -> None:

@@ -84,17 +84,15 @@ def test_leva_and_fine_powders() -> None:
     assert pytest.approx(5.3333e-4 * 1e-8 * 9.80665 * 2598.8 / 1.8e-5, rel=1e-4) == U
     # the two forms of one author agree within the usual 30 % at ε = 0.4
     power = minimum_powers.minimum_fluidization_velocity_leva_power(**{**SAND, "particle_diameter": 1e-4})
-    assert power == pytest.approx(
-        9.30e-3 * 1e-4**1.82 * 2598.8**0.94 / (1.8e-5**0.88 * 1.2**0.06), rel=2e-3
-    )  # converted by hand
+    # converted by hand
+    assert power == pytest.approx(9.30e-3 * 1e-4**1.82 * 2598.8**0.94 / (1.8e-5**0.88 * 1.2**0.06), rel=2e-3)
     # Baeyens and Geldart: 9e-4 [gΔρ]^0.934 d^1.8/(η^0.87 ρ^0.066), the constant rounded
     fine = minimum_powers.minimum_fluidization_velocity_baeyens_geldart(**{**SAND, "particle_diameter": 6e-5})
     assert fine == pytest.approx(
         9e-4 * (9.80665 * 2598.8) ** 0.934 * 6e-5**1.8 / (1.8e-5**0.87 * 1.2**0.066), rel=1e-3
     )
-    assert fine < minimum_powers.minimum_bubbling_velocity_abrahamsen_geldart(
-        6e-5, 1.2, 1.8e-5
-    )  # 60 µm is aeratable
+    # 60 µm is aeratable
+    assert fine < minimum_powers.minimum_bubbling_velocity_abrahamsen_geldart(6e-5, 1.2, 1.8e-5)
     # Riba: 2 mm glass in water by hand, Ga = 78 453, Mv = 1.5
     riba = minimum_powers.minimum_fluidization_velocity_riba(2e-3, 2500.0, 1000.0, 1e-3)
     assert riba == pytest.approx(0.0154 * 78453.2**0.66 * 1.5**0.7 * 5e-4, rel=1e-6)

@@ -72,9 +72,8 @@ def test_graded_bed() -> None:
     # 1.75/ε³ Re² + 150(1-ε)/ε³ Re = 3495: Re = 2.817, U = 4.695 mm/s; n = ln(0.095/0.004695)/ln(1/0.42) =
     # 3.467
     assert one.bed_void_fraction[0] == pytest.approx((0.01 / 0.095) ** (1 / 3.467), rel=0.005)
-    assert (
-        0.15 < one.bed_expansion < 0.35
-    )  # 36 m/h lift sand of 0.6 mm by a fifth to a third, the usual backwash
+    # 36 m/h lift sand of 0.6 mm by a fifth to a third, the usual backwash
+    assert 0.15 < one.bed_expansion < 0.35
     both = expansion.graded_bed_expansion(np.array([6e-4, 5e-3]), np.array([0.25, 0.75]), 0.7, 0.01, **sand)
     assert both.bed_void_fraction[1] == pytest.approx(0.42)
     assert both.bed_expansion == pytest.approx(0.25 * one.bed_expansion, rel=1e-9)

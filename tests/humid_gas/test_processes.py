@@ -94,9 +94,8 @@ def test_charts() -> None:
         assert any(t.type == "table" for t in drawing.data)
         hover = next(t for t in drawing.data if t.customdata is not None)
         assert np.isfinite(np.asarray(hover.customdata)).all()
-        marks = next(
-            t for t in drawing.data if t.mode == "markers+text"
-        )  # every state lies inside the window
+        # every state lies inside the window
+        marks = next(t for t in drawing.data if t.mode == "markers+text")
         for values, axis in ((marks.x, drawing.layout.xaxis), (marks.y, drawing.layout.yaxis)):
             assert axis.range[0] < min(values)
             assert max(values) < axis.range[1]

@@ -101,9 +101,8 @@ def test_enthalpies_join_at_the_heat_of_vaporization() -> None:
         f = m.fluid(name)
         T = float(f.boiling_temperature())
         step = float(f.vapor_enthalpy(T) - f.liquid_enthalpy(T))
-        assert step == pytest.approx(f.heat_of_vaporization(T), rel=0.035), (
-            name
-        )  # ideal-gas path against the measured step
+        # ideal-gas path against the measured step
+        assert step == pytest.approx(f.heat_of_vaporization(T), rel=0.035), name
         assert float(f.liquid_enthalpy(273.15)) == 0.0
         slope = float(jax.grad(f.liquid_enthalpy)(310.0))
         assert slope == pytest.approx(f.liquid_heat_capacity(310.0), rel=1e-6)

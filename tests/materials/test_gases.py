@@ -23,9 +23,10 @@ def test_heat_capacities_against_printed_tables() -> None:
     T = np.array([300.0, 500.0])
     np.testing.assert_allclose(m.air_heat_capacity(T) / 1e3, [1.007, 1.030], rtol=3e-3)
     np.testing.assert_allclose(m.nitrogen_heat_capacity(T) / 1e3, [1.041, 1.056], rtol=2e-3)
+    # JANAF
     np.testing.assert_allclose(
         m.steam_heat_capacity_ideal(np.array([298.15, 500.0])) * 18.0153e-3, [33.59, 35.23], rtol=1e-3
-    )  # JANAF
+    )
 
 
 def test_density_of_dry_air() -> None:

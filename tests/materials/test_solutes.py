@@ -55,9 +55,8 @@ def test_every_branch_follows_the_table_it_was_fitted_to() -> None:
             assert all(key in bibliography() for key in keys_of(raw["source"])), (name, raw["source"])
             if "table" in raw:
                 t, percent = np.array(raw["table"]).T
-                scatter = (
-                    0.09 if raw["source"] == "apelblat1987" and name == "adipic acid" else 0.04
-                )  # 9 % from point to point in the source
+                # 9 % from point to point in the source
+                scatter = 0.09 if raw["source"] == "apelblat1987" and name == "adipic acid" else 0.04
                 np.testing.assert_allclose(
                     branch.value(t + 273.15), percent / (100 - percent), rtol=scatter, err_msg=name
                 )
@@ -76,10 +75,8 @@ def test_potash_alum_and_soda_follow_the_print_and_no_curve_runs_away() -> None:
         system = m.solute(name)
         for branch in system.branches:
             low, high = branch.law.low, branch.law.high
-            for end, away in (
-                (low, -40.0),
-                (high, 40.0),
-            ):  # beyond the data ln C* is a straight line of 1/T, tangent to the curve
+            # beyond the data ln C* is a straight line of 1/T, tangent to the curve
+            for end, away in ((low, -40.0), (high, 40.0)):
                 u = 1.0 / np.array([end, end + 0.5 * away, end + away])
                 steps = np.diff(np.log(np.asarray(branch.value(1.0 / u)))) / np.diff(u)
                 assert steps[0] == pytest.approx(steps[1], rel=1e-6), name
@@ -147,18 +144,16 @@ def test_hydrate_ratios_and_transitions() -> None:
     assert sodium_sulfate.branches[0].stable_to == pytest.approx(305.53)
     assert float(copper.hydrate_ratio("20 degC")) == pytest.approx(249.69 / 159.61, rel=1e-4)
     assert float(sodium_sulfate.solubility("40 degC")) == pytest.approx(0.4782, rel=2e-3)
-    over = sodium_sulfate.solubility(
-        "40 degC", crystal="sodium sulfate decahydrate"
-    )  # metastable there: more soluble
+    # metastable there: more soluble
+    over = sodium_sulfate.solubility("40 degC", crystal="sodium sulfate decahydrate")
     assert float(over) > float(sodium_sulfate.solubility("40 degC"))
     slope = jax.vmap(jax.grad(sodium_sulfate.solubility))(jnp.array([293.15, 323.15]))
     assert slope[0] > 0 > slope[1]
     alum = m.solute("potash alum")
     bound = alum.branches[0].solvent_ratio
     for t in (20, 30, 40, 50, 60):
-        temmel = 0.01 * (
-            5.06 + 0.23 * t + 7.76e-3 * t**2 - 2.43e-4 * t**3 + 4.86e-6 * t**4
-        )  # kg hydrate per kg added water, Temmel 2016
+        # kg hydrate per kg added water, Temmel 2016
+        temmel = 0.01 * (5.06 + 0.23 * t + 7.76e-3 * t**2 - 2.43e-4 * t**3 + 4.86e-6 * t**4)
         assert float(alum.solubility(t + 273.15)) == pytest.approx(
             temmel / (1 + bound + temmel * bound), rel=0.04
         )
@@ -184,9 +179,8 @@ def test_organic_solutes_against_other_measurements() -> None:
     assert float(paracetamol.solubility("25 degC")) == pytest.approx(
         1.72e-3 / (1 - 1.72e-3) * 151.16 / 18.015, rel=0.05
     )
-    assert float(m.solute("urea").solubility("20 degC")) == pytest.approx(
-        1.08, rel=0.01
-    )  # 108 g in 100 mL of water, data sheets
+    # 108 g in 100 mL of water, data sheets
+    assert float(m.solute("urea").solubility("20 degC")) == pytest.approx(1.08, rel=0.01)
 
 
 def test_bases_of_printed_solubilities_agree() -> None:
@@ -237,9 +231,8 @@ def test_solution_properties_against_printed_tables() -> None:
             assert found.liquid_density == pytest.approx(density, rel=4e-3), name
             if viscosity:
                 assert found.dynamic_viscosity * 1e3 == pytest.approx(viscosity, rel=0.05), name
-    assert np.isnan(
-        m.solution_properties("20 degC", 0.1, "citric acid").dynamic_viscosity
-    )  # a gap in the library hides nothing else
+    # a gap in the library hides nothing else
+    assert np.isnan(m.solution_properties("20 degC", 0.1, "citric acid").dynamic_viscosity)
     assert m.solution_properties("20 degC", 0.2, "citric acid").liquid_density == pytest.approx(
         1080.5, rel=0.01
     )
@@ -258,9 +251,8 @@ def test_enthalpies_close_with_the_heat_of_crystallization() -> None:
         + b.solvent_ratio * s.solvent.liquid_enthalpy(298.15)
         - b.hydrate_ratio * s.crystal_enthalpy(298.15)
     )
-    assert float(released) == pytest.approx(
-        2.85 * 4184 / 0.1596086, rel=1e-6
-    )  # Perry: CuSO4·5H2O takes up 2.85 kcal/mol on dissolving
+    # Perry: CuSO4·5H2O takes up 2.85 kcal/mol on dissolving
+    assert float(released) == pytest.approx(2.85 * 4184 / 0.1596086, rel=1e-6)
     assert float(s.heat_of_crystallization("25 degC")) == pytest.approx(float(released))
     nitrate = m.solute("potassium nitrate")
     assert float(nitrate.heat_of_crystallization("25 degC")) == pytest.approx(34.89e3 / 0.1011032, rel=1e-6)

@@ -76,9 +76,8 @@ def test_surface_tension_release_table_1() -> None:
 def test_ice_release_check_values() -> None:
     assert m.ice_vapor_pressure(230.0) == pytest.approx(8.94735, rel=1e-6)
     assert m.ice_melting_pressure(260.0) / 1e6 == pytest.approx(138.268, rel=1e-5)
-    assert m.ice_vapor_pressure(273.16) == pytest.approx(
-        m.water_vapor_pressure(273.16), rel=1e-4
-    )  # meet at the triple point
+    # meet at the triple point
+    assert m.ice_vapor_pressure(273.16) == pytest.approx(m.water_vapor_pressure(273.16), rel=1e-4)
 
 
 def test_liquid_against_printed_tables() -> None:
@@ -86,13 +85,11 @@ def test_liquid_against_printed_tables() -> None:
     celsius = np.array([20.0, 50.0, 80.0])
     np.testing.assert_allclose(m.water_density(celsius + 273.15), [998.21, 988.04, 971.80], rtol=3e-5)
     np.testing.assert_allclose(m.water_viscosity(celsius + 273.15) * 1e3, [1.0016, 0.5465, 0.3540], rtol=1e-3)
-    assert m.water_conductivity(298.15) == pytest.approx(
-        0.6065, rel=1e-4
-    )  # Ramires 1995, standard reference value
+    # Ramires 1995, standard reference value
+    assert m.water_conductivity(298.15) == pytest.approx(0.6065, rel=1e-4)
     full = m.thermal_conductivity_iapws(celsius + 273.15, m.water_density(celsius + 273.15))
-    np.testing.assert_allclose(
-        m.water_conductivity(celsius + 273.15), full, rtol=6e-3
-    )  # two releases; the second lacks the enhancement
+    # two releases; the second lacks the enhancement
+    np.testing.assert_allclose(m.water_conductivity(celsius + 273.15), full, rtol=6e-3)
     np.testing.assert_allclose(
         m.water_heat_of_vaporization(np.array([273.16, 373.15])) / 1e3, [2500.9, 2256.4], rtol=1e-4
     )

@@ -154,10 +154,8 @@ def test_slip_and_brownian_motion_of_hinds_tables():
         Pd = 101.3 * d * 1e6
         assert factor == pytest.approx(1 + (15.60 + 7.00 * np.exp(-0.059 * Pd)) / Pd, rel=5e-3)
         assert slip.slip_factor_davies(knudsen) == pytest.approx(factor, rel=0.02)
-        for slip_law in (
-            slip.slip_factor_allen_raabe,
-            slip.slip_factor_kim,
-        ):  # other materials: 2.5 and 3.2 % less at 0.1 µm
+        # other materials: 2.5 and 3.2 % less at 0.1 µm
+        for slip_law in (slip.slip_factor_allen_raabe, slip.slip_factor_kim):
             assert slip_law(knudsen) == pytest.approx(factor, rel=0.035 if d < 5e-7 else 0.015)
         v = slip.terminal_velocity_slip(d, 1000.0, 1.2, 1.81e-5, 66e-9)
         assert v == pytest.approx(velocity, rel=0.03)

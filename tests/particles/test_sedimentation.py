@@ -35,9 +35,8 @@ def test_both_give_back_the_sizes_of_the_suspension() -> None:
     d, below = size_distribution_pipette(t, hanging, 12.0, **CELL)
     assert np.asarray(below) == pytest.approx(finer(np.asarray(d)), rel=1e-12)
     d, below = size_distribution_balance(t, [deposited(x) for x in t], **CELL)
-    assert np.asarray(below) == pytest.approx(
-        finer(np.asarray(d)), abs=0.01
-    )  # what the tangents of 25 readings leave
+    # what the tangents of 25 readings leave
+    assert np.asarray(below) == pytest.approx(finer(np.asarray(d)), abs=0.01)
     assert float(size_distribution_balance([60.0], [0.3], **CELL).cumulative_fraction[0]) == 1.0
     with pytest.raises(InputError, match=r"'time' \(2\), 'deposited_fraction' \(1\)"):
         size_distribution_balance("1 2 min", "30 %", **CELL)

@@ -41,9 +41,8 @@ def test_table_of_the_course_notes_worked_to_every_mean_by_hand() -> None:
         assert float(d.mean(p, q)) * 1e6 == pytest.approx(value, rel=1e-12)
     # cumulative numbers: 2.7, 23.0, 73.8 % at 4, 8, 16 um (the print has 2.3 % for the first)
     assert float(d.percentile(0.5)) * 1e6 == pytest.approx(8.0 + 8.0 * (50.0 - 23.0) / 50.8, rel=1e-12)
-    np.testing.assert_allclose(
-        d.density() * 1e-6 * 100, [1.35, 5.08, 6.35, 1.46, 0.08, 0.00], atol=6e-3
-    )  # printed dN/dX
+    # printed dN/dX
+    np.testing.assert_allclose(d.density() * 1e-6 * 100, [1.35, 5.08, 6.35, 1.46, 0.08, 0.00], atol=6e-3)
 
 
 def test_straight_mass_line_from_1_to_101_micrometers() -> None:

@@ -57,9 +57,8 @@ def test_small_drops_in_air_as_beard_and_pruppacher_measured():
         Re < 2, 1 + 0.102 * Re**0.955, np.where(Re < 21, 1 + 0.115 * Re**0.802, 1 + 0.189 * Re**0.632)
     )
     found = np.asarray(drag_modern.drag_coefficient_brown_lawler(Re))
-    np.testing.assert_allclose(
-        found, 24 / Re * pieces, rtol=0.055
-    )  # the pieces themselves jump by 2 % where they meet
+    # the pieces themselves jump by 2 % where they meet
+    np.testing.assert_allclose(found, 24 / Re * pieces, rtol=0.055)
 
 
 def test_coulson_and_richardson_steel_ball_in_oil():
@@ -87,9 +86,8 @@ def test_agrees_with_the_peer_library_on_its_own_law():
         found = terminal_velocity(
             particle_diameter=d, drag=drag_modern.drag_coefficient_barati, gravity=fluids.core.g, **SAND
         )
-        assert found == pytest.approx(
-            peer, rel=1e-8 if d > 1e-4 else 0.02
-        )  # the peer switches to Stokes below Re 0.01
+        # the peer switches to Stokes below Re 0.01
+        assert found == pytest.approx(peer, rel=1e-8 if d > 1e-4 else 0.02)
 
 
 def test_rising_sphere_is_negative_and_finite():
@@ -207,9 +205,8 @@ def test_power_laws_reproduce_the_courses_equations():
     stokes = terminal_explicit.terminal_velocity_power_law(
         particle_diameter=1e-5, drag_factor=24.0, drag_exponent=1.0, **quartz
     )
-    assert stokes == pytest.approx(
-        0.545 * 1650 / 1e-3 * 1e-10, rel=1e-3
-    )  # table III.2, first row: 0.545 Δρ d²/η
+    # table III.2, first row: 0.545 Δρ d²/η
+    assert stokes == pytest.approx(0.545 * 1650 / 1e-3 * 1e-10, rel=1e-3)
     newton = terminal_explicit.terminal_velocity_newton(particle_diameter=1e-2, **quartz)
     assert newton**2 == pytest.approx(4 / (3 * 0.44) * 9.81 * 1.65 * 1e-2, rel=1e-12)
     # table III.2, third row, with the fluid density the print leaves out: 0.73 Δρ^0.741 η^-0.481 d^1.222
@@ -235,11 +232,8 @@ def test_criteria_and_their_limits():
     ):
         assert criteria.reynolds_number_from_diameter_criterion(Y, law) == pytest.approx(Re)
     quartz = {"particle_density": 2650.0, "fluid_density": 1000.0, "dynamic_viscosity": 1e-3}
-    for d, exponent in (
-        (2e-5, 2.0),
-        (3e-4, 8 / 7),
-        (2e-2, 0.5),
-    ):  # v ~ d², d^(1.6/1.4), √d in the three regimes
+    # v ~ d², d^(1.6/1.4), √d in the three regimes
+    for d, exponent in ((2e-5, 2.0), (3e-4, 8 / 7), (2e-2, 0.5)):
         small, large = (
             criteria.terminal_velocity_by_regime(particle_diameter=x, **quartz).terminal_velocity
             for x in (d, 1.01 * d)

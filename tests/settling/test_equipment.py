@@ -107,9 +107,8 @@ def test_api_separator_skims_all_oil_of_the_design_globule():
     mixture = Mixture(MIXTURE.solids[1:], MIXTURE.liquids, (), edges, liquid_viscosity=lambda w, T: 1e-3)
     stream = empty(mixture).replace(solid=jnp.full((1, 1), 1e-4), liquid=jnp.array([59.9]))
     out = unit(stream)
-    assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(
-        1.0, abs=0.1
-    )  # Stokes in the design, full drag here
+    # Stokes in the design, full drag here
+    assert float(out.skimmings.solid_flow / stream.solid_flow) == pytest.approx(1.0, abs=0.1)
     assert all(check.ok for check in unit.operate(feed=stream).checks)
 
 

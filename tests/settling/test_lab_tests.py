@@ -128,9 +128,8 @@ def test_compression_that_is_there_stays():
     h = np.asarray(course.interface_height(1.5))[1:]
     zones = BatchTest(t, h, START, initial_height=0.5).zones()
     assert zones.compression is not None
-    assert (
-        START * 0.5 / zones.compression.height > 7.5
-    )  # mean concentration under the interface there; the bed starts to carry at 8
+    # mean concentration under the interface there; the bed starts to carry at 8
+    assert START * 0.5 / zones.compression.height > 7.5
 
 
 def test_reads_a_file_and_says_what_it_did():
@@ -192,9 +191,8 @@ def test_hindrance_and_compression_from_one_curve():
         "stress_scale": 0.5,
     }
     suspension = Suspension(Vesilind(1.4e-3, 0.4), LogarithmicStress(8.0, 0.5, 4.0), 1050.0, 998.0)
-    course = settle(
-        suspension, 0.5, START, jnp.concatenate([jnp.zeros(1), t]), cells=200
-    )  # another grid than the fit's
+    # another grid than the fit's
+    course = settle(suspension, 0.5, START, jnp.concatenate([jnp.zeros(1), t]), cells=200)
     h = np.asarray(course.interface_height(1.5))[1:] + np.random.default_rng(0).normal(0, 5e-4, t.size)
     found = CompressionTest(t, h, START, 1050.0, initial_height=0.5).fit()
     for name, value in truth.items():

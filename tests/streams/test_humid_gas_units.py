@@ -79,9 +79,8 @@ def test_cooler_and_coil_against_the_psychrometric_formulas() -> None:
     out = CondenserCooler(10 + C)(gas)
     expected = processes.cooling(30 + C, 0.02, 10 + C, 2.0)
     figures = CondenserCooler(10 + C).operate(gas=gas).figures
-    assert float(figures.humidity_ratio) == pytest.approx(
-        0.00766, rel=5e-3
-    )  # ASHRAE table, saturated at 10 °C
+    # ASHRAE table, saturated at 10 °C
+    assert float(figures.humidity_ratio) == pytest.approx(0.00766, rel=5e-3)
     assert float(out.heat_duty) == pytest.approx(expected.heat_duty, rel=1e-3)
     assert float(figures.condensate_flow) == pytest.approx(expected.condensate_flow, rel=1e-3)
     closes([gas], [out.product, out.condensate], float(out.heat_duty))

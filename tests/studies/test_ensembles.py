@@ -88,9 +88,8 @@ def test_failures_are_counted_and_kept() -> None:
         {"particle_diameter": {"distribution": "normal", "mean": 1e-5, "standard_deviation": 1e-5}},
         fixed=SLURRY,
     )
-    assert outside.counts()["failed"] == pytest.approx(
-        159, abs=2
-    )  # one standard deviation below the mean: 15.9 %
+    # one standard deviation below the mean: 15.9 %
+    assert outside.counts()["failed"] == pytest.approx(159, abs=2)
     assert list(outside.counts()["reasons"]) == ["input 'particle_diameter' outside what is possible"]
 
 
@@ -175,9 +174,8 @@ def test_a_law_is_a_model_too() -> None:
         maximize="solids_volume_fraction * hindrance",
         starts=1,
     )
-    assert slope.values["solids_volume_fraction"] == pytest.approx(
-        1 / 5.65, rel=1e-4
-    )  # the flux peaks at 1/(n + 1)
+    # the flux peaks at 1/(n + 1)
+    assert slope.values["solids_volume_fraction"] == pytest.approx(1 / 5.65, rel=1e-4)
 
 
 def test_expressions_among_the_figures() -> None:

@@ -88,11 +88,8 @@ def test_every_derivative_equals_differences(outputs, along, value) -> None:
     for i, direction in enumerate(np.eye(len(INPUTS))):
         exact = slope(direction)
         miss = np.full(len(outputs), np.inf)
-        for h in (
-            1e-3,
-            3e-4,
-            1e-4,
-        ):  # fourth order: the best step for each figure, some being curved and some all but flat
+        # fourth order: the best step for each figure, some being curved and some all but flat
+        for h in (1e-3, 3e-4, 1e-4):
             two, one, fore, aft = (value(1.0 + k * h * direction) for k in (-2, -1, 1, 2))
             difference = (two - 8.0 * one + 8.0 * fore - aft) / (12.0 * h)
             # an elasticity below 0.01 is compared to 1e-8 of the figure: the rounding of the differences is
@@ -106,9 +103,8 @@ def test_every_derivative_equals_differences(outputs, along, value) -> None:
         far += [(INPUTS[i], outputs[j], miss[j]) for j in np.flatnonzero(~(miss < 1e-6) & ~nothing)]
     assert not far
     assert nothing.sum() <= 2
-    assert (
-        slope(np.eye(len(INPUTS))[0])[outputs.index("crystals.solid_flow")] < 0.0
-    )  # warmer mother liquor keeps more salt
+    # warmer mother liquor keeps more salt
+    assert slope(np.eye(len(INPUTS))[0])[outputs.index("crystals.solid_flow")] < 0.0
 
 
 def test_figures_of_the_subject_are_those_of_the_run(line, outputs, value) -> None:

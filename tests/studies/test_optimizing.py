@@ -80,9 +80,8 @@ def test_maximum_of_a_real_formula_by_hand() -> None:
     )
     by_hand = np.sqrt(18 * 1e-3 * 1e-3 / (9.80665 * 1650.0))
     assert found.values["particle_diameter"] == pytest.approx(by_hand, rel=1e-6)
-    assert found.prices["terminal_velocity upper"] == pytest.approx(
-        by_hand / 2e-3, rel=1e-4
-    )  # d is the root of the speed
+    # d is the root of the speed
+    assert found.prices["terminal_velocity upper"] == pytest.approx(by_hand / 2e-3, rel=1e-4)
     assert found.base["terminal_velocity"] != found.figures["terminal_velocity"]
 
 

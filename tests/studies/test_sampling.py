@@ -88,9 +88,8 @@ def test_fit_keeps_its_covariance() -> None:
     (source,) = from_fits({"a": (line, "slope"), "b": (line, "start"), "c": (line, "end")})
     drawn = inputs_at([source], unit_points("sobol_sequence", 8192, source.dimensions, 0))
     dof = line.statistics["degrees_of_freedom"]
-    assert np.cov(drawn[:, :2].T) == pytest.approx(
-        line.covariance * dof / (dof - 2), rel=0.05
-    )  # variance of Student's t
+    # variance of Student's t
+    assert np.cov(drawn[:, :2].T) == pytest.approx(line.covariance * dof / (dof - 2), rel=0.05)
     assert drawn[:, 2] == pytest.approx(drawn[:, 0] + drawn[:, 1], abs=1e-12)
     assert drawn.mean(axis=0) == pytest.approx(
         [line["slope"].value, line["start"].value, line["end"].value], rel=1e-3

@@ -38,9 +38,10 @@ def test_recycle_by_hand_and_a_case_without_solution(line) -> None:
         outputs=["hot.mass_flow", "warm.heat_duty", "out.liquid.water"],
     )
     assert found.column("hot.mass_flow")[:3] == pytest.approx([5.0, 2.0, 1.0], rel=1e-9)
+    # the loop keeps its heat
     assert found.column("warm.heat_duty")[:3] == pytest.approx(
         [found.column("warm.heat_duty")[0]] * 3, rel=1e-9
-    )  # the loop keeps its heat
+    )
     assert found.column("out.liquid.water")[:3] == pytest.approx([0.9] * 3)
     assert found.counts()["reasons"] == {"a loop did not converge": 1}
     assert np.isnan(found.column("hot.mass_flow")[3])
@@ -122,9 +123,10 @@ def test_studies_declared_for_a_line(line) -> None:
     table = {"spread": {"kind": "monte_carlo", "samples": 50, "outputs": ["hot.mass_flow"]}}
     doubt = {"divide.side_fraction": {"distribution": "uniform", "lower": 0.2, "upper": 0.3}}
     found = studies_of_line(line, table, doubt)["spread"].run()
+    # mean of 1/s
     assert found.findings()["statistics"]["hot.mass_flow"]["mean"] == pytest.approx(
         np.log(1.5) / 0.1, rel=1e-3
-    )  # mean of 1/s
+    )
     assert found.counts()["failed"] == 0
 
 
@@ -211,9 +213,8 @@ def test_sizes_found_by_a_specification_under_uncertainty(tmp_path) -> None:
         found.column("fresh.mass_flow") / 4.0, rel=1e-6
     )
     assert np.ptp(found.column("heat_per_product")) < 1e-6 * found.column("heat_per_product")[0]
-    (tmp_path / "case.toml").write_text(
-        SPECIFIED.replace('upper = "3 kg/s"', 'upper = "7 kg/s"')
-    )  # above 3.8 kg/s: no share can do it
+    # above 3.8 kg/s: no share can do it
+    (tmp_path / "case.toml").write_text(SPECIFIED.replace('upper = "3 kg/s"', 'upper = "7 kg/s"'))
     found = read_studies(tmp_path / "case.toml")["sizes"].run()
     assert found.counts()["reasons"] == {
         "the design specifications cannot be met": int((found.column("fresh.mass_flow") > 3.8).sum())

@@ -113,9 +113,8 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         return {"number": "yes" if value else "no", "unit": ""}
     if p.kind is None or isinstance(value, str):
         return {"number": getattr(getattr(value, "card", None), "name", None) or str(value), "unit": ""}
-    if isinstance(value, (list, tuple)) and any(
-        isinstance(item, str) for item in value
-    ):  # each with its own unit
+    # each with its own unit
+    if isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)

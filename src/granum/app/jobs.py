@@ -34,9 +34,8 @@ from granum.core.units import unit_system
 
 LOOK = 8  # jobs after which the memory of a process is looked at
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
-LONG = (
-    3.0  # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
-)
+# seconds after which a job is one that somebody may cancel: a process for the next one is made ready
+LONG = 3.0
 # seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
 PATIENCE = 900.0
 STUDY = 3600.0  # seconds after which a study is given up

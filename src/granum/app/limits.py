@@ -26,12 +26,8 @@ from granum.core.units import set_unit_system
 
 LARGEST_BODY = 5_000_000  # bytes
 SLOWEST_BODY = 60.0  # seconds in which a body must be here
-DEEPEST, MOST_VALUES, MOST_KEYS, MOST_DIGITS = (
-    32,
-    100_000,
-    1_000,
-    300,
-)  # of JSON: nesting, values, keys of an object, digits of a number
+# of JSON: nesting, values, keys of an object, digits of a number
+DEEPEST, MOST_VALUES, MOST_KEYS, MOST_DIGITS = 32, 100_000, 1_000, 300
 POLICY = (
     "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -96,11 +92,8 @@ class Familiar:
     one that is not.
     """
 
-    quick, most, look = (
-        0.03,
-        20_000,
-        50,
-    )  # seconds; forms remembered; new forms after which the memory is looked at
+    # seconds; forms remembered; new forms after which the memory is looked at
+    quick, most, look = 0.03, 20_000, 50
     _number = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*(?:[A-Za-zµμ°℃%Ω][^\s;,\[\]]{0,30})?\s*")
 
     def __init__(self) -> None:

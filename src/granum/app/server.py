@@ -369,9 +369,8 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
 
 def _examples_folder() -> Path:
     root = Path(str(files("granum") / "examples"))
-    return (
-        root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"
-    )  # installed, or in a source tree
+    # installed, or in a source tree
+    return root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"
 
 
 @cache

@@ -10,9 +10,8 @@ import os
 import threading
 from pathlib import Path
 
-MOST_MAPS = (
-    20_000  # of the 65 530 that Linux gives a process by default; a compiled function takes about sixteen
-)
+# of the 65 530 that Linux gives a process by default; a compiled function takes about sixteen
+MOST_MAPS = 20_000
 MOST_MEMORY = 2_500_000_000  # bytes
 _forgetting = threading.Lock()
 

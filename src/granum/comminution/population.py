@@ -31,10 +31,8 @@ from granum.core.kinds import OpenFraction, Ratio, Time, Within
 Convention = Literal["continuous", "root_two"]
 # Nominal openings of root-two sieves (ISO 565, R20/3) stray by up to 1.8 % (180 over 125 µm).
 _ROOT_TWO_TOLERANCE = 0.025
-GROUND, SQUARINGS = (
-    2e6,
-    20,
-)  # lifetimes after which a batch is ground; the matrix exponential is NaN where it would square more often
+# lifetimes after which a batch is ground; the matrix exponential is NaN where it would square more often
+GROUND, SQUARINGS = 2e6, 20
 _NODES, _WEIGHTS = (
     0.5 * (np.polynomial.legendre.leggauss(3)[0] + 1.0),
     0.5 * np.polynomial.legendre.leggauss(3)[1],

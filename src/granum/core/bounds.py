@@ -14,9 +14,8 @@ from granum.core.errors import ApplicabilityError
 from granum.core.notices import describe
 from granum.core.parameters import Parameter
 
-ROUNDING = (
-    1e-12  # by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
-)
+# by which rounding may carry a number beyond its bound, relative to bounds and ordinary size
+ROUNDING = 1e-12
 SOLVED = 1e-6  # of the largest figure of a series that was solved for step by step
 CONTRADICTION = "The values given contradict one another, or lie beyond what this holds for."
 

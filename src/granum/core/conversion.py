@@ -311,9 +311,8 @@ class Binder:
         """
         if "fluid" not in kwargs or "fluid" in self.index:
             return kwargs, {}
-        stated = import_module(
-            "granum.materials.stated"
-        )  # the core knows no materials; whoever names one has them
+        # the core knows no materials; whoever names one has them
+        stated = import_module("granum.materials.stated")
         rest = {name: value for name, value in kwargs.items() if name != "fluid"}
         found, origin = stated.properties(kwargs["fluid"], self.owner, self.parameters[len(args) :], rest)
         origins: dict[str, str] = dict.fromkeys(found, str(origin))

@@ -42,12 +42,10 @@ class Record:
     high: float = field(metadata={"static": True})
     source: str = field(metadata={"static": True})
     reason: str = field(default="", metadata={"static": True})
-    computed: tuple[Any, Any] | None = (
-        None  # limits that depend on the other inputs, in place of low and high
-    )
-    without: tuple[str, ...] = field(
-        default=(), metadata={"static": True}
-    )  # outputs that have no value for this reason
+    # limits that depend on the other inputs, in place of low and high
+    computed: tuple[Any, Any] | None = None
+    # outputs that have no value for this reason
+    without: tuple[str, ...] = field(default=(), metadata={"static": True})
 
 
 class _Collector:

@@ -53,9 +53,8 @@ def _floats(value: Any) -> Any:
     if isinstance(value, tuple):
         return type(value)(*map(_floats, value)) if hasattr(value, "_fields") else tuple(map(_floats, value))
     single = getattr(value, "ndim", 1) == 0 and jnp.issubdtype(value.dtype, jnp.floating)
-    return (
-        value.item() if single and not is_tracer(value) else value
-    )  # a call on constants inside an outer jit yields a tracer
+    # a call on constants inside an outer jit yields a tracer
+    return value.item() if single and not is_tracer(value) else value
 
 
 class Formula(Generic[P, R]):

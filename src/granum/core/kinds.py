@@ -190,9 +190,8 @@ MassPrice = Annotated[Any, _nonnegative("price per mass", "USD/kg", "USD/kg", "U
 # numbers
 Number = Annotated[Any, _any("number", "dimensionless", "dimensionless")]
 Ratio = Annotated[Any, _nonnegative("ratio", "dimensionless", "dimensionless", "percent")]
-Amount = Annotated[
-    Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")
-]  # masses too: only their ratios count
+# masses too: only their ratios count
+Amount = Annotated[Any, _nonnegative("relative amount", "dimensionless", "dimensionless", "percent")]
 PositiveNumber = Annotated[Any, _positive("positive number", "dimensionless", "dimensionless")]
 Fraction = Annotated[Any, Kind("fraction", "dimensionless", 0.0, 1.0, display=("percent", "dimensionless"))]
 OpenFraction = Annotated[

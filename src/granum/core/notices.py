@@ -102,10 +102,8 @@ def _units_of(row: dict[str, Any]) -> tuple[Any, str]:
     """
     try:
         kind = find(row["card"]).card.parameter(row["name"]).kind
-    except (
-        InputError,
-        StopIteration,
-    ):  # a number computed inside the body, or a material: the kind that bears the name, if one does
+    except (InputError, StopIteration):
+        # a number computed inside the body, or a material: the kind that bears the name, if one does
         kind = KINDS.get("".join(word.capitalize() for word in row["name"].split("_")))
     if kind is None:
         return format_number, ""

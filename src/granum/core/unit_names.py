@@ -91,13 +91,8 @@ _SPELLINGS = {
     "long ton": "long_ton",
     "metric ton": "tonne",
 }
-DEGREES = {
-    "C": "degC",
-    "F": "degF",
-    "R": "degR",
-    "deg C": "degC",
-    "deg F": "degF",
-}  # read so only where a temperature is due
+# read so only where a temperature is due
+DEGREES = {"C": "degC", "F": "degF", "R": "degR", "deg C": "degC", "deg F": "degF"}
 
 
 @cache

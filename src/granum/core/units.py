@@ -178,18 +178,16 @@ def read_series(text: str, kind: Kind, name: str = "") -> np.ndarray:
     if both := mixed(text):
         raise _one_or_several(text, *both, name or kind.name)
     cleaned = re.sub(r"[\[\];]", " ", tidy(text))
-    cleaned = re.sub(
-        r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned
-    )  # before a blank or after a unit the comma separates
+    # before a blank or after a unit the comma separates
+    cleaned = re.sub(r",(?=\s)|(?<=[^\d\s.,]),|(?<=[A-Za-z^]\d),", " ", cleaned)
     numbers = re.findall(r"[0-9.,eE+-]*[0-9][0-9.,eE+-]*", cleaned)
     if len(numbers) == 1 and re.fullmatch(r"[^,]*,\d[^,]*", numbers[0]):  # "0,5 mm"
         raise _one_or_several(
             text, numbers[0].replace(",", "."), numbers[0].replace(",", "; "), name or kind.name
         )
     if numbers and "," in numbers[0] and len(numbers) <= 2 and numbers[0].count(",") >= len(numbers):
-        cleaned = cleaned.replace(
-            ",", " "
-        )  # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
+        # "2,4,8 um": the comma separates; beside blanks it is a decimal comma
+        cleaned = cleaned.replace(",", " ")
     values: list[float] = []
     units: list[str] = []
     for word in cleaned.split():
@@ -341,9 +339,8 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    if (
-        0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000)
-    ):  # from 1 m/s on nobody writes mm/s
+    # from 1 m/s on nobody writes mm/s
+    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:

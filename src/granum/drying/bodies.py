@@ -41,9 +41,8 @@ from granum.numerics import integrate
 
 LIQUID_HEAT_CAPACITY, VAPORIZATION_AT_ZERO, LATENT_SLOPE = 4186.0, 2500.9e3, -2361.0
 SCALE = 300.0  # kelvin: makes temperature a number like moisture for the integrator
-FINEST = (
-    0.82  # ratio of neighboring cells, of 24: the one at the surface is thin enough to stand for the surface
-)
+# ratio of neighboring cells, of 24: the one at the surface is thin enough to stand for the surface
+FINEST = 0.82
 _GEOMETRY = {"plate": 0, "cylinder": 1, "sphere": 2}
 _Times = Annotated[Time, Series("points")]
 
@@ -64,9 +63,8 @@ class BodyDrying(NamedTuple):
 class Body(NamedTuple):
     """Everything the balance needs: arrays, so that bodies of all shapes share one compiled integration."""
 
-    shares: (
-        Any  # dry-solid mass of each cell per unit of surface (plate), length/(2π) (cylinder) or 4π (sphere)
-    )
+    # dry-solid mass of each cell per unit of surface (plate), length/(2π) (cylinder) or 4π (sphere)
+    shares: Any
     geometry: Any  # 0 plate, 1 cylinder, 2 sphere
     dry_density: Any
     shrinkage: Any
@@ -90,9 +88,8 @@ def _shape(X: Any, b: Body) -> tuple[Any, Any, Any]:
     n = b.geometry + 1
     cubes = jnp.concatenate([jnp.zeros(1), jnp.cumsum(volume)]) * n
     r = jnp.concatenate([jnp.zeros(1), cubes[1:] ** (1.0 / n)])
-    area = jnp.where(
-        b.geometry == 0, 1.0, jnp.where(b.geometry == 1, r, r * r)
-    )  # a power of zero has no derivative
+    # a power of zero has no derivative
+    area = jnp.where(b.geometry == 0, 1.0, jnp.where(b.geometry == 1, r, r * r))
     return r, area, jnp.diff(r)
 
 

@@ -182,12 +182,10 @@ def dryer_energy_chart(
         (_("fan"), v.shaft_power, ACCENT),
         (_("heat inside"), v.heat_duty_inside, CAUTION),
     ]
-    carried = v.dry_gas_flow_fresh * (
-        v.enthalpy_outlet - v.enthalpy_fresh
-    )  # with the vapor of the water taken up
-    product = (
-        v.heat_duty + v.shaft_power + v.heat_duty_inside - v.heat_loss - carried
-    )  # negative: the product's water brings its own
+    # with the vapor of the water taken up
+    carried = v.dry_gas_flow_fresh * (v.enthalpy_outlet - v.enthalpy_fresh)
+    # negative: the product's water brings its own
+    product = v.heat_duty + v.shaft_power + v.heat_duty_inside - v.heat_loss - carried
     evaporation = v.heat_duty_minimum
     taken = [
         (_("evaporation"), evaporation, LIQUID),

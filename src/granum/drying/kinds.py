@@ -6,9 +6,10 @@ from typing import Annotated, Any
 
 from granum.core.kinds import Kind
 
+# zero where there is none
 AddedHeatTransferCoefficient = Annotated[
     Any, Kind("heat transfer coefficient", "W/(m^2*K)", 0.0, display=("W/(m^2*K)", "kcal/(m^2*hour*K)"))
-]  # zero where there is none
+]
 ElectricField = Annotated[Any, Kind("electric field", "V/m", 0.0, display=("V/m", "kV/m", "V/cm"))]
 PowerDensity = Annotated[Any, Kind("power per volume", "W/m^3", 0.0, display=("W/m^3", "kW/m^3", "W/cm^3"))]
 ThermalEffusivity = Annotated[

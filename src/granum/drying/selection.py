@@ -96,9 +96,8 @@ def choose(
             why.append(_("needs it preformed, granulated or mixed with dry product first"))
         off = _beyond(mass_flow, d["flow_low"], d["flow_high"])
         if off > 0:
-            missing += off / (
-                3.0 if mass_flow > d["flow_high"] else 1.0
-            )  # several machines side by side are possible
+            # several machines side by side are possible
+            missing += off / (3.0 if mass_flow > d["flow_high"] else 1.0)
             why.append(_("feed outside {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
         else:
             good.append(_("made for {low} to {high} t/h").format(**_span(d, "flow", 3.6)))
@@ -119,9 +118,8 @@ def choose(
         if residence_time is not None:
             off = _beyond(residence_time, d["residence_low"], d["residence_high"])
             if off > 0:
-                missing += off * (
-                    1.5 if residence_time > d["residence_high"] else 0.3
-                )  # too long a stay is merely wasteful
+                # too long a stay is merely wasteful
+                missing += off * (1.5 if residence_time > d["residence_high"] else 0.3)
                 why.append(
                     _("keeps the product {low} to {high} min").format(**_span(d, "residence", 1.0 / 60.0))
                 )

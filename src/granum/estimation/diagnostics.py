@@ -217,9 +217,8 @@ def _stray(
     tried = [refitted(key) for key, guess in sets.items() if guess < PROMISING]
     if not any(chance < ERROR for chance, _key, _at in tried):
         return nothing
-    if (
-        n <= ONE_BY_ONE
-    ):  # something is wrong: which point it is, no linear algebra about a spoiled solution may decide
+    # something is wrong: which point it is, no linear algebra about a spoiled solution may decide
+    if n <= ONE_BY_ONE:
         tried += [refitted((k,)) for k in range(n) if sets.get((k,), 1.0) >= PROMISING]
     _least, suspects, at = min(tried, key=lambda item: item[0])
     while suspects:

@@ -118,9 +118,8 @@ class Problem:
                 )
             return found
 
-        with np.errstate(
-            all="ignore"
-        ):  # a trial step may leave what the model can compute; SciPy then takes a shorter one
+        # a trial step may leave what the model can compute; SciPy then takes a shorter one
+        with np.errstate(all="ignore"):
             outcome = scipy.optimize.least_squares(
                 lambda part: weight * self.residual(whole(part), y),
                 np.clip(q, low, high)[free],

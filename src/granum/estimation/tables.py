@@ -28,15 +28,8 @@ _DECIMAL = {
     ".": re.compile(r"[+-]?\d*\.\d+(?:[eE][+-]?\d+)?"),
 }
 _WHOLE = re.compile(r"[+-]?[1-9]\d{0,2}")
-_SHEET_ERRORS = (
-    "#N/A",
-    "#DIV/0!",
-    "#REF!",
-    "#VALUE!",
-    "#NUM!",
-    "#NAME?",
-    "#NULL!",
-)  # in a first cell: no comment, but no number
+# in a first cell: no comment, but no number
+_SHEET_ERRORS = ("#N/A", "#DIV/0!", "#REF!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!")
 MOST_ROWS = 20_000  # of a workbook, which is read cell by cell
 LARGEST_UNPACKED = 30_000_000  # bytes
 Row = tuple[int, list[Any]]

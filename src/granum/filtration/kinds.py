@@ -12,9 +12,8 @@ OVER_COMPRESSIBLE = (
 
 TimePerVolume = Annotated[Any, Kind("time per volume", "s/m^3", display=("s/L", "s/mL", "min/m^3"))]
 TimePerVolumeSquared = Annotated[Any, Kind("time per volume squared", "s/m^6", display=("s/L^2",))]
-FittedMediumResistance = Annotated[
-    Any, Kind("medium resistance", "1/m")
-]  # an intercept of readings, negative by their scatter
+# an intercept of readings, negative by their scatter
+FittedMediumResistance = Annotated[Any, Kind("medium resistance", "1/m")]
 FittedVolume = Annotated[Any, Kind("volume", "m^3", display=("L", "mL", "cm^3"))]
 RuthConstant = Annotated[
     Any, Kind("volume squared per time", "m^6/s", lower=0.0, open_lower=True, display=("L^2/s",))

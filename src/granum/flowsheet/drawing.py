@@ -32,9 +32,8 @@ def _columns(line: Flowsheet) -> dict[str, int]:
     columns: dict[str, int] = {}
     for unit in nx.topological_sort(graph):
         columns[unit] = max((columns[p] + 1 for p in graph.predecessors(unit)), default=0)
-    for unit in reversed(
-        list(nx.topological_sort(graph))
-    ):  # pull sources such as an air heater next to what they serve
+    # pull sources such as an air heater next to what they serve
+    for unit in reversed(list(nx.topological_sort(graph))):
         later = [columns[s] for s in graph.successors(unit)]
         if later and not list(graph.predecessors(unit)):
             columns[unit] = max(columns[unit], min(later) - 1)
@@ -91,9 +90,8 @@ def draw(line: Flowsheet, streams: Mapping[str, Any] | None = None) -> str:
     bottom = top + ROW * max(used.values()) - (ROW - BOX) + 34
     height = bottom + LANE * len(below) + 12
     detours = {(k.source_unit, "out") for k in line.links if k.name in (*above, *below)}
-    detours |= {
-        (k.target_unit, "in") for k in line.links if k.name in (*above, *below)
-    }  # verticals beside a unit: names keep clear of them
+    # verticals beside a unit: names keep clear of them
+    detours |= {(k.target_unit, "in") for k in line.links if k.name in (*above, *below)}
 
     def port(k: Link, end: str) -> tuple[float, float]:
         unit = k.source_unit if end == "origin" else k.target_unit

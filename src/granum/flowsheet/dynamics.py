@@ -302,7 +302,6 @@ def _instant(
         found.states.update(now.states)
         records |= now.made.records
     streams = {k.name: _floats(found.streams[k.name]) for k in line.links}
-    finite = jnp.isfinite(
-        jnp.stack([s.mass_flow + s.temperature for s in streams.values()])
-    )  # too long a step may burst a holdup
+    # too long a step may burst a holdup
+    finite = jnp.isfinite(jnp.stack([s.mass_flow + s.temperature for s in streams.values()]))
     return _Instant(streams, found.states), records, good & jnp.all(finite)

@@ -25,9 +25,8 @@ from granum.streams.stream import COLDEST, HOTTEST, Stream
 
 CLOSURE = 1e-9  # of what enters: a balance that misses by more than this is not a balance
 LEAST = -1e-9  # of the largest stream: what rounding may leave of a flow that is zero
-SATURATED = (
-    1.001  # a gas that leaves saturated may lie this far above by the difference between two vapor pressures
-)
+# a gas that leaves saturated may lie this far above by the difference between two vapor pressures
+SATURATED = 1.001
 PHASES = {"solid": "solids", "liquid": "liquids", "gas": "gases"}
 WRONG = flags.OUTSIDE_DOMAIN | flags.NOT_FINITE | flags.NOT_CONVERGED
 
@@ -115,9 +114,8 @@ def faults(line: Flowsheet, solution: Solution, found: Findings) -> list[Fault]:
     """
     fed = [fault for k in line.links if not k.origin for fault in _of_stream(line, solution, found, k.name)]
     units = [unit for block in line.blocks for unit in block.units]
-    starved = [
-        unit for unit in units if _unknown(line, found, unit)
-    ]  # what they say of themselves may be said because of what came in
+    # what they say of themselves may be said because of what came in
+    starved = [unit for unit in units if _unknown(line, found, unit)]
     own = [fault for unit in units for fault in _of_unit(line, solution, found, unit, unit not in starved)]
     return fed + own + [fault for unit in starved for fault in _own_words(solution.records, unit)]
 
@@ -178,9 +176,8 @@ def _of_stream(line: Flowsheet, solution: Solution, found: Findings, name: str) 
     if bool(found.finite[i]):
         yield from impossible(line, name, solution.streams[name], *(float(x[i]) for x in found[1:4]))
         return
-    if unit and _unknown(
-        line, found, unit
-    ):  # a unit that is given no number gives none: the fault lies before it
+    # a unit that is given no number gives none: the fault lies before it
+    if unit and _unknown(line, found, unit):
         return
     text = _("{what} is not a finite number: check the inputs of that unit.")
     if unit and bool(jnp.isfinite(solution.streams[name].mass_flow)):

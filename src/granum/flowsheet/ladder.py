@@ -133,9 +133,8 @@ def wrongs(found: Tried, targets: tuple[Target, ...]) -> list[Fault]:
     if not all(np.isfinite(float(v)) for v in designed.values.values()):
         return [Fault("target", "", "", "")]
     told = faults(designed.line, solution, found.findings)
-    if not bool(
-        solution.converged
-    ):  # what hangs in the air balances nowhere: only what a unit says of itself may be a cause
+    # what hangs in the air balances nowhere: only what a unit says of itself may be a cause
+    if not bool(solution.converged):
         return [fault for fault in told if fault.kind == "no value"] or [_open_loop(found)]
     if not bool(designed.converged):
         return [Fault("target", "", "", "")]

@@ -24,9 +24,8 @@ if TYPE_CHECKING:
 
 WIDTH, HEIGHT = 1120, 790
 MARGIN = {"l": 70, "r": 80, "t": 70, "b": 62}
-NEARBY = np.array(
-    [0.0, -0.04, 0.04, -0.08, 0.08, -0.12, 0.12, -0.18, 0.18, -0.24, 0.24, -0.3, 0.3]
-)  # shares where a label may evade to
+# shares of a line by which its label may evade
+NEARBY = np.array([0.0, -0.04, 0.04, -0.08, 0.08, -0.12, 0.12, -0.18, 0.18, -0.24, 0.24, -0.3, 0.3])
 States = Annotated[Temperature, Series("states")] | None
 Humidities = Annotated[HumidityRatio, Series("states")] | None
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]

@@ -59,9 +59,8 @@ class Solver:
         """The state, and where it is possible."""
         check_pair_of_inputs(self.given)
         names, lewis = list(self.given), self.lewis["wet_bulb_temperature"]
-        if flags.listening() or (
-            lewis is not None and jnp.ndim(lewis) > 0
-        ):  # a block cannot tell what it has to say
+        # a block cannot tell what it has to say
+        if flags.listening() or (lewis is not None and jnp.ndim(lewis) > 0):
             return self._solve()
 
         def one(P: Any, *values: Any) -> tuple[Gas, Any]:
@@ -183,9 +182,8 @@ class Solver:
         pair, P, T, h = self.pair, self.P, self.given["temperature"], self.given["enthalpy"]
         y = rel.fraction_at_enthalpy(pair, T, P, h)
         ys = self._ys(T)
-        foggy = (
-            (y > ys) & (ys < 1) & (pair.freezing_temperature < T)
-        )  # ice takes enthalpy away, so such a mixture is not told apart
+        # ice takes enthalpy away, so such a mixture is not told apart
+        foggy = (y > ys) & (ys < 1) & (pair.freezing_temperature < T)
         gas, possible = self._bounded(
             T,
             jnp.where(foggy, ys, y),
@@ -418,9 +416,8 @@ class Solver:
         if not self.pair.heavy_vapor:
             return self._falling(balance, lower, upper)
         lower, upper = jnp.broadcast_arrays(lower * (1 - SLACK), upper * (1 + SLACK))
-        share = (
-            jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2
-        )  # states lie close near saturation
+        # states lie close near saturation
+        share = jnp.linspace(0.0, 1.0, SAMPLES).reshape((-1,) + (1,) * lower.ndim) ** 2
         T = lower + share * (upper - lower)
         values = jax.lax.map(balance, T)
         change = values[:-1] * values[1:] < 0

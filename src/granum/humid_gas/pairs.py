@@ -33,15 +33,12 @@ class AbstractPair(eqx.Module):
     freezing_temperature: ClassVar[float]
     lowest_temperature: ClassVar[float]
     highest_temperature: ClassVar[float]
-    highest_condensation: ClassVar[float] = float(
-        "inf"
-    )  # no liquid above, so that a wet bulb there is an extrapolation
-    highest_pressure: ClassVar[float] = (
-        MOST_PRESSURE  # beyond it the substances are no longer what the pair takes them for
-    )
-    heavy_vapor: ClassVar[bool] = (
-        False  # whether evaporation can shrink the gas, so that two states share a volume
-    )
+    # no liquid above, so that a wet bulb there is an extrapolation
+    highest_condensation: ClassVar[float] = float("inf")
+    # beyond it the substances are no longer what the pair takes them for
+    highest_pressure: ClassVar[float] = MOST_PRESSURE
+    # whether evaporation can shrink the gas, so that two states share a volume
+    heavy_vapor: ClassVar[bool] = False
 
     def __call__(self, temperature: Temperature, pressure: Pressure = STANDARD_ATMOSPHERE) -> MoleFraction:
         """Mole fraction of vapor in saturated gas; none above the boiling point."""
@@ -176,11 +173,8 @@ WATER_ENTHALPY = (
     6.304380417709865e-08,
 )
 WATER_VAPORIZATION = 2500.9e3  # J/kg at 0 °C, IAPWS-95
-ICE_ENTHALPY = (
-    -333.43e3,
-    2097.0,
-    3.85,
-)  # J/kg in °C: heat of fusion and heat capacity of IAPWS-06 near the triple point
+# J/kg in °C: heat of fusion and heat capacity of IAPWS-06 near the triple point
+ICE_ENTHALPY = (-333.43e3, 2097.0, 3.85)
 TRIPLE_POINT = 273.16
 
 

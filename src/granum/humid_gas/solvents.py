@@ -144,9 +144,8 @@ class AbstractFluidPair(AbstractIdealPair):
             1.0 / tables.low,
             goal,
         )
-        beyond = (
-            jnp.maximum(goal - np.log(tables.top_pressure), 0.0) / tables.slopes[1]
-        )  # above the critical pressure
+        # above the critical pressure
+        beyond = jnp.maximum(goal - np.log(tables.top_pressure), 0.0) / tables.slopes[1]
         return jnp.where(beyond > 0, tables.high / jnp.maximum(1.0 - beyond, 0.1), 1.0 / root.value)
 
     def condensate_molar_enthalpy(self, T: Any, P: Any, frozen: Any) -> Any:

@@ -205,9 +205,8 @@ def _branch(entry: BranchEntry, owner: str, molar_mass: float, solvent: Fluid, c
             whole,
             entry.source,
         )
-    heat = (
-        nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass
-    )  # released when it crystallizes
+    # released when it crystallizes
+    heat = nan if entry.heat_of_solution is None else entry.heat_of_solution / molar_mass
     branch = Branch(
         crystal=crystal,
         solvent_ratio=entry.bound_solvent * solvent.molar_mass / molar_mass,

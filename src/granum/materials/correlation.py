@@ -79,9 +79,8 @@ class Correlation(eqx.Module):
         stream species take.
         """
         ends = np.array([float(as_temperature(low)), float(as_temperature(high))])
-        nodes = np.cos(
-            np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8)
-        )  # Chebyshev nodes: near-minimax error
+        # Chebyshev nodes: near-minimax error
+        nodes = np.cos(np.pi * (np.arange(4 * degree + 8) + 0.5) / (4 * degree + 8))
         T = ends.mean() + 0.5 * (ends[1] - ends[0]) * nodes
         fitted = np.polynomial.Polynomial.fit(
             T - ZERO_CELSIUS, np.asarray(self.value(jnp.asarray(T))), degree

@@ -282,9 +282,8 @@ class LaliberteLaw(eqx.Module):
 
     form: Any = eqx.field(static=True)
     coefficients: tuple[float, ...] = eqx.field(static=True)
-    limits: tuple[float, ...] = eqx.field(
-        static=True, default=()
-    )  # lowest and highest K, largest mass fraction
+    # lowest and highest K, largest mass fraction
+    limits: tuple[float, ...] = eqx.field(static=True, default=())
     is_missing = False
 
     def __call__(self, temperature: Any, solute_mass_fraction: Any) -> Any:

@@ -110,9 +110,10 @@ def chain_blocks(push: Callable[[Cells], Rates], like: Cells) -> Blocks:
     g = like.shared.shape[1]
     p, q = min(n, 2), min(n, 3)
     cells = jnp.arange(n)
+    # color, unknown, cell, 1, a
     chosen_lanes = (cells % p == jnp.arange(p)[:, None])[:, None, :, None, None] * jnp.eye(a)[
         :, None, None, :
-    ]  # color, unknown, cell, 1, a
+    ]
     chosen_shared = (cells % q == jnp.arange(q)[:, None])[:, None, :, None] * jnp.eye(g)[:, None, :]
     seeds = Cells(
         jnp.concatenate(
@@ -290,9 +291,8 @@ def solve_chain(
             value, push = jax.linearize(f, u)
             r = _summed(value)
             factors = factored(push, u, h)
-            missing = jax.tree.map(
-                lambda v, c, d: v + c * d / taken, r, capacity, before
-            )  # to the step in time that led here
+            # to the step in time that led here
+            missing = jax.tree.map(lambda v, c, d: v + c * d / taken, r, capacity, before)
             change = solve_factored(factors, r)
             correction = lax.cond(
                 careful, lambda: solve_factored(then, missing), lambda: jax.tree.map(jnp.zeros_like, before)
@@ -320,17 +320,15 @@ def solve_chain(
                 turned,
                 damping,
             )
-            lost = ~(
-                jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r))
-            )  # the step before went astray: back to its start
+            # the step before went astray: back to its start
+            lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))
             # Newton's method from the guess is given up when it goes astray, the path without examination
             # when it takes too long
             failed = (trial & (~good | (astray & (number >= PATIENCE)))) | (~careful & (number >= BOLD))
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
-            ratio = jnp.where(
-                whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0
-            )  # Newton's method is quadratic
+            # Newton's method is quadratic
+            ratio = jnp.where(whole & (relative < 1e-6) & jnp.isfinite(last), relative / last, 1.0)
             # changes are nearly proportional to a step: the next is to come close to the largest allowed
             growth = GROWTH ** jnp.where(relative < 0.05, 3.0, 1.0)
             began = jnp.where(jnp.isfinite(taken), taken, h)

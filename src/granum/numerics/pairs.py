@@ -76,9 +76,8 @@ def crossing_pair(
     start = jnp.clip(lax.stop_gradient(jnp.asarray(start, dtype=float)), lower, upper)
     start = jnp.where(jnp.isfinite(start), start, 0.5 * (lower + upper))
     help_ = lax.stop_gradient(help_)
-    traced, given = jax.closure_convert(
-        function, start, help_
-    )  # Python runs the function once; what follows replays its trace
+    # Python runs the function once; what follows replays its trace
+    traced, given = jax.closure_convert(function, start, help_)
     moved, allowing = jax.closure_convert(lambda x: allowed(x), start)  # a bound method cannot be hashed
     value, made, residual, number, _known = _crossing(
         traced, moved, most, given, lax.stop_gradient(allowing), lower, upper, start, help_

@@ -115,9 +115,8 @@ def _search(
         return tolerance * jnp.maximum(abs(x), floor)
 
     lower, upper = jnp.broadcast_to(lower, guess.shape), jnp.broadcast_to(upper, guess.shape)
-    if (
-        guess.size < LARGE
-    ):  # the ends are the first two passes of the one loop, so that the function is compiled once
+    # the ends are the first two passes of the one loop, so that the function is compiled once
+    if guess.size < LARGE:
         nothing = jnp.zeros_like(guess)
         carry = (
             lower,
@@ -227,9 +226,8 @@ def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
         narrow = abs(high - low) <= 2.0 * slack(middle)
         fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
         step = ahead - x
-        across = jnp.sign(
-            jnp.where(y < 0, high, low) - x
-        )  # a step may round to nothing, so its own sign is not asked
+        # a step may round to nothing, so its own sign is not asked
+        across = jnp.sign(jnp.where(y < 0, high, low) - x)
         beyond = ahead + across * 0.5 * slack(ahead)
         overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
         following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)

@@ -71,9 +71,8 @@ class Motion(eqx.Module):
         q = step * gone / z  # ∫ e^−kt dt
         short = z < 1e-3
         long = jnp.where(short, 1.0, z)
-        r = step**2 * jnp.where(
-            short, 0.5 - z / 6.0 + z**2 / 24.0, (long + jnp.expm1(-long)) / long**2
-        )  # ∫∫ e^−kt dt dt
+        # ∫∫ e^−kt dt dt
+        r = step**2 * jnp.where(short, 0.5 - z / 6.0 + z**2 / 24.0, (long + jnp.expm1(-long)) / long**2)
         x, y, vx, vy = state
         across = vx - self.stream
         left = 1.0 - gone

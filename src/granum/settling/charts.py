@@ -216,9 +216,8 @@ def animated(times: np.ndarray, heights: np.ndarray, concentration: np.ndarray) 
         title=_("Concentration over depth and time"),
     )
     add_line(drawing, concentration[0], heights, _("concentration"), color=SOLID)
-    drawing.update_traces(
-        line={"simplify": False}
-    )  # every profile keeps its points, so that frames follow each other one to one
+    # every profile keeps its points, so that frames follow each other one to one
+    drawing.update_traces(line={"simplify": False})
     names = [f"{t / MINUTE:.3g} min" for t in times]
     drawing.frames = [
         go.Frame(

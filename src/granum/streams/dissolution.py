@@ -51,9 +51,8 @@ class SaturatingWash(eqx.Module):
         self, solvent_flow: MassFlow, solute_flow: MassFlow, solute_fraction: Fraction = 1.0
     ) -> MassFlow:
         """Crystal that a liquor dissolves per time; infinite where a hydrate would melt in its own water."""
-        gain = solute_fraction - self.solubility * (
-            1.0 - solute_fraction
-        )  # solute beyond saturation per crystal dissolved
+        # solute beyond saturation per crystal dissolved
+        gain = solute_fraction - self.solubility * (1.0 - solute_fraction)
         need = jnp.maximum(self.solubility * solvent_flow - solute_flow, 0.0)
         return self.approach * jnp.where(gain > 0, need / jnp.where(gain > 0, gain, 1.0), jnp.inf)
 

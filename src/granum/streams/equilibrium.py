@@ -68,9 +68,8 @@ class HumidMixture:
                     '"{liquid}"].'
                 ).format(liquid=self.solvent)
             )
-        self.pair = _pair(
-            mixture.materials, self.carrier or AIR, self.solvent
-        )  # alone it saturates as in any gas
+        # alone it saturates as in any gas
+        self.pair = _pair(mixture.materials, self.carrier or AIR, self.solvent)
         self.molar_masses = np.array([g.molar_mass for g in mixture.gases])
 
     @property

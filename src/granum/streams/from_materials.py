@@ -162,9 +162,8 @@ def _gas(known: Library, name: str) -> Species:
     f = known.fluid(name)
     heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
     made_of = ((f.name, 1.0),)
-    if (
-        f.combustion is not None
-    ):  # counted as what it burns to, less the air that this takes, so that burning conserves components
+    # counted as what it burns to, less the air that this takes, so that burning conserves components
+    if f.combustion is not None:
         water = f.combustion.water
         made_of, heat = ((AIR, 1.0 - water), ("water", water)), heat + _heat_held(known, f)
     return Species(

@@ -283,9 +283,8 @@ def verdict(found: Designed) -> Any:
     """
     met = jnp.all(jnp.stack([jnp.isfinite(v) for v in found.values.values()] or [jnp.asarray(True)]))
     measured = findings(found.line, found.solution)
-    code = jnp.where(
-        jnp.all((measured.mass <= CLOSURE) & (measured.energy <= CLOSURE)), FINE, NOT_CLOSED
-    )  # false when not finite
+    # false when not finite
+    code = jnp.where(jnp.all((measured.mass <= CLOSURE) & (measured.energy <= CLOSURE)), FINE, NOT_CLOSED)
     code = jnp.where(jnp.all(measured.finite) & ~known_temperatures(measured), TOO_HOT, code)
     code = jnp.where(jnp.any(measured.saturation > SATURATED), OVERSATURATED, code)
     code = jnp.where(jnp.any(measured.lowest < LEAST), NEGATIVE, code)

@@ -36,10 +36,8 @@ from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-TRICKLE, THIN = (
-    1e-15,
-    1e-12,
-)  # m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
+# m³/s of filtrate and m³ of cake per m³ of it: a feed without solid or liquid gives numbers
+TRICKLE, THIN = 1e-15, 1e-12
 Ends = tuple[float, float]
 
 

@@ -407,9 +407,8 @@ class VacuumBatchCrystallizer(_Cycled):
 
     def figures(self, inside: Grown, outlets: VacuumBatchOutlets, feed: Stream) -> VacuumBatchFigures:
         figures, course = self._figures(inside, outlets.product, feed), inside.course
-        fastest = (
-            jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle
-        )  # after the first flash
+        # after the first flash
+        fastest = jnp.max(-jnp.diff(course.solvent)[1:] / jnp.diff(course.time)[1:]) * self.cycle
         gone, volume = course.solvent[0] - course.solvent[-1], outlets.product.slurry_volume_flow * self.cycle
         return VacuumBatchFigures._make((*figures, self._seed(feed, inside.found), volume, gone, fastest))
 

@@ -22,10 +22,8 @@ from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Dynamic
 
-SOWN, SOWN_SIZE = (
-    1.0,
-    100e-6,
-)  # kg/m³ and m: seeds at a start-up, without which secondary nucleation would never begin
+# kg/m³ and m: seeds at a start-up, without which secondary nucleation would never begin
+SOWN, SOWN_SIZE = 1.0, 100e-6
 WEIR = 2.0  # relative outflow per relative surplus of volume
 
 
@@ -179,10 +177,8 @@ class InTime(Dynamic):
         early = jnp.where(state.turnover > 0, state.turnover, volume(then.liquid, then.solid) / self.volume)
         late = early * safe_divide(now.slurry_volume_flow, then.slurry_volume_flow, 1.0)
         lead = 1.0 - 0.5 * step * early
-        lead, lag = (
-            jnp.where(lead > 0, lead, jnp.nan),
-            1.0 + 0.5 * step * late,
-        )  # a step longer than two residence times is refused
+        # a step longer than two residence times is refused
+        lead, lag = jnp.where(lead > 0, lead, jnp.nan), 1.0 + 0.5 * step * late
         here = Contents(T, state.liquid[found.solute], state.liquid[found.solvent], jnp.zeros(()))
         grains = cube * state.crystals.moments()[3]
         numbers, sizes = packets_of(

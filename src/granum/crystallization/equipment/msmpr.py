@@ -99,9 +99,8 @@ class _Continuous(Unit):
         volumes = feed.liquid / densities
         others = jnp.sum(volumes) - volumes[found.solute] - volumes[found.solvent]
         evaporation, per_crystal = self._evaporation(feed, found)
-        self.solubility(
-            self.temperature
-        )  # once more where its flags are heard: inside what is compiled they are lost
+        # once more where its flags are heard: inside what is compiled they are lost
+        self.solubility(self.temperature)
         state = steady_msmpr(
             feed_of(feed, found),
             self.temperature,

@@ -228,9 +228,8 @@ def population_density_size_dependent(
     impossible(~(path > 0.0), growth_rate, "growth_rate", reason=NO_GROWTH)
     u = (1.0 - b) * jnp.log(base)
     near = jnp.abs(u) < 1e-5
-    stretch = jnp.where(
-        near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u)
-    )  # (base^(1-b) - 1)/(1-b) over ln base
+    # (base^(1-b) - 1)/(1-b) over ln base
+    stretch = jnp.where(near, 1.0 + u / 2.0 + u**2 / 6.0, jnp.expm1(u) / jnp.where(near, 1.0, u))
     return nuclei_population_density * base**-b * jnp.exp(-jnp.log(base) * stretch / path)
 
 

@@ -32,10 +32,8 @@ from granum.crystallization.population.packets import (
 )
 from granum.crystallization.vessels.crystals import Crystal, ratio_left
 
-MOST_ROUNDS, SETTLED = (
-    80,
-    1e-7,
-)  # of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
+# of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
+MOST_ROUNDS, SETTLED = 80, 1e-7
 
 
 class SuspensionVolume(eqx.Module):

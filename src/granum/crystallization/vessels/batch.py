@@ -125,9 +125,8 @@ def simulated(
 def nuclei_share(course: Course, seeds: Seeds) -> float:
     """Mass share of the crystals that were born in the batch."""
     cubes = course.final.number * _cubes(course.final)
-    per_rate = cubes.reshape(
-        (-1, seeds.low.shape[0] + course.born.shape[0])
-    )  # one row of packets for each growth rate
+    # one row of packets for each growth rate
+    per_rate = cubes.reshape((-1, seeds.low.shape[0] + course.born.shape[0]))
     return float(1.0 - jnp.sum(per_rate[:, : seeds.low.shape[0]]) / jnp.maximum(jnp.sum(cubes), 1e-300))
 
 

@@ -109,9 +109,8 @@ class GasCyclone(Unit):
         m, shape, viscosity, dust = feed.mixture, self.dimensions, feed.gas_viscosity, feed.solid_density
         volume = feed.gas_volume_flow
         flow = jnp.maximum(volume, LEAST) / self.parallel_number
-        density = jnp.where(
-            volume > 0.0, safe_divide(feed.gas_flow, volume), LEAST
-        )  # without gas nothing is carried
+        # without gas nothing is carried
+        density = jnp.where(volume > 0.0, safe_divide(feed.gas_flow, volume), LEAST)
         velocity = flow / (shape.inlet_height * shape.inlet_width)
         loading = safe_divide(feed.solid_flow, feed.gas_flow)
         each = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
@@ -139,9 +138,8 @@ class GasCyclone(Unit):
         )
 
     def outlets(self, inside: Swirl, feed: Stream) -> CycloneOutlets:
-        passes = jnp.clip(
-            safe_divide(inside.carried, inside.loading, otherwise=1.0), 0.0, 1.0
-        )  # of the dust that stays with the gas past the inlet
+        # of the dust that stays with the gas past the inlet
+        passes = jnp.clip(safe_divide(inside.carried, inside.loading, otherwise=1.0), 0.0, 1.0)
         share = 1.0 - passes * (1.0 - inside.grade)
         share = share.reshape(share.shape + (1,) * len(feed.mixture.axes))
         total = safe_divide(jnp.sum(feed.solid * share), feed.solid_flow)

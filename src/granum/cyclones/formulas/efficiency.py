@@ -221,9 +221,8 @@ def configuration_number_leith_licht(
     551
     """
     D, a, b, De, S, h, H, B = cyclone
-    natural = jnp.minimum(
-        2.3 * De * (D**2 / (a * b)) ** (1.0 / 3.0), H - S
-    )  # length of the vortex below the finder
+    # length of the vortex below the finder
+    natural = jnp.minimum(2.3 * De * (D**2 / (a * b)) ** (1.0 / 3.0), H - S)
     above = jnp.pi * (S - a / 2.0) * (D**2 - De**2) / 4.0
     end = D - (D - B) * (S + natural - h) / (H - h)
     core = jnp.pi * De**2 * natural / 4.0

@@ -25,13 +25,11 @@ def swirl(Q: Any, cyclone: Dimensions, friction: Any) -> Any:
     v_z = Q / (jnp.pi * R**2)
     entry = Q / (a * b * (0.889 - 0.204 * b / R))  # of the contracted jet
     angle = jnp.arccos(jnp.clip(1.0 - b / R, -1.0, 1.0))
-    depth = (
-        friction / v_z * jnp.maximum(h / R - a / R * angle / (2.0 * jnp.pi), LEAST)
-    )  # wall of the cylinder less the inlet
+    # wall of the cylinder less the inlet
+    depth = friction / v_z * jnp.maximum(h / R - a / R * angle / (2.0 * jnp.pi), LEAST)
     wall = 2.0 * entry / (1.0 + jnp.sqrt(1.0 + 4.0 * depth * entry))
-    slope = jnp.maximum(
-        (R - B / 2.0) / jnp.hypot(H - h, R - B / 2.0), LEAST
-    )  # sine of half the angle of the cone
+    # sine of half the angle of the cone
+    slope = jnp.maximum((R - B / 2.0) / jnp.hypot(H - h, R - B / 2.0), LEAST)
     damping = wall / v_z * (friction + friction / slope)
 
     def at(r: Any) -> Any:

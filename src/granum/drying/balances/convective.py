@@ -163,9 +163,8 @@ def _bracket(name: str, v: Values) -> tuple[Any, Any, bool]:
     hot = "temperature_inlet" in v and "heat_duty" not in v
     if name == "temperature_outlet" and "relative_humidity_outlet" in v:
         return COLDEST, PAIR.boiling_temperature(P) * (1.0 - 1e-9), hot
-    if (
-        name == "humidity_ratio_outlet"
-    ):  # from below zero, so that the end never falls on perfectly dry fresh air
+    # from below zero, so that the end never falls on perfectly dry fresh air
+    if name == "humidity_ratio_outlet":
         return (-1e-4, WETTEST, True) if hot and "temperature_outlet" in v else (-1e-4, 1.0, False)
     if name.startswith("temperature"):
         return COLDEST, WARMEST, False
@@ -269,9 +268,8 @@ _HEATER = (
     "drying_efficiency",
     "moisture_extraction_rate",
 )
-LEAST_WATER = (
-    1e-8  # kg/s: without evaporation there is no dryer, and knowns that say the same thing twice end there
-)
+# kg/s: without evaporation there is no dryer, and knowns that say the same thing twice end there
+LEAST_WATER = 1e-8
 # The first that fails tells why: a dryer that wets, air that must leave beyond saturation, air too cold to
 # carry the water, and so on.
 _LIMITS = (

@@ -90,9 +90,8 @@ class Wheel(AbstractAtomizer):
         )
 
     def launch(self, feed: Liquor) -> Any:
-        return (
-            0.01 * self.rotation_speed * 0.5 * self.diameter
-        )  # what little of the tip speed points along the chamber
+        # what little of the tip speed points along the chamber
+        return 0.01 * self.rotation_speed * 0.5 * self.diameter
 
 
 @law(

@@ -91,9 +91,8 @@ class Burner(Unit):
     def measured(
         self, inside: None, outlets: Fired, figures: BurnerFigures, gas: Stream, fuel: Stream
     ) -> dict[str, Any]:
-        enough = jnp.where(
-            figures.fuel_flow > 0, figures.excess_air_ratio, MOST
-        )  # without fuel no air is needed
+        # without fuel no air is needed
+        enough = jnp.where(figures.fuel_flow > 0, figures.excess_air_ratio, MOST)
         return {"enough": enough, "hot": figures.temperature}
 
 

@@ -147,9 +147,8 @@ class AbstractCoilCircuit(AbstractCircuit):
             """
             w1, w2 = humidities(T)
             _product, _vapor, need = duty.parted(T, T)
-            carried = (
-                duty.water * m.enthalpies("gases", T)[humid.vapor]
-            )  # the vapor is in the gas here, and in ``need`` too
+            # the vapor is in the gas here, and in ``need`` too
+            carried = duty.water * m.enthalpies("gases", T)[humid.vapor]
             return (
                 h(duty.temperature_inlet, w1)
                 - h(T, w2)
@@ -314,9 +313,8 @@ class SteamCircuit(AbstractCircuit):
         )
         product, vapor, need = duty.parted(T2, boiling)
         P, T1 = duty.feed.pressure, jnp.asarray(duty.temperature_inlet, dtype=float)
-        if (
-            humid.solvent == "water"
-        ):  # real steam, whose heat capacity near boiling is above that of the streams' ideal gas
+        # real steam, whose heat capacity near boiling is above that of the streams' ideal gas
+        if humid.solvent == "water":
             given = steam_enthalpy.function(T1, P) - steam_enthalpy.function(T2, P)
         else:
             vapor_of = duty.feed.mixture.gases[humid.vapor]

@@ -249,9 +249,8 @@ class PaddleDryer(Unit):
             return jnp.asarray(self.heat_transfer_coefficient_paste)
         X = safe_divide(feed.liquid[0], feed.solid_flow)
         liquid_density = feed.mixture.densities("liquids", heat.boiling)[0]
-        held = (heat.capacity + X * heat.liquid_capacity) / (
-            1.0 / feed.solid_density + X / liquid_density
-        )  # J/(m³ K)
+        # J/(m³ K)
+        held = (heat.capacity + X * heat.liquid_capacity) / (1.0 / feed.solid_density + X / liquid_density)
         return heat_transfer_coefficient_penetration(
             jnp.sqrt(held * self.thermal_conductivity_paste), self._contact()
         )

@@ -95,9 +95,8 @@ class RotaryDryer(CellDryer):
         Ua = volumetric_heat_transfer_rotary.function(
             gas.gas_flow / self.section, self.diameter, self.transfer_constant, self.transfer_exponent
         )
-        exchange = (
-            Ua * self.extent() / (jnp.sum(F) * time)
-        )  # every class takes heat in proportion to its mass
+        # every class takes heat in proportion to its mass
+        exchange = Ua * self.extent() / (jnp.sum(F) * time)
         wall = 0.0
         if self.wall_coefficient is not None:
             wall = (

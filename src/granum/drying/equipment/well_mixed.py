@@ -108,9 +108,8 @@ class WellMixedDryer(Unit):
             area = jnp.sum(area, axis=(0, *range(2, area.ndim)))  # m² per kg of all solid, by class
             film = safe_divide(water, feed.solid_flow * jnp.sum(area))  # kg of water per m²
             time = film / jnp.maximum(flux, 1e-12)  # to dry one particle
-            dried = (
-                -jnp.expm1(-time / self.residence_time) * self.residence_time / time
-            )  # share evaporated, exponential residence times
+            # share evaporated, exponential residence times
+            dried = -jnp.expm1(-time / self.residence_time) * self.residence_time / time
             return water * jnp.sum(area * dried) / jnp.sum(area)
 
         coldest = jnp.maximum(jnp.minimum(feed.temperature, gas.temperature) - 60.0, COLDEST_FILM + 5.0)

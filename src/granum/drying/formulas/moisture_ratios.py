@@ -19,10 +19,8 @@ from granum.core.units import format_number
 from granum.drying.formulas.diffusion import cylinder, plate, sphere
 
 Model = Annotated[Any, Law("thin_layer")]
-FOURIER = (
-    np.log(1e-20),
-    np.log(30.0),
-)  # logarithm of the Fourier number, from a moisture ratio of one to 1e-30 and less
+# logarithm of the Fourier number, from a moisture ratio of one to 1e-30 and less
+FOURIER = (np.log(1e-20), np.log(30.0))
 GRID = np.linspace(np.log(1e-6), np.log(1e7), 400)  # logarithm of the time in units of the model
 
 

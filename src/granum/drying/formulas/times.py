@@ -220,9 +220,8 @@ def drying_time(
     possible = (~falling) | (Xe < X2)
     ratio = jnp.where(falling & possible, upper - Xe, 1.0) / jnp.where(falling & possible, X2 - Xe, 1.0)
     flags.impossible(~possible, X2, "moisture_dry_basis_end", Xe, jnp.inf, NEVER)
-    flags.limit_active(
-        X2 > X1, X2, "moisture_dry_basis_end", WETTER
-    )  # no time: what is dry enough passes a dryer as it is
+    # no time: what is dry enough passes a dryer as it is
+    flags.limit_active(X2 > X1, X2, "moisture_dry_basis_end", WETTER)
     t2 = jnp.where(possible, scale * (Xc - Xe) * jnp.log(ratio), jnp.nan)
     return DryingTime(t1 + t2, t1 + 0.0 * t2, t2 + 0.0 * t1)
 

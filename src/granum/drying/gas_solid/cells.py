@@ -214,9 +214,8 @@ class Contact(eqx.Module):
         blow = rate * heat_capacity / at.exchange
         small = abs(blow) < 1e-6
         safe = jnp.where(small, 1.0, blow)
-        slowed = jnp.where(
-            small, 1.0 - 0.5 * blow, safe / jnp.expm1(safe)
-        )  # Ackermann: vapor leaving the surface hinders the heat
+        # Ackermann: vapor leaving the surface hinders the heat
+        slowed = jnp.where(small, 1.0 - 0.5 * blow, safe / jnp.expm1(safe))
         heat = at.exchange * slowed * (at.gas_temperature - at.temperature)
         return rate, rate * carried, heat, self.wall_exchange * (self.wall_temperature - at.temperature)
 
@@ -314,9 +313,8 @@ class Contact(eqx.Module):
             )
             return self.profile(states, converged)
         step = 0.1 / jnp.max(self.renewal)
-        held = Cells(
-            1.0, jnp.maximum(self.gas_time / n, step)
-        )  # on its way there the gas, too, has something to hold
+        # on its way there the gas, too, has something to hold
+        held = Cells(1.0, jnp.maximum(self.gas_time / n, step))
         found = solve_chain(
             lambda u: self.rates(u, fresh), self.start(inlet), held, first_step=step, largest_change=limit
         )

@@ -68,9 +68,8 @@ def pass_zones(like: Contact, X: Any, T: Any, zones: Sequence[Zone], steps: int)
             like.wall_temperature,
             like.heat_loss,
         )
-        start = column.state(
-            X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0]
-        )  # gas at rest with the solid, so that the first step is mild
+        # gas at rest with the solid, so that the first step is mild
+        start = column.state(X, T, jnp.full(n, 1.0) * zone.humidity, T[:, 0])
         inlets = Inlet(
             *(
                 jnp.broadcast_to(v, (steps, *jnp.shape(v)))

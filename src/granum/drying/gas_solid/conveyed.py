@@ -166,9 +166,8 @@ def convey(
         return rates(v, left(before), before.lanes[:, 2], alone, length[None])
 
     states, converged = march(cell, first, lengths, 0.1 * path.steps / fastest, moving)
-    if (
-        not network.one_way
-    ):  # from the dryer without dispersion, its gas mixed with that at the end in proportion
+    # from the dryer without dispersion, its gas mixed with that at the end in proportion
+    if not network.one_way:
         share = 1.0 / (1.0 + network.from_after[0])
         guess = states._replace(shared=share * states.shared + (1.0 - share) * states.shared[-1])
         found = solve_chain(

@@ -52,10 +52,8 @@ NOTHING_TO_DRY = (
     "takes the vapor out of the gas at once: give the feed the moisture it has in ambient air, or leave the "
     "dryer out."
 )
-PLAIN = {
-    "xla_cpu_use_fusion_emitters": False,
-    "xla_backend_optimization_level": 0,
-}  # ready four times as soon; small arrays run as fast
+# ready four times as soon; small arrays run as fast
+PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}
 
 
 def ready(solve: Callable[..., Any]) -> Callable[..., Any]:
@@ -86,9 +84,8 @@ class Dried(NamedTuple):
 class DryerFigures(NamedTuple):
     """Figures that every continuous dryer has."""
 
-    evaporation_rate: (
-        SignedMassFlow  # negative where the solid came in drier than it is in equilibrium with the gas
-    )
+    # negative where the solid came in drier than it is in equilibrium with the gas
+    evaporation_rate: SignedMassFlow
     moisture_dry_basis: MoistureDryBasis
     moisture_dry_basis_highest: MoistureDryBasis
     temperature_product: Temperature
@@ -117,9 +114,8 @@ class Dryer(Unit):
     and limits are here.
     """
 
-    if (
-        TYPE_CHECKING
-    ):  # fields of every subclass, which are not declared here because a dataclass would put them first
+    # fields of every subclass, which are not declared here because a dataclass would put them first
+    if TYPE_CHECKING:
 
         @property
         def kinetics(self) -> AbstractKinetics: ...

@@ -33,9 +33,8 @@ Isotherm = Annotated[Any, Law("isotherm")]
 Curve = Annotated[Any, Law("characteristic_rate")]
 COLDEST = 200.0  # K, of a wet bulb
 LEAST = 1e-9
-EXACT = (
-    1e-13  # of roots within a law: the core solves to 1e-12 and would never settle on rates known less well
-)
+# of roots within a law: the core solves to 1e-12 and would never settle on rates known less well
+EXACT = 1e-13
 # kg/kg above equilibrium over which the last vapor pressure of the reaction engineering approach vanishes
 REA_FOOT = 1e-3
 DAMP = 0.95  # relative humidity from which on a surface may be wetted however moist the solid is
@@ -91,9 +90,8 @@ class Meeting(NamedTuple):
             return self.known_wet_bulb
         m = self.matter
         T, Y = jnp.broadcast_arrays(self.gas_temperature, self.humidity)
-        q = jnp.minimum(
-            m.saturation_pressure(T) / m.pressure, NEAR_BOILING
-        )  # gas beyond saturation is its own wet bulb
+        # gas beyond saturation is its own wet bulb
+        q = jnp.minimum(m.saturation_pressure(T) / m.pressure, NEAR_BOILING)
         Y = jnp.where(q < NEAR_BOILING, jnp.minimum(Y, m.molar_mass_ratio * q / (1.0 - q) * (1.0 - LEAST)), Y)
 
         def balance(Ts: Any, T: Any, Y: Any) -> Any:
@@ -356,6 +354,5 @@ class DiffusionKinetics(AbstractKinetics):
         inner = jnp.pi**2 * D / self.radius**2 * (at.moisture - self.equilibrium(at))
         film = at.film_rate()
         share = jnp.maximum(inner, 0.0) / jnp.maximum(jnp.maximum(inner, 0.0) + jnp.abs(film), 1e-30)
-        return jnp.where(
-            inner > 0, share * film, inner
-        )  # what diffuses bounds condensation too, which keeps the law smooth
+        # what diffuses bounds condensation too, which keeps the law smooth
+        return jnp.where(inner > 0, share * film, inner)

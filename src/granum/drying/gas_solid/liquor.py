@@ -34,9 +34,8 @@ def counted(feed: Stream) -> Stream:
         return feed
     sizes = safe_divide(jnp.sum(feed.solid, axis=0), feed.solid_flow, 1.0 / feed.solid[0].size)
     solid = feed.solid
-    for row, flow in zip(
-        crystals(feed.mixture), feed.liquid[1:], strict=True
-    ):  # on crystals of its kind, else on whatever solid there is
+    # on crystals of its kind, else on whatever solid there is
+    for row, flow in zip(crystals(feed.mixture), feed.liquid[1:], strict=True):
         there = jnp.sum(solid[row])
         solid = solid.at[row].add(
             flow * jnp.where(there > 0, solid[row] / jnp.where(there > 0, there, 1.0), sizes)

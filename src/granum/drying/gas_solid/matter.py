@@ -20,13 +20,11 @@ from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
 
-NEWTON_STEPS = (
-    4  # enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
-)
+# enthalpy is nearly linear in temperature: from 20 °C four steps reach rounding up to 1000 °C
+NEWTON_STEPS = 4
 LIQUID = (200.0, 640.0)  # K
-NEAR_BOILING = (
-    0.98  # of the pressure, from which on the driving force goes on as a straight line instead of to infinity
-)
+# of the pressure, from which on the driving force goes on as a straight line instead of to infinity
+NEAR_BOILING = 0.98
 
 
 class Matter(eqx.Module):

@@ -31,11 +31,8 @@ from granum.drying.gas_solid.matter import Matter, slope, temperature_at
 from granum.numerics import crossing_pair
 from granum.numerics.quick_roots import falling_root
 
-FIRST, LAST, STRETCHES = (
-    0.002,
-    10.0,
-    20,
-)  # ages in residence times: the first stretch, the oldest particle, how many stretches
+# ages in residence times: the first stretch, the oldest particle, how many stretches
+FIRST, LAST, STRETCHES = 0.002, 10.0, 20
 HEAT_STEPS = 3  # of Newton's method: enthalpy is nearly linear in temperature
 COLD, HOT = 180.0, 2500.0  # K, between which the search for a temperature stays
 # K that the gas may be below the wet bulb of dry gas as cold as the coldest inlet, and above the hottest one
@@ -44,10 +41,8 @@ CONDENSING = 2500.0  # K by which gas is warmed, per humidity, at most, if its v
 ENTHALPY = 1e5  # J/kg
 DEW_STEPS = 5
 NEARLY, GUESSES = 0.9, 8  # relative humidity of the guess; its halvings
-_NODES, _WEIGHTS = (
-    (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)),
-    (0.5, 0.5),
-)  # of Gauss and Legendre between 0 and 1
+# of Gauss and Legendre between 0 and 1
+_NODES, _WEIGHTS = (0.5 * (1.0 - 3.0**-0.5), 0.5 * (1.0 + 3.0**-0.5)), (0.5, 0.5)
 
 
 class Gas(NamedTuple):
@@ -188,9 +183,8 @@ class Bed(eqx.Module):
         high = jnp.where(rest < X0, jnp.minimum(jnp.maximum(high, 0.0), most), 0.0)
         size = jnp.max(abs(X0)) + jnp.max(abs(rest))
         slack = 1e-9 * size
-        traced, given = jax.closure_convert(
-            balance, X0
-        )  # Python runs the balance once, however deep the searches are nested
+        # Python runs the balance once, however deep the searches are nested
+        traced, given = jax.closure_convert(balance, X0)
         bounds = jnp.minimum(low, 0.0) - slack, high + slack
         loss = falling_root(lambda x: traced(x, *given), *bounds, start=start, size=1e-2 * size)
         return loss, temperature(loss), spread(loss)

@@ -15,10 +15,8 @@ from granum.numerics import find_root
 
 WATER_MOLAR_MASS = 0.018015268
 ROOM = 298.15
-SMALLEST, LARGEST = (
-    1e-9,
-    1.0 - 1e-9,
-)  # water activities between which an inverse without closed form is sought
+# water activities between which an inverse without closed form is sought
+SMALLEST, LARGEST = 1e-9, 1.0 - 1e-9
 
 BEND = 1e-3  # kg/kg over which an equation that ends at some water activity runs out to dry
 

@@ -18,9 +18,8 @@ from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
 from granum.streams.units import Limits
 
-NO_WASH = (
-    1e-12  # m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
-)
+# m of wash liquor in a turn, of a filter without a zone for it: any wash is far too much for it
+NO_WASH = 1e-12
 
 
 class ContinuousFilter(CakeFilter):

@@ -121,9 +121,8 @@ class SieveAnalysis(SizeTest):
         """Apertures and the mass fractions that pass them."""
         aperture, mass = self._sorted()
         below = self.fine_mass + np.concatenate([[0.0], np.cumsum(mass[:-1])])
-        return aperture, np.minimum(
-            below / self.found_mass, 1.0
-        )  # a sum may exceed the whole by its rounding
+        # a sum may exceed the whole by its rounding
+        return aperture, np.minimum(below / self.found_mass, 1.0)
 
     def notices(self) -> list[dict[str, Any]]:
         """Pan without a lower limit, top class without an upper one, loss above what is allowed."""

@@ -63,9 +63,8 @@ class Thickener(Unit):
 
     def figures(self, inside: Any, outlets: Outlets, feed: Stream) -> ThickenerFigures:
         applied = feed.solid_flow / self.area
-        limits = jnp.isfinite(
-            inside.limiting_flux
-        )  # a feed as thick as the underflow is its own limiting layer: it passes as it is
+        # a feed as thick as the underflow is its own limiting layer: it passes as it is
+        limits = jnp.isfinite(inside.limiting_flux)
         limit, layer = (
             jnp.where(limits, inside.limiting_flux, applied),
             jnp.where(limits, inside.limiting_concentration, concentration(feed)),

@@ -36,9 +36,8 @@ from granum.settling.lab_tests.curve import Curve, Tangents, convex_curve, read_
 from granum.settling.velocities import Cole, RichardsonZakiConcentration, Takacs, Vesilind
 
 RESAMPLES = 200
-FAR = (
-    20.0  # scatter, in reading errors, of points left out beyond which a new fit with them need not be tried
-)
+# scatter, in reading errors, of points left out beyond which a new fit with them need not be tried
+FAR = 20.0
 # scatter, in reading errors, up to which a velocity law alone accounts for points taken for compression
 EXPLAINED = 2.0
 

@@ -228,9 +228,8 @@ class AdiabaticHumidifier(Unit):
 
         m = gas.mixture
         root = find_root(surplus, COLDEST, gas.temperature)
-        thirst = (
-            humid.saturated_vapor(gas, gas.temperature) - gas.gas[humid.vapor]
-        )  # at its own temperature: none where it is saturated
+        # at its own temperature: none where it is saturated
+        thirst = humid.saturated_vapor(gas, gas.temperature) - gas.gas[humid.vapor]
         full = jnp.where(root.converged, humid.saturated_vapor(gas, root.value) - gas.gas[humid.vapor], 0.0)
         evaporated = jnp.clip(self.saturation_effectiveness * full, 0.0, available)
         drain = water.replace(liquid=water.liquid.at[0].add(-evaporated))
