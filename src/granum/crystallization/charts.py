@@ -16,7 +16,6 @@ from granum.core.i18n import _
 from granum.core.kinds import (
     Density,
     Distance,
-    Law,
     Length,
     MassRatio,
     PositiveNumber,
@@ -26,6 +25,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.population.packets import Packets
@@ -41,7 +41,7 @@ STEPS = 300
     typical={"temperature_cold": (280.0, 290.0), "temperature_hot": (320.0, 340.0)},
 )
 def solubility_chart(
-    solubility: Annotated[Any, Law("solubility_law")],
+    solubility: Solubility,
     temperature_cold: Temperature,
     temperature_hot: Temperature,
     metastable_width: TemperatureDifference = 5.0,
@@ -121,12 +121,12 @@ def _simulated(
 )
 def batch_chart(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    temperature_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    temperature_program: Program,
     duration: Time,
     crystal_density: Density,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,
@@ -204,12 +204,12 @@ def batch_chart(
 )
 def size_distribution_chart(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    temperature_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    temperature_program: Program,
     duration: Time,
     crystal_density: Density,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,

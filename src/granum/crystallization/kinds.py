@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from granum.core.kinds import GrowthRate, Kind, MolarEnergy, PositiveNumber, Within
+from granum.core.kinds import GrowthRate, Kind, Law, MolarEnergy, PositiveNumber, Within
 
 PositiveTemperatureDifference = Annotated[
     Any,
@@ -54,3 +54,8 @@ PositiveMolarEnergy = Annotated[MolarEnergy, Within(0.0)]
 ProductionRate = Annotated[
     Any, Kind("production per volume", "kg/(m^3*s)", lower=0.0, display=("kg/(m^3*hour)", "kg/(m^3*s)"))
 ]
+Solubility = Annotated[Any, Law("solubility_law")]
+Growth = Annotated[Any, Law("growth_rate")]
+Nucleation = Annotated[Any, Law("nucleation_rate")]
+Program = Annotated[Any, Law("program")]
+Steps = Annotated[int, Within(2, 100_000)]

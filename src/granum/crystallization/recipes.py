@@ -19,7 +19,6 @@ from granum.core.kinds import (
     Density,
     Distance,
     Fraction,
-    Law,
     Length,
     MassFlow,
     MassRatio,
@@ -33,6 +32,7 @@ from granum.core.kinds import (
 )
 from granum.core.units import format_number
 from granum.crystallization.formulas.programs import TemperaturePoints
+from granum.crystallization.kinds import Growth, Nucleation, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
@@ -78,9 +78,9 @@ def _run(shares: Any, setting: tuple[Any, ...], steps: int) -> tuple[Any, Any, A
 )
 def optimal_cooling(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    nucleation: Annotated[Any, Law("nucleation_rate")],
+    solubility: Solubility,
+    growth: Growth,
+    nucleation: Nucleation,
     temperature_start: Temperature,
     temperature_end: Temperature,
     duration: Time,
@@ -92,7 +92,7 @@ def optimal_cooling(
     liquid_density: Density = 1000.0,
     relative_supersaturation_maximum: PositiveNumber = 1.0,
     intervals: Annotated[int, Within(1, 200)] = 12,
-    steps: Annotated[int, Within(2, 100_000)] = 200,
+    steps: Steps = 200,
 ) -> CoolingRecipe:
     """Cooling program, straight by pieces and never rising, that leaves the least mass grown from nuclei at
     given start and end.
@@ -212,7 +212,7 @@ STEEP, FLAT = 0.01, 0.0015  # relative change of solubility per kelvin
     typical={"crystal_flow": (0.01, 1.0)},
 )
 def choose(
-    solubility: Annotated[Any, Law("solubility_law")],
+    solubility: Solubility,
     temperature_hot: Temperature,
     temperature_cold: Temperature,
     crystal_flow: MassFlow,

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -19,7 +19,6 @@ from granum.core.kinds import (
     Concentration,
     Distance,
     HeatTransferCoefficient,
-    Law,
     Length,
     Mass,
     MassFlow,
@@ -46,6 +45,7 @@ from granum.crystallization.equipment.roles import (
     with_crystals,
 )
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Contents, Flashing, Jacketed, Operation, Programmed
 from granum.crystallization.population.packets import Seeds
@@ -146,9 +146,9 @@ class Grown(NamedTuple):
 class _Batch(Unit):
     """What batches share; each says how long it runs and what drives it."""
 
-    solubility: Annotated[Any, Law("solubility_law")] = eqx.field(kw_only=True)
-    growth: Annotated[Any, Law("growth_rate")] = eqx.field(kw_only=True)
-    nucleation: Annotated[Any, Law("nucleation_rate")] = eqx.field(kw_only=True)
+    solubility: Solubility = eqx.field(kw_only=True)
+    growth: Growth = eqx.field(kw_only=True)
+    nucleation: Nucleation = eqx.field(kw_only=True)
     seed_mass_per_solvent: MassRatio = eqx.field(kw_only=True, default=0.0)
     seed_size: Length = eqx.field(kw_only=True, default=100e-6)
     seed_width: Distance = eqx.field(kw_only=True, default=0.0)
@@ -289,7 +289,7 @@ class BatchCrystallizer(_Cycled):
     balances). The duty is the mean one; its peak is larger.
     """
 
-    temperature_program: Annotated[Any, Law("program")]
+    temperature_program: Program
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         return Programmed(self.temperature_program)
@@ -317,7 +317,7 @@ class JacketedBatchCrystallizer(_Cycled):
     undercooling should stay within the metastable zone width.
     """
 
-    jacket_program: Annotated[Any, Law("program")]
+    jacket_program: Program
     volume: Volume
     area: Area
     heat_transfer_coefficient: HeatTransferCoefficient
@@ -381,7 +381,7 @@ class VacuumBatchCrystallizer(_Cycled):
     seeds that are held over is the small duty.
     """
 
-    temperature_program: Annotated[Any, Law("program")]
+    temperature_program: Program
 
     def _operation(self, feed: Stream, found: Roles, duration: Any) -> Operation:
         if found.vapor is None:
@@ -428,7 +428,7 @@ class PlugFlowCrystallizer(_Batch):
     tube.
     """
 
-    temperature_program: Annotated[Any, Law("program")]
+    temperature_program: Program
     volume: Volume
 
     def _time(self, feed: Stream) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -18,7 +18,6 @@ from granum.core.kinds import (
     Concentration,
     Distance,
     GrowthRate,
-    Law,
     MassFlow,
     NucleationRate,
     Number,
@@ -40,6 +39,7 @@ from granum.crystallization.equipment.roles import (
     roles,
     with_crystals,
 )
+from granum.crystallization.kinds import Growth, Nucleation, Solubility
 from granum.crystallization.vessels.msmpr import AdditiveVolumes, Removal, SteadyState, steady_msmpr
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream, median_of
@@ -72,9 +72,9 @@ class _Continuous(Unit):
 
     temperature: Temperature
     volume: Volume
-    solubility: Annotated[Any, Law("solubility_law")]
-    growth: Annotated[Any, Law("growth_rate")]
-    nucleation: Annotated[Any, Law("nucleation_rate")]
+    solubility: Solubility
+    growth: Growth
+    nucleation: Nucleation
     volume_shape_factor: PositiveNumber = eqx.field(kw_only=True, default=1.0)
     nucleus_size: Distance = eqx.field(kw_only=True, default=0.0)
     solid: str = eqx.field(kw_only=True, static=True, default="")

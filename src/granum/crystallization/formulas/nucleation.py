@@ -33,6 +33,7 @@ from granum.core.kinds import (
 )
 from granum.crystallization.formulas.driving_forces import RelativeSupersaturation
 from granum.crystallization.formulas.growth import arrhenius
+from granum.crystallization.kinds import Nucleation
 from granum.numerics.smooth import safe_log, safe_power
 
 LARGEST_EXPONENT = 700.0  # beyond it exp() underflows to zero
@@ -382,8 +383,8 @@ class ClassicalNucleation(NucleationLaw):
 class SummedNucleation(NucleationLaw):
     """Two nucleation mechanisms at work together, such as primary and secondary."""
 
-    first_nucleation: Annotated[Any, Law("nucleation_rate")]
-    second_nucleation: Annotated[Any, Law("nucleation_rate")]
+    first_nucleation: Nucleation
+    second_nucleation: Nucleation
 
     def __call__(
         self,

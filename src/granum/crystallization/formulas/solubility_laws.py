@@ -16,7 +16,6 @@ import jax.numpy as jnp
 from granum.core import law
 from granum.core.constants import GAS_CONSTANT, ZERO_CELSIUS
 from granum.core.kinds import (
-    Law,
     MassFraction,
     MassRatio,
     MolarEnergy,
@@ -25,7 +24,7 @@ from granum.core.kinds import (
     Series,
     Temperature,
 )
-from granum.crystallization.kinds import MolarEntropy
+from granum.crystallization.kinds import MolarEntropy, Solubility
 from granum.materials.library import Library, session
 
 
@@ -149,7 +148,7 @@ class AntisolventSolubility(SolubilityLaw):
     without an antisolvent fraction, it is the law of the pure solvent.
     """
 
-    pure_solubility: Annotated[Any, Law("solubility_law")]
+    pure_solubility: Solubility
     antisolvent_power: Number
     antisolvent_curvature: Number = 0.0
 

@@ -15,7 +15,6 @@ from granum.core.i18n import _
 from granum.core.kinds import (
     Density,
     Distance,
-    Law,
     Length,
     MassRatio,
     MolarEnergy,
@@ -28,6 +27,7 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import TemperaturePoints
+from granum.crystallization.kinds import Solubility
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
 from granum.crystallization.vessels.batch import narrow_seeds
@@ -59,7 +59,7 @@ class BatchKinetics(LabTest):
     time: Annotated[Time, Series("points")]
     temperature: Annotated[Temperature, Series("points")]
     solute_per_solvent: Annotated[MassRatio, Series("points")]
-    solubility: Annotated[Any, Law("solubility_law")]
+    solubility: Solubility
     crystal_density: Density
     seed_mass_per_solvent: MassRatio
     seed_size: Length

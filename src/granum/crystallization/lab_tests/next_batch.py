@@ -14,7 +14,6 @@ from granum.core.i18n import _
 from granum.core.kinds import (
     Density,
     Distance,
-    Law,
     Length,
     MassRatio,
     NucleationRate,
@@ -28,7 +27,7 @@ from granum.core.kinds import (
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.programs import PowerCooling
-from granum.crystallization.kinds import RateCoefficient
+from granum.crystallization.kinds import RateCoefficient, Solubility
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, march
 from granum.crystallization.population.operations import Programmed
@@ -83,7 +82,7 @@ def next_batch(
     growth_order: PositiveNumber,
     nucleation_coefficient: Annotated[NucleationRate, Within(1e-300)],
     nucleation_order: PositiveNumber,
-    solubility: Annotated[Any, Law("solubility_law")],
+    solubility: Solubility,
     temperature_start: Temperature,
     temperature_end: Temperature,
     crystal_density: Density,

@@ -28,10 +28,10 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
-    Within,
 )
 from granum.core.notices import describe
 from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.grid import Collisions, check_classes
 from granum.crystallization.population.lagrangian import Course, Model, SuspensionVolume, march
@@ -143,12 +143,12 @@ def mass_mean(course: Course) -> float:
 )
 def batch(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    temperature_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    temperature_program: Program,
     duration: Time,
     crystal_density: Density,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,
@@ -156,10 +156,10 @@ def batch(
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
     dissolution: Annotated[Any, Law("dissolution_rate")] | None = None,
-    evaporation_program: Annotated[Any, Law("program")] | None = None,
-    antisolvent_program: Annotated[Any, Law("program")] | None = None,
+    evaporation_program: Program | None = None,
+    antisolvent_program: Program | None = None,
     growth_dispersion: Ratio = 0.0,
-    steps: Annotated[int, Within(2, 100_000)] = 400,
+    steps: Steps = 400,
 ) -> BatchCourse:
     """Concentration, temperature and crystals of a cooling batch over time, with its product and the error of
     the time steps.
@@ -261,21 +261,21 @@ class AgglomeratingCourse(NamedTuple):
 )
 def agglomerating_batch(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    temperature_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    temperature_program: Program,
     duration: Time,
     crystal_density: Density,
     agglomeration_kernel: Annotated[Any, Law("agglomeration_kernel")] | None = None,
     breakage_law: Annotated[Any, Law("breakage_law")] | None = None,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 10e-6,
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: Annotated[int, Within(2, 100_000)] = 400,
+    steps: Steps = 400,
 ) -> AgglomeratingCourse:
     """A cooling batch whose crystals grow, are born, agglomerate and break, followed in size classes that
     move with the growth.

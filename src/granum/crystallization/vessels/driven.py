@@ -17,7 +17,6 @@ from granum.core.kinds import (
     Fraction,
     HeatCapacity,
     HeatTransferCoefficient,
-    Law,
     Length,
     Mass,
     MassRatio,
@@ -30,10 +29,10 @@ from granum.core.kinds import (
     Temperature,
     TemperatureDifference,
     Time,
-    Within,
 )
 from granum.crystallization.formulas.encrustation import wall_temperature_jacket
 from granum.crystallization.formulas.nucleation import NoNucleation
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume
 from granum.crystallization.population.operations import Flashing, HeatData, Jacketed
 from granum.crystallization.vessels.batch import (
@@ -94,9 +93,9 @@ def wall_undercooling(solubility: Any, ratio: Any, wall: Any) -> Any:
 )
 def jacketed_batch(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    jacket_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    jacket_program: Program,
     temperature_start: Temperature,
     duration: Time,
     crystal_density: Density,
@@ -107,14 +106,14 @@ def jacketed_batch(
     specific_heat_capacity: HeatCapacity = 3500.0,
     specific_heat_capacity_crystal: HeatCapacity = 1000.0,
     heat_released_per_crystal: SpecificEnergy = 0.0,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: Annotated[int, Within(2, 100_000)] = 400,
+    steps: Steps = 400,
 ) -> JacketedCourse:
     """Temperature, concentration and crystals of a batch cooled through its jacket, from the heat balance
     with the heat of crystallization.
@@ -201,23 +200,23 @@ class VacuumCourse(NamedTuple):
 )
 def vacuum_batch(
     solute_per_solvent: MassRatio,
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    temperature_program: Annotated[Any, Law("program")],
+    solubility: Solubility,
+    growth: Growth,
+    temperature_program: Program,
     duration: Time,
     crystal_density: Density,
     specific_heat_capacity: HeatCapacity = 3500.0,
     specific_heat_capacity_crystal: HeatCapacity = 1000.0,
     heat_released_per_crystal: SpecificEnergy = 0.0,
     heat_of_vaporization: SpecificEnergy = 2.4e6,
-    nucleation: Annotated[Any, Law("nucleation_rate")] = NoNucleation(),
+    nucleation: Nucleation = NoNucleation(),
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,
     volume_shape_factor: PositiveNumber = 1.0,
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
-    steps: Annotated[int, Within(2, 100_000)] = 400,
+    steps: Steps = 400,
 ) -> VacuumCourse:
     """Temperature, concentration, crystals and evaporation of a batch cooled by boiling: the pressure sets
     the temperature, the heat balance the vapor.

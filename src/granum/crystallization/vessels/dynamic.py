@@ -20,7 +20,6 @@ from granum.core.kinds import (
     Density,
     Distance,
     Fraction,
-    Law,
     Length,
     MassFlow,
     MassRatio,
@@ -32,9 +31,9 @@ from granum.core.kinds import (
     Temperature,
     Time,
     Volume,
-    Within,
 )
 from granum.crystallization.formulas.nucleation import NucleationLaw
+from granum.crystallization.kinds import Growth, Nucleation, Program, Solubility, Steps
 from granum.crystallization.population.compiled import compiled
 from granum.crystallization.population.lagrangian import Model, SuspensionVolume, react
 from granum.crystallization.population.operations import Contents, Operation
@@ -266,12 +265,12 @@ def msmpr_over_time(
     solvent_flow: MassFlow,
     volumes: Annotated[Volume, Series("stages")],
     temperatures: Annotated[Temperature, Series("stages")],
-    solubility: Annotated[Any, Law("solubility_law")],
-    growth: Annotated[Any, Law("growth_rate")],
-    nucleation: Annotated[Any, Law("nucleation_rate")],
+    solubility: Solubility,
+    growth: Growth,
+    nucleation: Nucleation,
     duration: Time,
     crystal_density: Density,
-    temperature_program: Annotated[Any, Law("program")] | None = None,
+    temperature_program: Program | None = None,
     seed_mass_per_solvent: MassRatio = 0.0,
     seed_size: Length = 100e-6,
     seed_width: Distance = 0.0,
@@ -281,7 +280,7 @@ def msmpr_over_time(
     solute_fraction_of_crystal: Fraction = 1.0,
     liquid_density: Density = 1000.0,
     growth_dispersion: Ratio = 0.0,
-    steps: Annotated[int, Within(2, 100_000)] = 1000,
+    steps: Steps = 1000,
 ) -> ContinuousCourse:
     """Start-up of a continuous crystallizer or of a cascade: composition, magma density and size of the last
     vessel over time.

@@ -10,7 +10,6 @@ import numpy as np
 from granum.core import procedure
 from granum.core.kinds import (
     Density,
-    Law,
     Length,
     MassRatio,
     Molality,
@@ -21,8 +20,8 @@ from granum.core.kinds import (
     Series,
     Temperature,
     Time,
-    Within,
 )
+from granum.crystallization.kinds import Growth, Nucleation, Program, Steps
 from granum.crystallization.population.lagrangian import Equilibrium, Model, SuspensionVolume
 from granum.crystallization.population.operations import Operation
 from granum.crystallization.population.packets import Seeds
@@ -147,9 +146,9 @@ class PrecipitationCourse(NamedTuple):
 def precipitation_batch(
     cation_molality: Molality,
     anion_molality: Molality,
-    reagent_program: Annotated[Any, Law("program")],
-    growth: Annotated[Any, Law("growth_rate")],
-    nucleation: Annotated[Any, Law("nucleation_rate")],
+    reagent_program: Program,
+    growth: Growth,
+    nucleation: Nucleation,
     duration: Time,
     crystal_density: Density,
     molar_mass: MolarMass,
@@ -159,7 +158,7 @@ def precipitation_batch(
     seed_size: Length = 10e-6,
     volume_shape_factor: PositiveNumber = 1.0,
     temperature: Temperature = 298.15,
-    steps: Annotated[int, Within(2, 100_000)] = 400,
+    steps: Steps = 400,
 ) -> PrecipitationCourse:
     """Supersaturation, ions and crystals of a stirred vessel into which the reagent with the anion is run,
     mixing being perfect.
