@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from granum.numerics.blocks import BLOCK, blockwise
-from granum.numerics.quick_roots import falling_root, likely_root, newton_root
+from granum.numerics.quick_roots import falling_root, likely_root, newton_root, straight_root
 
 
 def test_falling_root_finds_roots_of_any_slope() -> None:
@@ -60,3 +60,15 @@ def test_blocks_change_nothing() -> None:
     np.testing.assert_array_equal(
         blockwise(lambda x, k: k + x, table, jnp.arange(4.0)[:, None]), table + jnp.arange(4.0)[:, None]
     )
+
+
+def test_a_nearly_straight_function_needs_few_steps() -> None:
+    """``x + 0.01 x² = a`` has the root ``50 (√(1 + 0.04 a) − 1)``, of slope ``1/√(1 + 0.04 a)``."""
+
+    def root(a: jax.Array) -> jax.Array:
+        return straight_root(lambda x: x + 0.01 * x**2 - a, a, 5)
+
+    a = jnp.array([0.5, 2.0, 5.0])
+    found, slope = jax.jvp(root, (a,), (jnp.ones_like(a),))
+    assert np.allclose(found, 50.0 * (np.sqrt(1.0 + 0.04 * a) - 1.0), rtol=1e-14)
+    assert np.allclose(slope, 1.0 / np.sqrt(1.0 + 0.04 * a), rtol=1e-9)

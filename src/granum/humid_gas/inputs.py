@@ -15,11 +15,12 @@ from granum.humid_gas.given import MOISTURE, NAMES, WET, check_pair_of_inputs
 from granum.humid_gas.pairs import SLACK, AbstractPair
 from granum.humid_gas.relations import Gas
 from granum.numerics.blocks import blockwise
+from granum.numerics.extremes import golden_section
 from granum.numerics.quick_roots import falling_root
 from granum.numerics.roots import find_root
 
 SAMPLES = 49
-THIRDS = 50  # steps of a ternary search, each by two thirds
+SECTIONS = 44  # golden ones, down to 1e-9 of the interval
 ROUNDING = 1e-9
 ROOM_FOR_REAL = 1.25  # over the temperature at which dry ideal gas has a volume: a real gas may be warmer
 TWO_STATES = "Two states have these values; the colder and moister one is given."
@@ -444,13 +445,6 @@ def _between_samples(balance: Callable[[Any], Any], T: Any, values: Any) -> tupl
     nearest = jnp.argmin(jnp.abs(values), axis=0)[None]
     at = [jnp.take_along_axis(T, jnp.clip(nearest + step, 0, SAMPLES - 1), axis=0)[0] for step in (-1, 1)]
     side = jnp.sign(values[0])
-
-    def third(_step: Any, ends: tuple[Any, Any]) -> tuple[Any, Any]:
-        low, high = ends
-        one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
-        left = side * balance(one) < side * balance(two)
-        return jnp.where(left, low, one), jnp.where(left, two, high)
-
-    low, high = jax.lax.fori_loop(0, THIRDS, third, (at[0], at[1]))
+    low, high = golden_section(lambda T: side * balance(T), at[0], at[1], SECTIONS)
     turn = 0.5 * (low + high)
     return at[0], turn, side * balance(turn) < 0

@@ -2,8 +2,8 @@
 
 ``find_root`` serves every function and pays for it with three stages and both ends evaluated. Where a
 function is known to fall through zero between two ends (``falling_root``), to be steep and smooth near a
-start (``newton_root``), or nearly always so (``likely_root``), one Newton loop compiles three times faster
-and halves the work.
+start (``newton_root``), nearly always so (``likely_root``) or nearly straight (``straight_root``), one Newton
+loop compiles three times faster and halves the work.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
-from granum.numerics.roots import find_root
+from granum.numerics.roots import divide_by_slope, find_root
 
 TOLERANCE = 1e-7  # of the last Newton step, relative to the unknown: its square, some 1e-13, is what is left
 MOST = 120
@@ -50,30 +50,51 @@ def falling_root(
     def search(f: Callable[..., Any], first: Any) -> Any:
         if rough_slope is not None:
             return _secant(f, rough_slope, first, lower, upper)
+        return nearly_falling_root(f, lower, upper, first, least)
 
-        def advance(carry: tuple) -> tuple:
-            x, low, high, size, count = carry
-            value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
-            low, high = jnp.where(value > 0, x, low), jnp.where(value < 0, x, high)
-            ahead = x - value / jnp.where(slope == 0, -1e-300, slope)
-            fits = (ahead >= low) & (ahead <= high) & (jnp.abs(ahead - x) <= 0.5 * jnp.abs(size))
-            following = jnp.where(fits, ahead, 0.5 * (low + high))
-            # bisection leaves its whole interval, so it has to go on until that is a thousand times smaller
-            next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
-            moving = jnp.abs(size) > TOLERANCE * jnp.abs(x) + least
-            return jnp.where(moving, following, x), low, high, jnp.where(moving, next_size, size), count + 1
+    return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide_by_slope)
 
-        def unfinished(carry: tuple) -> Any:
-            x, _low, _high, size, count = carry
-            return jnp.any(jnp.abs(size) > TOLERANCE * jnp.abs(x) + least) & (count < MOST)
 
-        return lax.while_loop(unfinished, advance, (first, lower, upper, 4.0 * (upper - lower), 0))[0]
+def nearly_falling_root(f: Callable[[Any], Any], lower: Any, upper: Any, start: Any, least: Any = 0.0) -> Any:
+    """The root of ``falling_root`` without derivatives and short of its last Newton step, for those who add
+    one themselves; ``least`` is the step that counts as none where the root is near zero.
+    """
 
-    def divide(linear: Callable[..., Any], right: Any) -> Any:
-        slope = linear(jnp.ones_like(right))
-        return right / jnp.where(slope == 0, jnp.inf, slope)
+    def advance(carry: tuple) -> tuple:
+        x, low, high, size, count = carry
+        value, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
+        low, high = jnp.where(value > 0, x, low), jnp.where(value < 0, x, high)
+        ahead = x - value / jnp.where(slope == 0, -1e-300, slope)
+        fits = (ahead >= low) & (ahead <= high) & (jnp.abs(ahead - x) <= 0.5 * jnp.abs(size))
+        following = jnp.where(fits, ahead, 0.5 * (low + high))
+        # bisection leaves its whole interval, so it has to go on until that is a thousand times smaller
+        next_size = jnp.where(fits, ahead - x, 1e3 * (high - low))
+        moving = jnp.abs(size) > TOLERANCE * jnp.abs(x) + least
+        return jnp.where(moving, following, x), low, high, jnp.where(moving, next_size, size), count + 1
 
-    return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide)
+    def unfinished(carry: tuple) -> Any:
+        x, _low, _high, size, count = carry
+        return jnp.any(jnp.abs(size) > TOLERANCE * jnp.abs(x) + least) & (count < MOST)
+
+    return lax.while_loop(unfinished, advance, (start, lower, upper, 4.0 * (upper - lower), 0))[0]
+
+
+def straight_root(
+    function: Callable[[Any], Any], start: Any, steps: int, within: tuple[float, float] | None = None
+) -> Any:
+    """The root of an elementwise function that is nearly a straight line, by so many Newton steps, kept
+    ``within`` two ends. The last step alone carries derivatives.
+    """
+
+    def step(x: Any) -> Any:
+        value, slope = jax.jvp(function, (x,), (jnp.ones_like(x),))
+        ahead = x - value / slope
+        return ahead if within is None else jnp.clip(ahead, *within)
+
+    close = lax.fori_loop(
+        0, steps - 1, lambda _i, x: lax.stop_gradient(step(x)), lax.stop_gradient(jnp.asarray(start))
+    )
+    return step(close)
 
 
 def _secant(
@@ -141,11 +162,7 @@ def newton_root(
 
         return lax.while_loop(unfinished, step, (first, jnp.inf, 0))[0]
 
-    def divide(linear: Callable[..., Any], right: Any) -> Any:
-        slope = linear(jnp.ones_like(right))
-        return right / jnp.where(slope == 0, jnp.inf, slope)
-
-    return lax.custom_root(function, lax.stop_gradient(first), solve, divide)
+    return lax.custom_root(function, lax.stop_gradient(first), solve, divide_by_slope)
 
 
 LIKELY_STEPS = 3
@@ -174,10 +191,7 @@ def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: fl
             lambda: _bracketed(f, guess, x, settled, near, far),
         )
 
-    def divide(linear: Callable[[Any], Any], right: Any) -> Any:
-        return right / linear(jnp.ones_like(right))
-
-    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide, has_aux=True)
+    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide_by_slope, has_aux=True)
     return value, found > 0.0
 
 

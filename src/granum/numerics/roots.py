@@ -93,13 +93,14 @@ def find_root(
         return _search(f, lower, upper, initial, tolerance, max_steps)
 
     value, (status, steps) = lax.custom_root(
-        lambda x: traced(x, *closed_over), guess, search, _divide_by_slope, has_aux=True
+        lambda x: traced(x, *closed_over), guess, search, divide_by_slope, has_aux=True
     )
     value = jnp.where(status >= 0, value, jnp.nan)
     return Root(value, status > 0, steps.astype(int), lax.stop_gradient(equation(value)))
 
 
-def _divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
+def divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:
+    """Derivative of a root from that of its equation; zero where the equation has no slope."""
     slope = linear(jnp.ones_like(right))
     usable = jnp.isfinite(slope) & (slope != 0)
     return right / jnp.where(usable, slope, jnp.inf)

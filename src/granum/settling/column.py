@@ -21,7 +21,7 @@ from granum.core.constants import STANDARD_GRAVITY
 from granum.core.conversion import is_tracer
 from granum.core.errors import ApplicabilityError, InputError
 from granum.core.i18n import _
-from granum.settling.flux import least
+from granum.numerics.extremes import least
 
 COURANT = 0.98  # of a cell crossed in one step
 # the same where compression acts too: what flows out and what is squeezed out together stay below what is

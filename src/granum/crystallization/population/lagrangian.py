@@ -31,9 +31,7 @@ from granum.crystallization.population.packets import (
     mean_power,
 )
 from granum.crystallization.vessels.crystals import Crystal, ratio_left
-
-# of the bracketed Newton iteration for the growth path; one more step follows, which squares the error
-MOST_ROUNDS, SETTLED = 80, 1e-7
+from granum.numerics.quick_roots import TOLERANCE, nearly_falling_root
 
 
 class SuspensionVolume(eqx.Module):
@@ -380,22 +378,13 @@ def _closure(step: _Step, rate: Any, span: Any) -> tuple[Any, Any]:
     frozen = jax.tree.map(lambda v: lax.stop_gradient(v) if eqx.is_array(v) else v, step)
     begin, factor = lax.stop_gradient((explicit, implicit))
     far = begin + factor * frozen.rate(begin)
-
-    def unsettled(carry: tuple[Any, ...]) -> Any:
-        _path, _low, _high, change, size, rounds = carry
-        return (rounds < MOST_ROUNDS) & (change > SETTLED * size)
-
-    def improve(carry: tuple[Any, ...]) -> tuple[Any, ...]:
-        path, low, high, _change, _size, rounds = carry
-        found, slope = jax.jvp(frozen.rate, (path,), (jnp.ones(()),))
-        value = path - begin - factor * found
-        low, high = jnp.where(value < 0, path, low), jnp.where(value > 0, path, high)
-        ahead = path - value / (1.0 - factor * slope)
-        ahead = jnp.where((ahead > low) & (ahead < high) | (value == 0), ahead, 0.5 * (low + high))
-        return ahead, low, high, jnp.abs(ahead - path), jnp.abs(far - begin) + jnp.abs(begin), rounds + 1
-
-    ends = jnp.minimum(begin, far), jnp.maximum(begin, far)
-    path, *_rest = lax.while_loop(unsettled, improve, (begin, *ends, jnp.inf, jnp.zeros(()), 0))
+    path = nearly_falling_root(
+        lambda path: begin + factor * frozen.rate(path) - path,
+        jnp.minimum(begin, far),
+        jnp.maximum(begin, far),
+        begin,
+        TOLERANCE * (jnp.abs(far - begin) + jnp.abs(begin)),
+    )
     path = lax.stop_gradient(path)
     found, slope = jax.jvp(step.rate, (path,), (jnp.ones(()),))
     value = path - explicit - implicit * found

@@ -16,6 +16,7 @@ from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.drying.gas_solid.liquor import crystals
 from granum.numerics import safe_divide
+from granum.numerics.quick_roots import straight_root
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
@@ -167,12 +168,4 @@ def temperature_at(function: Callable[[Any], Any], H: Any, T: Any) -> Any:
     """Temperature at which an enthalpy, nearly linear in it, has a value; T is a guess. Derivatives come from
     the last step alone.
     """
-
-    def step(_number: Any, T: Any) -> Any:
-        value, rise = slope(function, T)
-        return T - (value - H) / rise
-
-    close = jax.lax.fori_loop(
-        0, NEWTON_STEPS - 1, lambda i, T: jax.lax.stop_gradient(step(i, T)), jax.lax.stop_gradient(T)
-    )
-    return step(0, close)
+    return straight_root(lambda T: function(T) - H, T, NEWTON_STEPS)

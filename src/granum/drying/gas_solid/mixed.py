@@ -29,7 +29,7 @@ from granum.drying.gas_solid.cells import Profile
 from granum.drying.gas_solid.kinetics import LEAST, AbstractKinetics, Meeting
 from granum.drying.gas_solid.matter import Matter, slope, temperature_at
 from granum.numerics import crossing_pair
-from granum.numerics.quick_roots import falling_root
+from granum.numerics.quick_roots import falling_root, straight_root
 
 # ages in residence times: the first stretch, the oldest particle, how many stretches
 FIRST, LAST, STRETCHES = 0.002, 10.0, 20
@@ -157,17 +157,7 @@ class Bed(eqx.Module):
                 heat = self.exchange * hindered(m, rate, T, self.exchange) * (warm - T)
                 return m.moist_solid(T, left) - H0 - s.whole * self.time * heat + gone * m.vapor_enthalpy(T)
 
-            def step(T: Any) -> Any:
-                value, rise = slope(surplus, T)
-                return jnp.clip(T - value / rise, COLD, HOT)
-
-            close = lax.fori_loop(
-                0,
-                HEAT_STEPS - 1,
-                lambda _i, T: lax.stop_gradient(step(T)),
-                lax.stop_gradient(T0 + 0.0 * loss),
-            )
-            return step(close)
+            return straight_root(surplus, T0 + 0.0 * loss, HEAT_STEPS, within=(COLD, HOT))
 
         def rates(X: Any, T: Any) -> Any:
             return self.time * self.kinetics.rate(self.meeting(X, T, gas, bulb))
