@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from granum.core import flags
+from granum.core import flags, notices
 from granum.core.errors import ApplicabilityError
 from granum.drying.equipment.rotary import RotaryDryer
 from granum.drying.gas_solid.cells import Contact, Inlet, Network
@@ -226,7 +226,7 @@ def test_a_dryer_without_solution_names_the_likely_cause(monkeypatch) -> None:
         feed = empty(MIXTURE).replace(solid=jnp.full((1, 2), 0.5), liquid=jnp.array([X]))
         with flags.collect() as records:
             RotaryDryer(5.0, 1.0, SurfaceKinetics(0.05), 0.03).inside(feed, gas)
-        (told,) = flags.describe(records)
+        (told,) = notices.describe(records)
         assert told["flag"] == "not converged"
         assert cause in told["message"]
 
