@@ -85,7 +85,7 @@ def entries() -> dict[str, Entry]:
     """All cards of the package by key.
 
     >>> entries()["particles.reynolds_number"].module
-    'granum.particles.formulas.groups'
+    'granum.particles.formulas.numbers'
     """
     text = (files("granum") / "core" / "index.csv").read_text(encoding="utf-8")
     return {row["key"]: Entry(**row) for row in csv.DictReader(text.splitlines())}
