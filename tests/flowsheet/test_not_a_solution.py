@@ -246,7 +246,7 @@ def test_a_watch_is_told_and_stops_with_the_last_iterate() -> None:
 
 def test_a_line_that_settles_soon_is_solved_before_anybody_watches() -> None:
     told: list[tuple[str, int, float]] = []
-    run = loop(Heater(temperature=333.15)).solve(Watch(lambda *row: told.append(row)))
+    run = Line("loop", loop(Heater(temperature=333.15))).solve(Watch(lambda *row: told.append(row)))
     assert float(run.streams["mixed"].mass_flow) == pytest.approx(1 / 0.3, rel=1e-10)
     assert not told
 
