@@ -24,6 +24,12 @@ def test_the_index_lists_every_card():
     assert path_of_index().read_text(encoding="utf-8") == index(), "run: python -m granum.core.stubs"
 
 
+def test_a_class_made_for_many_cards_is_no_name_of_the_domain():
+    """Isotherms of products are made by one function, each a class of the same name."""
+    with pytest.raises(AttributeError, match="has no 'Product'"):
+        gr.drying.Product  # noqa: B018
+
+
 def test_stub_of_the_package_has_all_its_rooms():
     text = (path_of("drying").parents[1] / "__init__.pyi").read_text(encoding="utf-8")
     for name in dir(gr):

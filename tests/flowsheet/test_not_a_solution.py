@@ -255,6 +255,7 @@ def test_a_line_that_settles_soon_is_solved_before_anybody_watches() -> None:
 def test_time_is_bounded() -> None:
     problem = refusal(Line("loop", loop(Heater(temperature=333.15))), Watch(seconds=1e-9))
     assert "Not solved within" in problem.message
+    assert ": 1 passes" in problem.message, "nothing more is begun when the time is up"
 
 
 def test_command_line_gives_no_figures_unless_asked(tmp_path: Path) -> None:

@@ -188,7 +188,7 @@ def domain_names(package: str, *offered: str) -> tuple[Callable[[str], Any], Cal
         if name.startswith("__"):
             raise AttributeError(name)
         entry = _attributes(domain).get(name)
-        found = public_names(domain) if entry is None else {name: known(entry.key)}
+        found = public_names(domain) if entry is None else vars(importlib.import_module(entry.module))
         if name not in found:
             close = nearest(name, found)
             hint = f"; did you mean '{close}'?" if close else ""

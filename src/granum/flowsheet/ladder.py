@@ -108,7 +108,10 @@ def climb(
 
     found, wrong = attempt(_quickly, np.asarray(PASSES if watch is None else OPENING[bool(targets)]))
     if watch is not None and wrong and _loops_fail(sheet, targets, wrong):
-        found, wrong = attempt(_watched)
+        opened = found.designed.solution
+        watch.passes, watch.residual = int(sum(opened.steps)), float(np.max(opened.residual))
+        if not (watch.stopped or watch.late):
+            found, wrong = attempt(_watched)
     for solver in (_patiently, _by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
         if watch is not None and (watch.stopped or watch.late):
             break
