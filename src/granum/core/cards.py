@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from granum.core.docstrings import written_doc
-from granum.core.index import Entry
+from granum.core.index import Entry, entries
 from granum.core.limits import Limit
 from granum.core.parameters import Parameter
 
@@ -73,7 +73,7 @@ class Card:
     @property
     def title(self) -> str:
         """Title in the current language."""
-        return self.entry.title
+        return entries().get(self.key, self.entry).title
 
     @property
     def summary(self) -> str:

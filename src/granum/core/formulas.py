@@ -18,6 +18,7 @@ import numpy as np
 
 from granum.core import bounds, flags, notebooks
 from granum.core.cards import Card, Ranges, key_of, make_card
+from granum.core.compiling import begun
 from granum.core.conversion import Binder, convert, is_tracer
 from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
@@ -235,7 +236,7 @@ class Formula(Generic[P, R]):
         found = self._compiled.get((key, sort))
         if found is None:
             body = {"bare": self._bare, "masked": self._masked, "checked": self._checked}[sort]
-            found = self._compiled[(key, sort)] = jax.jit(lambda *dynamic: body(self._merged(key, dynamic)))
+            found = self._compiled[(key, sort)] = begun(lambda *dynamic: body(self._merged(key, dynamic)))
         return found
 
     def _bare(self, values: list[Any]) -> Any:

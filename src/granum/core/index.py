@@ -13,7 +13,7 @@ from functools import cache
 from importlib.resources import files
 
 from granum.core.glossary import ending, quantity_in, term
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,8 @@ class Entry:
     given_title, english_summary: its texts.
     gives: names of its outputs, with spaces between.
     module, attribute: where it is declared.
+    english_title: title in English, written down because it takes the French words to tell authors from
+        others.
     """
 
     key: str
@@ -37,6 +39,7 @@ class Entry:
     gives: str
     module: str
     attribute: str
+    english_title: str = ""
 
     @property
     def domain(self) -> str:
@@ -53,6 +56,8 @@ class Entry:
         """Title in the current language: as declared, else the glossary label with the author of the
         correlation.
         """
+        if self.english_title and current_language() == "en":
+            return self.english_title
         if self.given_title:
             return _(self.given_title)
         word = quantity_in(self.name)

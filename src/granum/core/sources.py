@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
@@ -16,23 +17,44 @@ duplicates: list[str] = []
 
 
 @cache
-def bibliography() -> dict[str, Entry]:
-    """All entries by key, as they stand in the files."""
+def _texts() -> dict[str, str]:
+    """The files of the bibliography by name."""
+    folder = files("granum") / "references"
+    return {
+        path.name: path.read_text(encoding="utf-8")
+        for path in sorted(folder.iterdir(), key=lambda p: p.name)
+        if path.name.endswith(".bib")
+    }
+
+
+def _parsed(text: str, name: str) -> list[Entry]:
     from bibtexparser.entrypoint import parse_string
 
+    library = parse_string(text)
+    if library.failed_blocks:
+        raise ValueError(f"bibliography: {name} has an entry that cannot be read: {library.failed_blocks[0]}")
+    return library.entries
+
+
+@cache
+def bibliography() -> dict[str, Entry]:
+    """All entries by key, as they stand in the files."""
     entries: dict[str, Entry] = {}
-    for path in sorted((files("granum") / "references").iterdir(), key=lambda p: p.name):
-        if path.name.endswith(".bib"):
-            library = parse_string(path.read_text(encoding="utf-8"))
-            if library.failed_blocks:
-                raise ValueError(
-                    f"bibliography: {path.name} has an entry that cannot be read: {library.failed_blocks[0]}"
-                )
-            for entry in library.entries:
-                if entry.key in entries:
-                    duplicates.append(f"{entry.key} (again in {path.name})")
-                entries[entry.key] = entry
+    for name, text in _texts().items():
+        for entry in _parsed(text, name):
+            if entry.key in entries:
+                duplicates.append(f"{entry.key} (again in {name})")
+            entries[entry.key] = entry
     return entries
+
+
+def _found(key: str) -> Entry:
+    """One entry, without reading the others where each begins a line of its own, as they do."""
+    begins = re.compile(rf"^@\w+\{{{re.escape(key)},.*?(?=^@|\Z)", re.MULTILINE | re.DOTALL)
+    for name, text in _texts().items():
+        if (block := begins.search(text)) is not None:
+            return _parsed(block[0], name)[0]
+    raise unknown_name("source", key, bibliography())
 
 
 @cache
@@ -41,11 +63,8 @@ def reference(key: str) -> dict[str, str]:
     from bibtexparser.library import Library
     from bibtexparser.middlewares import LatexDecodingMiddleware
 
-    found = bibliography().get(key)
-    if found is None:
-        raise unknown_name("source", key, bibliography())
     decoder = LatexDecodingMiddleware(allow_inplace_modification=False)
-    (decoded,) = decoder.transform(Library([found])).entries
+    (decoded,) = decoder.transform(Library([_found(key)])).entries
     return {name: str(field.value) for name, field in decoded.fields_dict.items()}
 
 

@@ -1,4 +1,5 @@
-"""What is written down of what is found at run time: type stubs of the domains and the index of all cards.
+"""What is written down of what is found at run time: type stubs of the domains, the index of all cards,
+conversions of units.
 ``python -m granum.core.stubs`` writes them, a test compares them.
 """
 
@@ -7,12 +8,21 @@ from __future__ import annotations
 import csv
 import io
 import sys
+from collections.abc import Iterator
 from dataclasses import asdict, fields
 from importlib import import_module
 from pathlib import Path
 
+from pint.errors import DimensionalityError
+
+from granum.core.errors import UnitError
+from granum.core.glossary import glossary
+from granum.core.i18n import LANGUAGES, language
 from granum.core.index import Entry
+from granum.core.kinds import KINDS
 from granum.core.registry import DOMAINS, everything
+from granum.core.unit_names import same_by_pint
+from granum.core.units import FIELD, affine_by_pint, angles_by_pint, pretty_unit
 
 PACKAGES = ("core", *DOMAINS)
 ROOT = Path(__file__).parents[1]
@@ -44,7 +54,10 @@ def index() -> str:
     text = io.StringIO()
     table = csv.DictWriter(text, [f.name for f in fields(Entry)], lineterminator="\n")
     table.writeheader()
-    table.writerows(asdict(thing.card.entry) for thing in everything().values())
+    with language("en"):
+        for thing in everything().values():
+            entry = thing.card.entry
+            table.writerow(asdict(entry) | {"english_title": entry.title})
     return text.getvalue()
 
 
@@ -53,7 +66,45 @@ def path_of_index() -> Path:
     return ROOT / "core" / "index.csv"
 
 
+def ways_to_write(unit: str) -> Iterator[str]:
+    """A unit as Pint, people and printers write it."""
+    short = unit.replace("hour", "h").replace("tonne", "t").replace("inch", "in").replace("delta_deg", "deg")
+    for text in (unit, short):
+        yield from (text, text.replace("^", ""), text.replace("*", " "))
+        yield text.replace("um", "µm").replace("degC", "°C")
+        for code in LANGUAGES:
+            with language(code):
+                yield pretty_unit(text)
+
+
+def unit_table() -> str:
+    """The text of ``granum/core/unit_table.csv``: every unit of a kind, a glossary entry or the customary
+    system, by Pint.
+    """
+    usual = sorted({term.unit for term in glossary().values() if term.unit})
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    for si in dict.fromkeys(kind.unit for kind in KINDS.values()):
+        own = [unit for kind in KINDS.values() if kind.unit == si for unit in kind.units]
+        written = (way for unit in (*own, *FIELD.get(si, ()), *usual) for way in ways_to_write(unit))
+        for unit in dict.fromkeys(written):
+            try:
+                known = bool(unit) and same_by_pint(unit, si) and affine_by_pint(unit, si)
+            except (UnitError, DimensionalityError):  # a difference of temperatures has rules of its own
+                continue
+            if known:
+                factor, offset = known
+                table.writerow((unit, si, repr(factor), repr(offset), int(angles_by_pint(unit))))
+    return text.getvalue()
+
+
+def path_of_unit_table() -> Path:
+    """Where the table of units stands."""
+    return ROOT / "core" / "unit_table.csv"
+
+
 if __name__ == "__main__":
+    path_of_unit_table().write_text(unit_table(), encoding="utf-8")
     path_of_index().write_text(index(), encoding="utf-8")
     for one in PACKAGES:
         path_of(one).write_text(stub_of(one), encoding="utf-8")

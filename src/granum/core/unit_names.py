@@ -9,6 +9,7 @@ from typing import Any
 
 from granum.core.errors import UnitError
 from granum.core.i18n import _
+from granum.core.unit_table import rows
 
 LONGEST_UNIT = 40
 
@@ -126,6 +127,11 @@ def parse_unit(text: str) -> Any:
 @cache
 def same_dimension(unit: str, kind_unit: str) -> bool:
     """Whether two units measure the same sort of quantity."""
+    return (unit, kind_unit) in rows() or same_by_pint(unit, kind_unit)
+
+
+def same_by_pint(unit: str, kind_unit: str) -> bool:
+    """The same, whatever the units."""
     return parse_unit(unit).dimensionality == registry().Unit(kind_unit).dimensionality
 
 

@@ -18,12 +18,19 @@ from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.kinds import Kind
 from granum.core.unit_names import DEGREES, LONGEST_UNIT, fits, parse_unit, registry, same_dimension
+from granum.core.unit_table import counts_angles, rows
 from granum.core.written import apart, mixed, read_number, tidy
 
 
-@cache
 def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
     """(factor, offset) such that SI = factor·value + offset."""
+    row = rows().get((unit.strip(), kind_unit))
+    return (row.factor, row.offset) if row is not None else affine_by_pint(unit, kind_unit)
+
+
+@cache
+def affine_by_pint(unit: str, kind_unit: str) -> tuple[float, float]:
+    """The same, whatever the unit."""
     ureg = registry()
     if not fits(unit, kind_unit):
         above, _over, below = unit.partition("/")
@@ -48,6 +55,12 @@ def _affine(unit: str, kind_unit: str) -> tuple[float, float]:
 @cache
 def _angles(unit: str) -> bool:
     """Whether a unit counts angles or turns by name."""
+    known = counts_angles(unit.strip())
+    return angles_by_pint(unit) if known is None else known
+
+
+def angles_by_pint(unit: str) -> bool:
+    """The same, whatever the unit."""
     return bool(re.search("radian|degree|rev|turn|cycle|\\btr\\b", str(parse_unit(unit))))
 
 

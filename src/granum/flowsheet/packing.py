@@ -17,6 +17,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.compiling import begun
+
 _PLAIN = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 0}
 
 
@@ -55,7 +57,7 @@ def _built(function: Callable[..., Any], tree: Any, others: tuple[Any, ...]) -> 
         ]
         return jnp.concatenate([jnp.ravel(a).astype(float) for a in arrays])
 
-    quick = jax.jit(flat, compiler_options=_PLAIN if jax.default_backend() == "cpu" else None)
+    quick = begun(flat, compiler_options=_PLAIN if jax.default_backend() == "cpu" else None)
 
     def call(numbers: list[Any]) -> Any:
         nonlocal quick

@@ -12,11 +12,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from granum.core import flags, registry, units
+from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.formulas import Formula
 from granum.core.i18n import _
 from granum.core.kinds import KINDS
+from granum.core.unit_table import rows
 from granum.materials.correlation import Correlation, Missing, Tabulated
 from granum.materials.fluids import Combustion, Flammability, Fluid
 from granum.materials.formulas.solutions import (
@@ -82,6 +84,8 @@ def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
     """From a printed unit to SI; amounts become masses with the molar mass."""
     if not unit:
         return 1.0
+    if (row := rows().get((unit, KINDS[kind_name].unit))) is not None and not row.offset:
+        return row.factor
     target = units.registry().Unit(KINDS[kind_name].unit)
     mass = units.registry().Quantity(molar_mass, "kg/mol")
     quantity = units.registry().Quantity(1.0, units.parse_unit(unit))
@@ -166,8 +170,8 @@ def _constant(function: Any, *values: Any) -> float:
     """A number worked out once, also when a material is first asked for inside a traced function."""
     if isinstance(function, Missing):
         return nan
-    with flags.collect(), jax.ensure_compile_time_eval():  # flags of the build are nobody's inputs
-        return float(function(*values))
+    with flags.collect():  # flags of the build are nobody's inputs
+        return float(once(lambda: function(*values)))
 
 
 def salt_of(key: str, entry: SaltEntry) -> Salt:

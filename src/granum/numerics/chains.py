@@ -13,6 +13,8 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.numerics.implicit import implicit_root
+
 GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a bad step
 LATE = 1e8  # first steps that make a step as good as infinite
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
@@ -397,7 +399,7 @@ def solve_chain(
         found = lax.while_loop(unfinished, step, first)
         u, left, number = found[0], found[5], found[8]
         found = Rates(u.lanes, f(u).parts, u.shared)
-        return found, (left, number.astype(left.dtype))
+        return found, (left, number)
 
     def balanced(v: Rates) -> Rates:
         """All rates, with the parts as unknowns too, so that the lanes of its linear form can be told
@@ -419,7 +421,7 @@ def solve_chain(
         return Rates(u.lanes, push(u).parts - right.parts, u.shared)
 
     guess = Rates(start.lanes, jnp.zeros((*start.lanes.shape[:2], start.shared.shape[1])), start.shared)
-    found, (left, number) = lax.custom_root(balanced, guess, search, tangent, has_aux=True)
+    found, (left, number), _balanced = implicit_root(balanced, guess, search, tangent)
     return ChainSolution(Cells(found.lanes, found.shared), left <= tolerance, number.astype(int), left)
 
 

@@ -10,6 +10,8 @@ import jax.numpy as jnp
 from jax import lax
 from jax.flatten_util import ravel_pytree
 
+from granum.numerics.implicit import implicit_root
+
 DENSE_LIMIT = 256
 """Up to this many unknowns linear systems are solved by a dense factorization, beyond by GMRES."""
 
@@ -278,10 +280,9 @@ def _solve(
 
     def search(f: Residual, first: jax.Array) -> tuple[jax.Array, tuple]:
         u, size, steps = method.solve(f, first, tolerance, max_steps)
-        # custom_root differentiates its second result too, hence not an integer.
-        return u, (size, steps.astype(u.dtype))
+        return u, (size, steps)
 
-    u, (size, steps) = lax.custom_root(scaled, flat / unit, search, solve_linear, has_aux=True)
+    u, (size, steps), _equation = implicit_root(scaled, flat / unit, search, solve_linear)
     return Solution(unflatten(unit * u), size <= tolerance, steps.astype(int), size), lax.stop_gradient(u)
 
 

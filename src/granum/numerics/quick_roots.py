@@ -15,6 +15,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.numerics.implicit import implicit_root
 from granum.numerics.roots import divide_by_slope, find_root
 
 TOLERANCE = 1e-7  # of the last Newton step, relative to the unknown: its square, some 1e-13, is what is left
@@ -49,10 +50,10 @@ def falling_root(
 
     def search(f: Callable[..., Any], first: Any) -> Any:
         if rough_slope is not None:
-            return _secant(f, rough_slope, first, lower, upper)
-        return nearly_falling_root(f, lower, upper, first, least)
+            return _secant(f, rough_slope, first, lower, upper), ()
+        return nearly_falling_root(f, lower, upper, first, least), ()
 
-    return lax.custom_root(lambda x: balance(x, *arguments), guess, search, divide_by_slope)
+    return implicit_root(lambda x: balance(x, *arguments), guess, search, divide_by_slope)[0]
 
 
 def nearly_falling_root(f: Callable[[Any], Any], lower: Any, upper: Any, start: Any, least: Any = 0.0) -> Any:
@@ -160,9 +161,9 @@ def newton_root(
         def unfinished(carry: tuple) -> Any:
             return (carry[1] > 1.0) & (carry[2] < passes)
 
-        return lax.while_loop(unfinished, step, (first, jnp.inf, 0))[0]
+        return lax.while_loop(unfinished, step, (first, jnp.inf, 0))[0], ()
 
-    return lax.custom_root(function, lax.stop_gradient(first), solve, divide_by_slope)
+    return implicit_root(function, first, solve, divide_by_slope)[0]
 
 
 LIKELY_STEPS = 3
@@ -191,7 +192,7 @@ def likely_root(equation: Callable[[Any], Any], start: Any, near: float, far: fl
             lambda: _bracketed(f, guess, x, settled, near, far),
         )
 
-    value, found = lax.custom_root(equation, lax.stop_gradient(start), search, divide_by_slope, has_aux=True)
+    value, found, _equation = implicit_root(equation, start, search, divide_by_slope)
     return value, found > 0.0
 
 

@@ -7,6 +7,8 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
+from granum.numerics.implicit import implicit_root
+
 FAST_STEPS = 16
 GUARDED_STEPS = 56
 OPEN = 2
@@ -75,28 +77,21 @@ def find_root(
         >>> root.value
         Array([2., 3.], dtype=float64)
     """
-    lower, upper = (jnp.asarray(end, dtype=float) for end in (lower, upper))
-    guess = jnp.asarray(jnp.nan if start is None else start, dtype=float)
-    image = jax.eval_shape(lambda x: jnp.asarray(function(x, *args)), lower)
-    shape = jnp.broadcast_shapes(lower.shape, upper.shape, guess.shape, image.shape)
-    lower, upper = lax.stop_gradient(lower), lax.stop_gradient(upper)
-    guess = jnp.broadcast_to(lax.stop_gradient(guess), shape)
+    lower, upper = (lax.stop_gradient(jnp.asarray(end, dtype=float)) for end in (lower, upper))
+    guess = lax.stop_gradient(jnp.asarray(jnp.nan if start is None else start, dtype=float))
+    sizes = (lower.shape, upper.shape, guess.shape, *map(jnp.shape, jax.tree.leaves(args)))
 
     def equation(x: jax.Array) -> jax.Array:
         return jnp.asarray(function(x, *args), dtype=x.dtype)
 
-    # Python runs the function once here; what follows replays the trace, which matters where roots are
-    # nested.
-    traced, closed_over = jax.closure_convert(equation, guess)
-
     def search(f: Callable, initial: jax.Array) -> tuple[jax.Array, tuple]:
         return _search(f, lower, upper, initial, tolerance, max_steps)
 
-    value, (status, steps) = lax.custom_root(
-        lambda x: traced(x, *closed_over), guess, search, divide_by_slope, has_aux=True
+    value, (status, steps), again = implicit_root(
+        equation, jnp.broadcast_to(guess, jnp.broadcast_shapes(*sizes)), search, divide_by_slope
     )
     value = jnp.where(status >= 0, value, jnp.nan)
-    return Root(value, status > 0, steps.astype(int), lax.stop_gradient(equation(value)))
+    return Root(value, status > 0, steps.astype(int), lax.stop_gradient(again(value)))
 
 
 def divide_by_slope(linear: Callable, right: jax.Array) -> jax.Array:

@@ -12,7 +12,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, from_si, pretty_unit, show
-from granum.streams.stream import median_size
+from granum.streams.stream import summary
 
 
 def stream_figures(stream: Any) -> list[tuple[str, str]]:
@@ -46,13 +46,10 @@ def stream_table(run: Any) -> StreamTable:
     flow, length, degrees = (KINDS[name] for name in ("MassFlow", "Length", "Temperature"))
     streams = run.streams
     phases = {_("solid"): "solid_flow", _("liquid"): "liquid_flow", _("gas"): "gas_flow"}
-    columns = [
-        (label, flow, [float(getattr(s, name)) for s in streams.values()]) for label, name in phases.items()
-    ]
-    columns.append(("T", degrees, [float(s.temperature) for s in streams.values()]))
-    columns.append(
-        ("d50", length, [np.nan if (d := median_size(s)) is None else float(d) for s in streams.values()])
-    )
+    told = [summary(s) for s in streams.values()]
+    columns = [(label, flow, [float(getattr(s, name)) for s in told]) for label, name in phases.items()]
+    columns.append(("T", degrees, [float(s.temperature) for s in told]))
+    columns.append(("d50", length, [float(s.median_size) for s in told]))
     shared = Parameter("mass_flow", flow).display_unit(
         [x for _label, kind, column in columns if kind is flow for x in column]
     )

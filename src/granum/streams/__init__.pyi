@@ -63,6 +63,7 @@ from granum.streams.mixture import (
 )
 from granum.streams.stream import (
     Stream as Stream,
+    Summary as Summary,
 )
 from granum.streams.turnover import (
     Turnover as Turnover,

@@ -10,6 +10,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.compiling import once
 from granum.core.conversion import convert, law_of
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _
@@ -112,7 +113,7 @@ def feed(
                 quantity(relative_humidity, "RelativeHumidity", "relative_humidity"),
                 where,
             )
-    if float(stream.mass_flow) <= 0:
+    if not sum(np.asarray(flows).sum() for flows in (stream.solid, stream.liquid, stream.gas)) > 0:
         raise InputError(
             _("{where}: nothing flows; give 'mass_flow', 'liquid_flow', 'solid_flow' or 'gas_flow'.").format(
                 where=where
@@ -154,13 +155,10 @@ def _humid(
                 where=where, name=humid.solvent
             )
         )
-    moles = jnp.sum(dry * of_dry / humid.molar_masses)
-    y = humid.pair.fraction(humidity)
-    return stream.replace(
-        gas=jnp.asarray(dry * of_dry)
-        .at[humid.vapor]
-        .set(moles * y / (1.0 - y) * humid.molar_masses[humid.vapor])
-    )
+    flows, masses = dry * of_dry, np.asarray(humid.molar_masses)
+    y = float(once(humid.pair.fraction, humidity))
+    flows[humid.vapor] = np.sum(flows / masses) * y / (1.0 - y) * masses[humid.vapor]
+    return stream.replace(gas=jnp.asarray(flows))
 
 
 def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:

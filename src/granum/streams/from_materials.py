@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 
+from granum.core.compiling import once
 from granum.core.constants import ZERO_CELSIUS
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
@@ -107,14 +107,13 @@ def _dissolved(name: str, system: SoluteSystem) -> Species:
     system.
     """
 
-    @jax.jit
     def apparent(T: Any) -> Any:
         ratio = system.solubility(298.15)
         whole = (1.0 + ratio) / system.solution_density(T, ratio)  # volume per kg of solvent
         return ratio / (whole - 1.0 / system.solvent.liquid_density(T)), system.solute_heat_capacity
 
     T = np.linspace(280.0, 350.0, 8)
-    densities, heat_capacity = apparent(T)
+    densities, heat_capacity = once(apparent, T)
     density = np.polynomial.Polynomial.fit(T - ZERO_CELSIUS, np.asarray(densities), 1).convert().coef
     return Species(
         name,
@@ -138,7 +137,7 @@ def _crystal(name: str, systems: dict[str, SoluteSystem]) -> Species | None:
                     tuple(part for part in parts if part[1] > 0),
                     _polynomial(branch.crystal.density),
                     _polynomial(branch.crystal.heat_capacity),
-                    float(jax.jit(lambda T, system=system: system.crystal_enthalpy(T, name))(ZERO_CELSIUS)),
+                    float(once(lambda T, system=system: system.crystal_enthalpy(T, name), ZERO_CELSIUS)),
                     float(branch.crystal.molar_mass),
                     CONDENSED,
                 )
@@ -160,7 +159,7 @@ def _inert(known: Library, name: str) -> Species:
 
 def _gas(known: Library, name: str) -> Species:
     f = known.fluid(name)
-    heat = float(jax.jit(f.vapor_enthalpy)(ZERO_CELSIUS))
+    heat = float(once(f.vapor_enthalpy, ZERO_CELSIUS))
     made_of = ((f.name, 1.0),)
     # counted as what it burns to, less the air that this takes, so that burning conserves components
     if f.combustion is not None:
@@ -191,7 +190,7 @@ def _heat_held(known: Library, fuel: Fluid) -> float:
         ).vapor_enthalpy(T)
         return burns.lower_heating_value + flue - fuel.vapor_enthalpy(T)
 
-    return float(jax.jit(above)(at))
+    return float(once(above, at))
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,13 @@ pressure.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 
+from granum.core.compiling import begun
 from granum.core.constants import GAS_CONSTANT, STANDARD_ATMOSPHERE
 from granum.core.errors import InputError
 from granum.core.i18n import _
@@ -302,16 +303,33 @@ def median_of(masses: Any, edges: Any) -> Any:
     return jnp.where(below[-1] > 0.0, size, 0.0)
 
 
+class Summary(NamedTuple):
+    """What a table says of a stream, SI; the size is not a number where there is no solid."""
+
+    solid_flow: Any
+    liquid_flow: Any
+    gas_flow: Any
+    temperature: Any
+    median_size: Any
+
+
+@begun
+def summary(stream: Stream) -> Summary:
+    """Flows of the phases, temperature, mass median size."""
+    some = stream.solid_flow >= jnp.maximum(1e-12 * stream.mass_flow, 1e-300)
+    size = jnp.where(some, median_of(stream.size_fractions, stream.mixture.edges), jnp.nan)
+    return Summary(stream.solid_flow, stream.liquid_flow, stream.gas_flow, stream.temperature, size)
+
+
 def median_size(stream: Stream) -> float | None:
     """Mass median size of a stream's solid, m; None without solid."""
-    if float(stream.solid_flow) < max(1e-12 * float(stream.mass_flow), 1e-300):
-        return None
-    return float(median_of(stream.size_fractions, stream.mixture.edges))
+    size = float(summary(stream).median_size)
+    return None if size != size else size
 
 
 def main_phase(stream: Any) -> str:
     """``gas`` for a gas stream, ``solid`` for a cake or powder, else ``liquid``."""
-    solid, liquid, gas = (float(x) for x in (stream.solid_flow, stream.liquid_flow, stream.gas_flow))
+    solid, liquid, gas, *_rest = (float(x) for x in summary(stream))
     if gas > 0.5 * (solid + liquid + gas):
         return "gas"
     return "solid" if solid > 0.5 * (solid + liquid) else "liquid"

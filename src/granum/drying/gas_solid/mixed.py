@@ -173,10 +173,8 @@ class Bed(eqx.Module):
         high = jnp.where(rest < X0, jnp.minimum(jnp.maximum(high, 0.0), most), 0.0)
         size = jnp.max(abs(X0)) + jnp.max(abs(rest))
         slack = 1e-9 * size
-        # Python runs the balance once, however deep the searches are nested
-        traced, given = jax.closure_convert(balance, X0)
         bounds = jnp.minimum(low, 0.0) - slack, high + slack
-        loss = falling_root(lambda x: traced(x, *given), *bounds, start=start, size=1e-2 * size)
+        loss = falling_root(balance, *bounds, start=start, size=1e-2 * size)
         return loss, temperature(loss), spread(loss)
 
     def tank(self, before: Solid, gas: Gas, known: tuple[Any, Any], start: Any) -> Lived:

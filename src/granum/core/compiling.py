@@ -1,0 +1,100 @@
+"""When to compile: a program runs uncompiled at first, and is compiled once that has cost about as much as
+compiling it costs.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.extend.core import jaxpr_as_fun
+
+from granum.core.conversion import is_tracer
+from granum.core.uncompiled import Program, TooLong
+
+RENT = 150
+"""Steps run uncompiled that cost as much as compiling one operation."""
+LARGE = 1000
+"""Operations from which on what was traced is compiled; below, it is traced again, to be called faster."""
+
+
+def begun(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
+    """``jax.jit`` for functions that are often called a few times only.
+
+    Programs are traced as ever and run by NumPy while that is cheap, so that the first answer needs no
+    compiler; then they are compiled, with ``options`` of ``jax.jit``. Single numbers come back as NumPy
+    scalars from uncompiled code.
+
+    >>> twice = begun(lambda x: {"twice": 2.0 * x})
+    >>> twice(3.0)
+    {'twice': np.float64(6.0)}
+    """
+    return _Begun(function, options)
+
+
+class _Begun:
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any]):
+        self._function, self._options = function, options
+        self._jitted = jax.jit(function, **options)
+        self._trials: dict[Any, _Trial | None] = {}
+        self._hot: Callable[..., Any] | None = None
+        functools.update_wrapper(self, function)
+
+    def __call__(self, *given: Any) -> Any:
+        if self._hot is not None:
+            return self._hot(*given)
+        leaves, tree = jax.tree.flatten(given)
+        if any(map(is_tracer, leaves)):
+            return self._jitted(*given)
+        key = (tree, *((np.shape(leaf), np.result_type(leaf)) for leaf in leaves))
+        trial = self._trials.get(key)
+        if trial is None:
+            trial = self._trials[key] = self._traced(given)
+        if trial is None:
+            return self._jitted(*given)
+        if trial.left > 0:
+            try:
+                return trial.run(leaves)
+            except TooLong:
+                trial.left = 0.0
+        if trial.compiled is None:
+            self._hot = self._jitted
+            return self._jitted(*given)
+        return jax.tree.unflatten(trial.tree, trial.compiled(*leaves))
+
+    def _traced(self, given: tuple[Any, ...]) -> _Trial | None:
+        closed, shape = jax.make_jaxpr(self._function, return_shape=True)(*given)
+        if any(map(is_tracer, closed.consts)):
+            return None
+        return _Trial(closed, jax.tree.structure(shape), self._options)
+
+
+class _Trial:
+    """A program traced for one sort of arguments, and the steps that it may still take uncompiled."""
+
+    def __init__(self, closed: Any, tree: Any, options: dict[str, Any]):
+        program = Program(closed)
+        allowed = RENT * program.size
+        self.program, self.tree = program, tree
+        self.left = allowed if program.work <= allowed else 0.0
+        self.compiled = jax.jit(jaxpr_as_fun(closed), **options) if program.size >= LARGE else None
+
+    def run(self, leaves: list[Any]) -> Any:
+        found, spent = self.program.run(leaves, self.left)
+        self.left -= spent
+        return jax.tree.unflatten(self.tree, [jnp.asarray(x) if x.ndim else x for x in found])
+
+
+def once(function: Callable[..., Any], *given: Any) -> Any:
+    """What a function gives, for one call: traced, and run by NumPy. Leaves are NumPy arrays and scalars.
+
+    >>> once(lambda x: jnp.exp(x), 0.0)
+    np.float64(1.0)
+    """
+    closed, shape = jax.make_jaxpr(function, return_shape=True)(*given)
+    found, _steps = Program(closed).run(jax.tree.leaves(given))
+    return jax.tree.unflatten(jax.tree.structure(shape), found)
