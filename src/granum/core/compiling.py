@@ -50,7 +50,7 @@ class _Begun:
         leaves, tree = jax.tree.flatten(given)
         if any(map(is_tracer, leaves)):
             return self._jitted(*given)
-        key = (tree, *((np.shape(leaf), np.result_type(leaf)) for leaf in leaves))
+        key = (tree, *((np.shape(leaf), getattr(leaf, "dtype", type(leaf))) for leaf in leaves))
         trial = self._trials.get(key)
         if trial is None:
             trial = self._trials[key] = self._traced(given)

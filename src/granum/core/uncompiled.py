@@ -466,13 +466,22 @@ def _while(params: Any, maker: _Maker, count: int) -> Made:
     judge, body = maker.made(params["cond_jaxpr"]), maker.made(params["body_jaxpr"])
     first, second = params["cond_nconsts"], params["cond_nconsts"] + params["body_nconsts"]
 
+    several = bool(params["cond_jaxpr"].jaxpr.outvars[0].aval.shape)
+
     def step(*values: Any) -> Any:
         judged_by, made_of, carry = values[:first], values[first:second], list(values[second:])
-        while judge.run(*judged_by, *carry)[0]:
-            carry = body.run(*made_of, *carry)
+        while np.any(goes_on := judge.run(*judged_by, *carry)[0]):
+            found = body.run(*made_of, *carry)
+            # of loops that a batch runs together, those that have ended stay
+            carry = list(map(_stay(goes_on), found, carry)) if several else found
         return _alone(carry, count)
 
     return Made(judge.size + body.size, EMPTY_PASSES * (judge.work + body.work), step)
+
+
+def _stay(goes_on: Any) -> Step:
+    shape = goes_on.shape
+    return lambda new, old: np.where(np.reshape(goes_on, shape + (1,) * (new.ndim - len(shape))), new, old)
 
 
 def _cond(params: Any, maker: _Maker, count: int) -> Made:
