@@ -16,7 +16,7 @@ from jax.extend.core import jaxpr_as_fun
 from granum.core.conversion import is_tracer
 from granum.core.uncompiled import Program, TooLong
 
-RENT = 150
+RENT = 60
 """Steps run uncompiled that cost as much as compiling one operation."""
 LARGE = 1000
 """Operations from which on what was traced is compiled; below, it is traced again, to be called faster."""

@@ -8,6 +8,7 @@ one operation at a time.
 from __future__ import annotations
 
 import math
+import string
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -246,8 +247,9 @@ def _broadcast(params: Any, eqn: Any) -> Step | None:
 
 
 def _reduction(function: Step) -> Callable[[Any, Any], Step | None]:
-    def made(params: Any, _eqn: Any) -> Step | None:
-        if params.get("out_sharding") is not None:
+    def made(params: Any, eqn: Any) -> Step | None:
+        nothing = not eqn.invars[0].aval.size and function in (np.max, np.min)
+        if params.get("out_sharding") is not None or nothing:
             return None
         return lambda x: function(x, axis=params["axes"])
 
@@ -294,8 +296,19 @@ def _dynamic_update(_params: Any, _eqn: Any) -> Step:
 
 def _product(params: Any, eqn: Any) -> Step | None:
     (left, right), (left_batch, right_batch) = params["dimension_numbers"]
-    if left_batch or right_batch or params["preferred_element_type"] not in (None, eqn.invars[0].aval.dtype):
+    if params["preferred_element_type"] not in (None, eqn.invars[0].aval.dtype):
         return None
+    if left_batch:
+        letters = iter(string.ascii_letters)
+        first = [next(letters) for _axis in eqn.invars[0].aval.shape]
+        second = [next(letters) for _axis in eqn.invars[1].aval.shape]
+        for i, j in zip((*left_batch, *left), (*right_batch, *right), strict=True):
+            second[j] = first[i]
+        kept = [first[i] for i in left_batch]
+        kept += [c for i, c in enumerate(first) if i not in (*left_batch, *left)]
+        kept += [c for j, c in enumerate(second) if j not in (*right_batch, *right)]
+        pattern = f"{''.join(first)},{''.join(second)}->{''.join(kept)}"
+        return lambda x, y: np.einsum(pattern, x, y)
     return lambda x, y: np.tensordot(x, y, axes=(left, right))[()]
 
 
@@ -399,7 +412,7 @@ def _rounding(params: Any, _eqn: Any) -> Step | None:
     return np.rint if int(params["rounding_method"]) == 1 else None
 
 
-_erf, _erfc = _each(math.erf), _each(math.erfc)
+_erf, _erfc, _lgamma = _each(math.erf), _each(math.erfc), _each(math.lgamma)
 
 SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "integer_pow": _integer_pow,
@@ -445,6 +458,7 @@ SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "round": _rounding,
     "erf": lambda _params, _eqn: _erf,
     "erfc": lambda _params, _eqn: _erfc,
+    "lgamma": lambda _params, _eqn: _lgamma,
 }
 
 

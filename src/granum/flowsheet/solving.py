@@ -4,7 +4,8 @@ both.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -17,7 +18,8 @@ from granum.flowsheet.passing import Made, is_known, known_or, pass_through, whe
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.watching import reporter
-from granum.numerics import Anderson, Newton, Settled, fixed_point, settle, within_rounding
+from granum.numerics import Anderson, Newton, Seeking, Settled, fixed_point, settle, within_rounding
+from granum.numerics.fixed_points import largest
 from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
@@ -26,6 +28,8 @@ from granum.streams.units import Check, Operated
 
 TEMPERATURE_SCALE = 100.0  # K: brings the temperature of a torn stream to the size of the scaled flows
 TOLERANCE = 1e-12
+MISSES = 1e-2  # what a wanted figure may miss is so much more than what a torn stream may
+NEARLY = 1e-5  # a loop so near to rest is not what is wrong when a figure cannot be had
 
 
 class Solution(NamedTuple):
@@ -39,6 +43,7 @@ class Solution(NamedTuple):
     steps: iterations of each loop. residual: largest scaled change of a torn stream in each loop.
     records: what each unit's formulas flagged at the solution.
     sheets: figures and checks of each unit, when asked for.
+    met: whether what was wanted was found as well. sought: the parameters found, each within 0 … 1.
     """
 
     streams: dict[str, Stream]
@@ -48,6 +53,8 @@ class Solution(NamedTuple):
     residual: tuple[Any, ...]
     records: dict[str, list[flags.Record]]
     sheets: dict[str, tuple[Any, tuple[Check, ...]]]
+    met: Any = True
+    sought: Any = None
 
 
 def _pack(stream: Stream, scale: Any) -> Any:
@@ -70,32 +77,49 @@ def _run_loop(
     streams: dict[str, Stream],
     guess: dict[str, Stream],
     scale: Any,
-    asked: Any,
+    sheeted: Collection[str],
+    wanted: Wanted | None,
     method: Anderson | Newton,
     max_steps: int,
     watched: bool,
-) -> tuple[Made, Settled]:
-    """A loop, solved: with Anderson's method the pass through its units stands once in the compiled code."""
+) -> tuple[Made, Settled, Any]:
+    """A loop, solved, with what is wanted of it: with Anderson's method the pass through its units stands
+    once in the compiled code. Last the residuals: of each torn stream, and of what is wanted.
+    """
     # nothing flows from a unit that has no answer yet, such as a dryer whose gas is still to come round
     first = next(iter(line.feeds.values()))
     nothing = empty(first.mixture, first.temperature, first.pressure)
     guess = {n: known_or(s, nothing) for n, s in guess.items()}
+    begun = jnp.zeros((0,)) if wanted is None else jnp.asarray(wanted.start, dtype=float)
 
     def torn(vector: Any) -> dict[str, Stream]:
-        rows = vector.reshape(len(block.tears), -1)
+        if not block.tears:
+            return {}
+        rows = vector[: vector.size - begun.size].reshape(len(block.tears), -1)
         return {
             n: _unpack(rows[i], guess[n].mixture, guess[n].pressure, scale) for i, n in enumerate(block.tears)
         }
 
     def once(vector: Any) -> tuple[Any, Any]:
-        made = pass_through(line, block, streams | torn(vector), asked, nothing)
-        come_round = (known_or(made.streams[n], nothing) for n in block.tears)
-        return jnp.concatenate([_pack(s, scale) for s in come_round]), made
+        sought = vector[vector.size - begun.size :]
+        changed = line if wanted is None else wanted.line(sought)
+        fed = {} if wanted is None else changed.feeds
 
-    start = jnp.concatenate([_pack(guess[n], scale) for n in block.tears])
+        def asked(unit: str, inlets: dict[str, Stream]) -> Operated:
+            return changed.units[unit].operate(unit in sheeted, **inlets)
+
+        made = pass_through(changed, block, streams | fed | torn(vector), asked, nothing)
+        rows = [_pack(known_or(made.streams[n], nothing), scale) for n in block.tears]
+        image = rows if wanted is None else [*rows, sought - MISSES * wanted.misses(made.sheets)]
+        image = jnp.concatenate(image)
+        apart = jnp.split(image - vector, list(accumulate(row.size for row in rows)))
+        return image, (made, jnp.stack([largest(part) for part in apart]))
+
+    start = jnp.concatenate([*(_pack(guess[n], scale) for n in block.tears), begun])
     if isinstance(method, Anderson):
-        watch = reporter(block.tears[0]) if watched else None
-        found = settle(once, start, method=method, tolerance=TOLERANCE, max_steps=max_steps, watch=watch)
+        watch = reporter(block.tears[0] if block.tears else block.units[-1]) if watched else None
+        how = method if wanted is None else Seeking(begun.size, method, TOLERANCE)
+        found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, watch=watch)
     else:
         root = fixed_point(
             lambda x, _args: once(x)[0],
@@ -107,12 +131,44 @@ def _run_loop(
         )
         good = root.residual <= within_rounding(root.state, TOLERANCE)
         found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
-    made = found.made
+    made, left = found.made
     known = {n: is_known(s) for n, s in made.streams.items()}
     at_rest = {n: where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
-    return made._replace(streams=made.streams | at_rest), found._replace(
-        converged=found.converged & jnp.all(jnp.stack([*known.values()]))
+    return (
+        made._replace(streams=made.streams | at_rest),
+        found._replace(converged=found.converged & jnp.all(jnp.stack([*known.values()]))),
+        jax.lax.stop_gradient(left),
     )
+
+
+class Wanted(NamedTuple):
+    """What a line is wanted to give: parameters to find, and the figures that they are found for.
+
+    start: of the parameters, each within 0 … 1. line: the line at such parameters. misses: by how much the
+    figures miss, from the sheets of the units. units: those whose figures are asked for. among: all units
+    between which cause and effect lie, and feeds.
+    """
+
+    start: Any
+    line: Callable[[Any], Flowsheet]
+    misses: Callable[[Any], Any]
+    units: frozenset[str]
+    among: frozenset[str]
+
+
+def _joined(line: Flowsheet, wanted: Wanted | None) -> tuple[tuple[Block, bool], ...]:
+    """The blocks of a line, those between cause and effect of what is wanted made one; and whether it is that
+    one.
+    """
+    blocks = line.blocks
+    if wanted is None:
+        return tuple((block, False) for block in blocks)
+    entered = {k.target_unit for k in line.links if k.name in wanted.among and not k.origin}
+    named = {i for i, block in enumerate(blocks) if (wanted.among | entered).intersection(block.units)}
+    first, last = min(named), max(named) + 1
+    middle = blocks[first:last]
+    one = Block(tuple(u for b in middle for u in b.units), tuple(t for b in middle for t in b.tears))
+    return (*((b, False) for b in blocks[:first]), (one, True), *((b, False) for b in blocks[last:]))
 
 
 def solve(
@@ -120,6 +176,7 @@ def solve(
     start: Mapping[str, Stream] | None = None,
     *,
     sheets: bool | Collection[str] = False,
+    wanted: Wanted | None = None,
     method: Anderson | Newton = Anderson(),
     max_steps: int = 200,
     watched: bool = False,
@@ -131,6 +188,7 @@ def solve(
     line: the flowsheet.
     start: first guesses for torn streams (empty streams otherwise).
     sheets: also work out figures and checks: of every unit, of none, or of those named.
+    wanted: parameters to find together with the loops, see ``design``.
     method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn
         numbers), which compiles longer and solves some loops that do not contract. max_steps: most passes
         through a loop, or steps of Newton.
@@ -139,25 +197,35 @@ def solve(
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
     whole = Made(streams, {}, {}, {})
-    converged, steps, residual = jnp.asarray(True), [], []
+    converged, met, sought, steps, residual = jnp.asarray(True), jnp.asarray(True), None, [], []
     any_feed = next(iter(line.feeds.values()))
-    of = line.units if sheets is True else sheets or ()
+    of = frozenset(line.units if sheets is True else sheets or ())
+    of = of if wanted is None else of | wanted.units
 
     def asked(unit: str, inlets: dict[str, Stream]) -> Operated:
         return line.units[unit].operate(unit in of, **inlets)
 
     scale = sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(()))
     scale = jax.lax.stop_gradient(jnp.where(scale > 0, scale, 1.0))
-    for block in line.blocks:
-        if block.tears:
+    for block, aimed in _joined(line, wanted):
+        if block.tears or aimed:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {
                 n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears
             }
-            made, found = _run_loop(line, block, streams, guess, scale, asked, method, max_steps, watched)
-            converged = converged & found.converged
-            steps.append(found.steps)
-            residual.append(found.residual)
+            made, found, left = _run_loop(
+                line, block, streams, guess, scale, of, wanted if aimed else None, method, max_steps, watched
+            )
+            if aimed and wanted is not None:
+                sought = found.state[found.state.size - len(wanted.start) :]
+                met = found.converged & jnp.all((sought >= 0.0) & (sought <= 1.0))
+                whole.streams.update(wanted.line(sought).feeds)
+                converged = converged & jnp.all(left[:-1] <= NEARLY)
+            else:
+                converged = converged & found.converged
+            for tears in (b.tears for b in line.blocks if b.tears and set(b.tears) <= set(block.tears)):
+                steps.append(found.steps)
+                residual.append(jnp.max(jnp.stack([left[block.tears.index(t)] for t in tears])))
         else:
             made = pass_through(line, block, streams, asked)
         whole.streams.update(made.streams)
@@ -165,7 +233,15 @@ def solve(
         whole.records.update(made.records)
         whole.sheets.update(made.sheets)
     return Solution(
-        streams, whole.powers, converged, tuple(steps), tuple(residual), whole.records, whole.sheets
+        streams,
+        whole.powers,
+        converged,
+        tuple(steps),
+        tuple(residual),
+        whole.records,
+        whole.sheets,
+        met & converged,
+        sought,
     )
 
 

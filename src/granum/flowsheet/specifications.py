@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
+import numpy as np
 
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import Solution, solve
-from granum.numerics import find_root, solve_system
+from granum.flowsheet.solving import Solution, Wanted, solve
 
 
 class Target(NamedTuple):
@@ -38,42 +40,52 @@ def figure(solution: Solution, path: str) -> Any:
     return getattr(solution.sheets[unit][0], name)
 
 
-def design(line: Flowsheet, targets: tuple[Target, ...], *, sheets: bool = False, **how: Any) -> Designed:
-    """Solve a line with its specifications: one by a bracketed root, several together by Newton's method from
-    mid-range.
+def design(
+    line: Flowsheet,
+    targets: tuple[Target, ...],
+    *,
+    sheets: bool = False,
+    near: Mapping[str, Any] | None = None,
+    **how: Any,
+) -> Designed:
+    """Solve a line with its specifications, in one iteration with its loops: a single one within a bracket,
+    several by Broyden's method.
 
-    ``how`` says how its loops are solved, as for ``solve``.
+    The search begins at the values that the line has, or that are ``near``, where these are within their
+    limits, and in the middle otherwise. ``how`` says how loops are solved, as for ``solve``.
     """
     if not targets:
         solution = solve(line, sheets=sheets, **how)
         return Designed(line, solution, {}, solution.converged)
-    asked = {t.so_that.partition(".")[0] for t in targets}
-    if len(targets) == 1:
-        target = targets[0]
+    low = jnp.asarray([t.lower for t in targets])
+    width = jnp.asarray([t.upper for t in targets]) - low
 
-        def miss(x: Any) -> Any:
-            changed = line.with_values({target.vary: x})
-            return (figure(solve(changed, sheets=asked, **how), target.so_that) - target.equals) / (
-                abs(target.equals) or 1.0
-            )
+    def values(sought: Any) -> dict[str, Any]:
+        return {t.vary: low[i] + width[i] * sought[i] for i, t in enumerate(targets)}
 
-        root = find_root(miss, target.lower, target.upper)
-        values, found = {target.vary: root.value}, root.converged
-    else:
-        low = jnp.asarray([t.lower for t in targets])
-        width = jnp.asarray([t.upper for t in targets]) - low
+    def misses(sheets: Any) -> Any:
+        figures = [getattr(sheets[unit][0], name) for unit, name in (_result(t) for t in targets)]
+        wanted = np.asarray([t.equals for t in targets], dtype=float)
+        return (jnp.stack(figures) - wanted) / np.where(wanted == 0.0, 1.0, abs(wanted))
 
-        def misses(x: Any, _args: Any) -> Any:
-            changed = line.with_values({t.vary: low[i] + width[i] * x[i] for i, t in enumerate(targets)})
-            solution = solve(changed, sheets=asked, **how)
-            return jnp.stack(
-                [(figure(solution, t.so_that) - t.equals) / (abs(t.equals) or 1.0) for t in targets]
-            )
+    begun = jnp.stack([_number((near or {}).get(t.vary, line.value(t.vary))) for t in targets])
+    share = jax.lax.stop_gradient((begun - low) / width)
+    wanted = Wanted(
+        jnp.where((share >= 0.0) & (share <= 1.0), share, 0.5),
+        lambda sought: line.with_values(values(sought)),
+        misses,
+        frozenset(_result(t)[0] for t in targets),
+        frozenset(path.partition(".")[0] for t in targets for path in (t.vary, t.so_that)),
+    )
+    solution = solve(line, sheets=sheets, wanted=wanted, **how)
+    found = values(solution.sought)
+    return Designed(line.with_values(found), solution, found, solution.met)
 
-        outcome = solve_system(misses, jnp.full((len(targets),), 0.5))
-        inside = jnp.all((outcome.state >= 0) & (outcome.state <= 1))
-        values = {t.vary: low[i] + width[i] * outcome.state[i] for i, t in enumerate(targets)}
-        found = outcome.converged & inside
-    final = line.with_values(values)
-    solution = solve(final, sheets=sheets, **how)
-    return Designed(final, solution, values, found & solution.converged)
+
+def _result(target: Target) -> tuple[str, str]:
+    unit, _dot, name = target.so_that.partition(".")
+    return unit, name
+
+
+def _number(value: Any) -> Any:
+    return jnp.asarray(jnp.nan if value is None else value, dtype=float)

@@ -73,6 +73,10 @@ class Anderson(AbstractMethod):
         best = (start, jnp.full((), jnp.inf, start.dtype))
         return start, best, (start, jnp.zeros_like(start)), history, history, zero, zero
 
+    def hopes(self, carry: tuple) -> jax.Array:
+        """Whether it makes sense to go on."""
+        return jnp.asarray(True)
+
     def proceed(self, carry: tuple, r: jax.Array) -> tuple:
         """The next state, given the residual at its first item."""
         x, best, base, points, residuals, rejected, number = carry
@@ -344,3 +348,11 @@ def _spread(prefix: Any, tree: Any) -> jax.Array:
         tree,
     )
     return lax.stop_gradient(ravel_pytree(full)[0].astype(float))
+
+
+def within_rounding(x: jax.Array, tolerance: float) -> jax.Array:
+    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand
+    tolerances.
+    """
+    rounding = 32.0 * jnp.finfo(x.dtype).eps * largest(lax.stop_gradient(x))
+    return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)

@@ -41,10 +41,10 @@ def implicit_root(
     Array(2., dtype=float64)
     """
     start = lax.stop_gradient(start)
-    balance, given, image = _converted(equation, start)
+    balance, given, image = converted(equation, start)
     if isinstance(start, jax.Array) and image.shape != start.shape:
         start = jnp.broadcast_to(start, jnp.broadcast_shapes(start.shape, image.shape))
-        balance, given, image = _converted(equation, start)
+        balance, given, image = converted(equation, start)
 
     def searched(given: list[Any], start: Any) -> tuple[Any, Any]:
         root, more = search(lambda x: balance(given, x), start)
@@ -52,7 +52,7 @@ def implicit_root(
         return root, jax.tree.map(lambda leaf: jnp.asarray(leaf).astype(float), more)
 
     # nothing may be closed over by what is differentiated later, when this call has returned
-    sought, limits, _image = _converted(searched, given, start)
+    sought, limits, _image = converted(searched, given, start)
 
     @jax.custom_jvp
     def found(given: list[Any], limits: list[Any], start: Any) -> tuple[Any, Any]:
@@ -71,7 +71,7 @@ def implicit_root(
     return root, lax.stop_gradient(more), lambda x: balance(given, x)
 
 
-def _converted(function: Callable[..., Any], *like: Any) -> tuple[Callable[..., Any], list[Any], Any]:
+def converted(function: Callable[..., Any], *like: Any) -> tuple[Callable[..., Any], list[Any], Any]:
     """The function, traced, with all it closes over as its first argument; that; and the shapes of its
     result.
     """

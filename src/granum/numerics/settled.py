@@ -11,7 +11,9 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 
-from granum.numerics.fixed_points import Anderson, as_real, largest, solve_linear
+from granum.numerics.fixed_points import Anderson, as_real, solve_linear, within_rounding
+from granum.numerics.implicit import converted
+from granum.numerics.seeking import Seeking
 
 
 class Settled(NamedTuple):
@@ -28,7 +30,7 @@ def settle(
     function: Callable[[jax.Array], tuple[jax.Array, Any]],
     start: jax.Array,
     *,
-    method: Anderson = Anderson(),
+    method: Anderson | Seeking = Anderson(),
     tolerance: float = 1e-10,
     max_steps: int = 200,
     watch: Callable[[jax.Array, jax.Array], jax.Array] | None = None,
@@ -62,14 +64,13 @@ def settle(
             [jnp.ravel(leaf).astype(start.dtype) for leaf in leaves] or [jnp.zeros((0,), start.dtype)]
         )
 
-    traced, closed_over = jax.closure_convert(flat, start)
+    traced, given, _image = converted(flat, start)
     tree, kinds = shape
 
-    @jax.custom_jvp
-    def search(closed_over: Any, start: jax.Array) -> tuple:
+    def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
             iteration, kept, _ = carry
-            image, made = traced(iteration[0], *closed_over)
+            image, made = traced(given, iteration[0])
             following = method.proceed(iteration, image - iteration[0])
             better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
             stop = jnp.asarray(False) if watch is None else watch(following[-1], following[1][1])
@@ -78,7 +79,8 @@ def settle(
         def unfinished(carry: tuple) -> jax.Array:
             iteration, _, stop = carry
             x, size = iteration[1]
-            return (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps) & ~stop
+            unsettled = (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps)
+            return unsettled & method.hopes(iteration) & ~stop
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
         iteration, made, _ = lax.while_loop(
@@ -87,29 +89,27 @@ def settle(
         (x, size), number = iteration[1], iteration[-1]
         return x, made, size, number.astype(x.dtype)
 
+    # nothing may be closed over by what is differentiated later, when this call has returned
+    sought, limits, _image = converted(searched, given, start)
+
+    @jax.custom_jvp
+    def search(given: Any, limits: Any, start: jax.Array) -> tuple:
+        return sought(limits, given, start)
+
     @search.defjvp
     def _derivative(primals: tuple, tangents: tuple) -> tuple:
-        closed_over, start = primals
-        x, made, size, number = search(closed_over, start)
-        _, linear = jax.linearize(lambda x, c: traced(x, *c), x, closed_over)
-        still = jax.tree.map(jnp.zeros_like, closed_over)
-        pushed, _ = linear(jnp.zeros_like(x), tangents[0])
-        change = solve_linear(lambda v: v - linear(v, still)[0], pushed)
-        _, along = linear(change, tangents[0])
+        given, limits, start = primals
+        x, made, size, number = search(given, limits, start)
+        _, pushed = jax.jvp(lambda g: traced(g, x), (given,), (tangents[0],))
+        _, linear = jax.linearize(lambda x: traced(given, x), x)
+        change = solve_linear(lambda v: v - linear(v)[0], pushed[0])
+        along = pushed[1] + linear(change)[1]
         return (x, made, size, number), (change, along, jnp.zeros_like(size), jnp.zeros_like(number))
 
-    x, packed, size, number = search(closed_over, start)
+    x, packed, size, number = search(given, limits, start)
     parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
     made = jax.tree.unflatten(
         tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
     )
     size = lax.stop_gradient(size)
     return Settled(x, made, size <= within_rounding(x, tolerance), number.astype(int), size)
-
-
-def within_rounding(x: jax.Array, tolerance: float) -> jax.Array:
-    """The tolerance, or what rounding leaves of a state far larger than one; never more than a thousand
-    tolerances.
-    """
-    rounding = 32.0 * jnp.finfo(x.dtype).eps * largest(lax.stop_gradient(x))
-    return jnp.where(rounding <= 1e3 * tolerance, jnp.maximum(rounding, tolerance), -1.0)
