@@ -337,7 +337,9 @@ def _gather(params: Any, eqn: Any) -> Step | None:
         return None
     sizes, fill = [shape[axis] for axis in indexed], params["fill_value"]
     if fill is None:
-        fill = np.nan if eqn.outvars[0].aval.dtype.kind == "f" else None
+        if eqn.outvars[0].aval.dtype.kind != "f":
+            return None
+        fill = np.nan
 
     def step(x: Any, indices: Any) -> Any:
         places, inside = _places(indices, mode, sizes)
@@ -349,7 +351,7 @@ def _gather(params: Any, eqn: Any) -> Step | None:
         count = inside.ndim
         return np.moveaxis(found, range(count, count + len(others)), numbers.offset_dims)
 
-    return None if fill is None else step
+    return step
 
 
 def _scatter(put: Callable[[Any, Any, Any], None]) -> Callable[[Any, Any], Step | None]:

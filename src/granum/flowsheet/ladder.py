@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +14,8 @@ from granum.core.units import format_number
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import solve
-from granum.flowsheet.specifications import Designed, Target, design, figure
+from granum.flowsheet.solving import nothing_known, solve
+from granum.flowsheet.specifications import PASSES, Designed, Target, among, design, figure
 from granum.flowsheet.watching import Watch
 from granum.numerics import Anderson, Newton
 from granum.streams.stream import Stream
@@ -30,11 +32,10 @@ class Tried(NamedTuple):
 PATIENT: dict[str, Any] = {"method": Anderson(window=10, damping=0.4), "max_steps": 2000}
 EXACT: dict[str, Any] = {"method": Newton(), "max_steps": 50}
 RUNGS = 3
-PASSES = 200
-OPENING = (40, 10)
-"""Passes through a loop, without and with specifications, that are made before anybody watches: most lines
-need fewer.
-"""
+FIRST = 10
+"""Passes through the loops before anybody looks how far they are."""
+PAUSE = 0.5
+"""Seconds of passes between two looks."""
 
 
 def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designed:
@@ -43,14 +44,9 @@ def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designe
     """
     if rung < RUNGS - 1:
         return design(sheet, targets, sheets=True, **(PATIENT if rung else {}))
-    left = design(sheet, targets).solution.streams
-    return design(
-        sheet,
-        targets,
-        sheets=True,
-        start={n: left[n] for block in sheet.blocks for n in block.tears},
-        **EXACT,
-    )
+    left = design(sheet, targets)
+    torn = {n: left.solution.streams[n] for block in sheet.blocks for n in block.tears}
+    return design(sheet, targets, sheets=True, start=torn, near=left.values, **EXACT)
 
 
 def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
@@ -60,31 +56,21 @@ def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Trie
 
 
 @compiled
-def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any) -> Tried:
-    """The line with its specifications, figures, checks and audit: one compilation, which the next process
-    finds in the cache.
-    """
-    return _measured(sheet, targets, max_steps=passes)
+def _quickly(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: tuple[Any, ...]) -> Tried:
+    """The line with its specifications, figures, checks and audit, after so many passes in all."""
+    return _measured(sheet, targets, max_steps=passes, known=known)
 
 
 @compiled
-def _watched(sheet: Flowsheet, targets: tuple[Target, ...]) -> Tried:
-    """The same, telling of each pass: code that calls back can be kept in no cache."""
-    return _measured(sheet, targets, watched=True)
-
-
-@compiled
-def _patiently(
-    sheet: Flowsheet, targets: tuple[Target, ...], watched: bool, _torn: dict[str, Stream]
-) -> Tried:
-    return _measured(sheet, targets, watched=watched, **PATIENT)
+def _patiently(sheet: Flowsheet, targets: tuple[Target, ...], passes: Any, known: tuple[Any, ...]) -> Tried:
+    return _measured(sheet, targets, method=PATIENT["method"], max_steps=passes, known=known)
 
 
 @compiled
 def _by_newton(
-    sheet: Flowsheet, targets: tuple[Target, ...], _watched: bool, torn: dict[str, Stream]
+    sheet: Flowsheet, targets: tuple[Target, ...], torn: dict[str, Stream], near: dict[str, Any]
 ) -> Tried:
-    return _measured(sheet, targets, start=torn, **EXACT)
+    return _measured(sheet, targets, start=torn, near=near, **EXACT)
 
 
 @compiled
@@ -100,23 +86,24 @@ def climb(
     wrong with it, the cause first.
     """
 
-    def attempt(solver: Callable[..., Tried], *more: Any) -> tuple[Tried, list[Fault]]:
-        found = (watch.run if watch is not None else _at_once)(
-            lambda: solver(as_arrays(sheet), targets, *more)
-        )
+    def attempt(solver: Callable[[], Tried]) -> tuple[Tried, list[Fault]]:
+        found = solver() if watch is None else watch.run(solver)
         return found, wrongs(found, targets)
 
-    found, wrong = attempt(_quickly, np.asarray(PASSES if watch is None else OPENING[bool(targets)]))
-    if watch is not None and wrong and _loops_fail(sheet, targets, wrong):
-        opened = found.designed.solution
-        watch.passes, watch.residual = int(sum(opened.steps)), float(np.max(opened.residual))
-        if not (watch.stopped or watch.late):
-            found, wrong = attempt(_watched)
-    for solver in (_patiently, _by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
+    def by_newton() -> Tried:
+        left = found.designed
+        torn = {n: left.solution.streams[n] for block in sheet.blocks for n in block.tears}
+        return _by_newton(as_arrays(sheet), targets, torn, left.values)
+
+    most = PASSES * (1 + len(targets))
+    found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))
+    patiently = partial(
+        _in_passes, _patiently, PATIENT["method"], sheet, targets, PATIENT["max_steps"], watch
+    )
+    for solver in (patiently, by_newton) if wrong and _loops_fail(sheet, targets, wrong) else ():
         if watch is not None and (watch.stopped or watch.late):
             break
-        torn = {n: found.designed.solution.streams[n] for block in sheet.blocks for n in block.tears}
-        other, told = attempt(solver, watch is not None, torn)
+        other, told = attempt(solver)
         if not told:
             return other, []
         if np.all(other.findings.finite) or not np.all(found.findings.finite):
@@ -144,8 +131,36 @@ def wrongs(found: Tried, targets: tuple[Target, ...]) -> list[Fault]:
     return told
 
 
-def _at_once(work: Callable[[], Tried]) -> Tried:
-    return work()
+def _in_passes(
+    solver: Callable[..., Tried],
+    method: Anderson,
+    sheet: Flowsheet,
+    targets: tuple[Target, ...],
+    most: int,
+    watch: Watch | None,
+) -> Tried:
+    """The line after some passes at a time, between which the watch is told, until it is solved, hopeless, or
+    told to stop.
+    """
+    known = nothing_known(sheet, method, among(targets), len(targets))
+    loops = [block.tears[0] for block in sheet.blocks if block.tears]
+    done, ahead = 0, FIRST
+    while True:
+        goal, began = min(done + ahead, most), time.monotonic()
+        found = solver(as_arrays(sheet), targets, np.asarray(goal), known)
+        spent, solution = time.monotonic() - began, found.designed.solution
+        if not solution.known:
+            return found
+        made = max(map(int, solution.steps), default=goal)
+        left = [float(x) for x in solution.residual]
+        worst = int(np.argmax(left)) if left else 0
+        told = (loops[worst], made, left[worst]) if loops else (targets[0].so_that, made, 0.0)
+        stop = watch is not None and watch.seen(*told)
+        if bool(found.designed.converged) or made < goal or goal >= most or stop:
+            return found
+        # the first look includes tracing and compiling, which say nothing of the passes
+        ahead = FIRST if done == 0 else max(1, min(int(PAUSE * (made - done) / spent), 10 * FIRST))
+        done, known = made, solution.known
 
 
 def _loops_fail(sheet: Flowsheet, targets: tuple[Target, ...], wrong: list[Fault]) -> bool:

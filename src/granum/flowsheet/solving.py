@@ -17,9 +17,9 @@ from granum.core import flags
 from granum.flowsheet.passing import Made, is_known, known_or, pass_through, where
 from granum.flowsheet.plan import Block
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.watching import reporter
 from granum.numerics import Anderson, Newton, Seeking, Settled, fixed_point, settle, within_rounding
 from granum.numerics.fixed_points import largest
+from granum.numerics.settled import knowledge
 from granum.streams import audit
 from granum.streams.audit import Closure
 from granum.streams.mixture import Mixture
@@ -44,6 +44,7 @@ class Solution(NamedTuple):
     records: what each unit's formulas flagged at the solution.
     sheets: figures and checks of each unit, when asked for.
     met: whether what was wanted was found as well. sought: the parameters found, each within 0 … 1.
+    known: all that the solver of each loop knows, to go on from there.
     """
 
     streams: dict[str, Stream]
@@ -55,6 +56,7 @@ class Solution(NamedTuple):
     sheets: dict[str, tuple[Any, tuple[Check, ...]]]
     met: Any = True
     sought: Any = None
+    known: tuple[Any, ...] = ()
 
 
 def _pack(stream: Stream, scale: Any) -> Any:
@@ -81,7 +83,7 @@ def _run_loop(
     wanted: Wanted | None,
     method: Anderson | Newton,
     max_steps: int,
-    watched: bool,
+    known: Any,
 ) -> tuple[Made, Settled, Any]:
     """A loop, solved, with what is wanted of it: with Anderson's method the pass through its units stands
     once in the compiled code. Last the residuals: of each torn stream, and of what is wanted.
@@ -117,9 +119,8 @@ def _run_loop(
 
     start = jnp.concatenate([*(_pack(guess[n], scale) for n in block.tears), begun])
     if isinstance(method, Anderson):
-        watch = reporter(block.tears[0] if block.tears else block.units[-1]) if watched else None
-        how = method if wanted is None else Seeking(begun.size, method, TOLERANCE)
-        found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, watch=watch)
+        how = _with_parameters(method, begun.size)
+        found = settle(once, start, method=how, tolerance=TOLERANCE, max_steps=max_steps, known=known)
     else:
         root = fixed_point(
             lambda x, _args: once(x)[0],
@@ -132,11 +133,11 @@ def _run_loop(
         good = root.residual <= within_rounding(root.state, TOLERANCE)
         found = Settled(root.state, once(root.state)[1], good, root.steps, root.residual)
     made, left = found.made
-    known = {n: is_known(s) for n, s in made.streams.items()}
-    at_rest = {n: where(known[n], s, made.streams[n]) for n, s in torn(found.state).items()}
+    told = {n: is_known(s) for n, s in made.streams.items()}
+    at_rest = {n: where(told[n], s, made.streams[n]) for n, s in torn(found.state).items()}
     return (
         made._replace(streams=made.streams | at_rest),
-        found._replace(converged=found.converged & jnp.all(jnp.stack([*known.values()]))),
+        found._replace(converged=found.converged & jnp.all(jnp.stack([*told.values()]))),
         jax.lax.stop_gradient(left),
     )
 
@@ -156,15 +157,15 @@ class Wanted(NamedTuple):
     among: frozenset[str]
 
 
-def _joined(line: Flowsheet, wanted: Wanted | None) -> tuple[tuple[Block, bool], ...]:
+def _joined(line: Flowsheet, among: frozenset[str]) -> tuple[tuple[Block, bool], ...]:
     """The blocks of a line, those between cause and effect of what is wanted made one; and whether it is that
     one.
     """
     blocks = line.blocks
-    if wanted is None:
+    if not among:
         return tuple((block, False) for block in blocks)
-    entered = {k.target_unit for k in line.links if k.name in wanted.among and not k.origin}
-    named = {i for i, block in enumerate(blocks) if (wanted.among | entered).intersection(block.units)}
+    entered = {k.target_unit for k in line.links if k.name in among and not k.origin}
+    named = {i for i, block in enumerate(blocks) if (among | entered).intersection(block.units)}
     first, last = min(named), max(named) + 1
     middle = blocks[first:last]
     one = Block(tuple(u for b in middle for u in b.units), tuple(t for b in middle for t in b.tears))
@@ -179,7 +180,7 @@ def solve(
     wanted: Wanted | None = None,
     method: Anderson | Newton = Anderson(),
     max_steps: int = 200,
-    watched: bool = False,
+    known: tuple[Any, ...] | None = None,
 ) -> Solution:
     """Solve a line. Pure: may be jitted, batched with ``vmap`` and differentiated.
 
@@ -192,12 +193,13 @@ def solve(
     method: how loops are brought to rest: ``Anderson``, or ``Newton`` (Newton–Krylov beyond 256 torn
         numbers), which compiles longer and solves some loops that do not contract. max_steps: most passes
         through a loop, or steps of Newton.
-    watched: whether Anderson's method tells the ``Watch`` of each pass and stops when that asks for it.
+    known: of an earlier solution by Anderson's method, to go on from there; ``nothing_known`` to begin.
     """
     start = start or {}
     streams: dict[str, Stream] = dict(line.feeds)
     whole = Made(streams, {}, {}, {})
     converged, met, sought, steps, residual = jnp.asarray(True), jnp.asarray(True), None, [], []
+    left_off: list[Any] = []
     any_feed = next(iter(line.feeds.values()))
     of = frozenset(line.units if sheets is True else sheets or ())
     of = of if wanted is None else of | wanted.units
@@ -207,15 +209,25 @@ def solve(
 
     scale = sum((s.mass_flow for s in line.feeds.values()), jnp.zeros(()))
     scale = jax.lax.stop_gradient(jnp.where(scale > 0, scale, 1.0))
-    for block, aimed in _joined(line, wanted):
+    for block, aimed in _joined(line, frozenset() if wanted is None else wanted.among):
         if block.tears or aimed:
             warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
             guess = {
                 n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears
             }
             made, found, left = _run_loop(
-                line, block, streams, guess, scale, of, wanted if aimed else None, method, max_steps, watched
+                line,
+                block,
+                streams,
+                guess,
+                scale,
+                of,
+                wanted if aimed else None,
+                method,
+                max_steps,
+                None if known is None else known[len(left_off)],
             )
+            left_off.append(found.known)
             if aimed and wanted is not None:
                 sought = found.state[found.state.size - len(wanted.start) :]
                 met = found.converged & jnp.all((sought >= 0.0) & (sought <= 1.0))
@@ -242,6 +254,24 @@ def solve(
         whole.sheets,
         met & converged,
         sought,
+        tuple(left_off),
+    )
+
+
+def _with_parameters(method: Anderson, count: int) -> Anderson | Seeking:
+    return Seeking(count, method, TOLERANCE) if count else method
+
+
+def nothing_known(line: Flowsheet, method: Anderson, among: frozenset[str], count: int) -> tuple[Any, ...]:
+    """What a solver begins with that is called for some passes at a time, ``count`` parameters being wanted
+    ``among`` units.
+    """
+    mixture = next(iter(line.feeds.values())).mixture
+    row = int(np.prod(mixture.solid_shape)) + len(mixture.liquids) + len(mixture.gases) + 1
+    return tuple(
+        np.zeros(knowledge(_with_parameters(method, count * aimed), row * len(block.tears) + count * aimed))
+        for block, aimed in _joined(line, among)
+        if block.tears or aimed
     )
 
 

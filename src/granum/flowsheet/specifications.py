@@ -12,6 +12,9 @@ import numpy as np
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution, Wanted, solve
 
+PASSES = 200
+"""Passes through the loops of a line, and again for each parameter that is sought."""
+
 
 class Target(NamedTuple):
     """Vary ``vary`` (unit.parameter) between ``lower`` and ``upper`` so that ``so_that`` (unit.result) equals
@@ -57,6 +60,7 @@ def design(
     if not targets:
         solution = solve(line, sheets=sheets, **how)
         return Designed(line, solution, {}, solution.converged)
+    how.setdefault("max_steps", PASSES * (1 + len(targets)))
     low = jnp.asarray([t.lower for t in targets])
     width = jnp.asarray([t.upper for t in targets]) - low
 
@@ -75,11 +79,16 @@ def design(
         lambda sought: line.with_values(values(sought)),
         misses,
         frozenset(_result(t)[0] for t in targets),
-        frozenset(path.partition(".")[0] for t in targets for path in (t.vary, t.so_that)),
+        among(targets),
     )
     solution = solve(line, sheets=sheets, wanted=wanted, **how)
     found = values(solution.sought)
     return Designed(line.with_values(found), solution, found, solution.met)
+
+
+def among(targets: tuple[Target, ...]) -> frozenset[str]:
+    """Units and feeds that are varied or looked at."""
+    return frozenset(path.partition(".")[0] for t in targets for path in (t.vary, t.so_that))
 
 
 def _result(target: Target) -> tuple[str, str]:

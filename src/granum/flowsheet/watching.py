@@ -7,17 +7,10 @@ from __future__ import annotations
 import contextvars
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any, TypeVar
 
-import jax
-import jax.numpy as jnp
-import numpy as np
-
 _T = TypeVar("_T")
-_watch: Watch | None = None
-_one_at_a_time = threading.Lock()
 
 
 class Watch:
@@ -48,8 +41,8 @@ class Watch:
         self.stopped = True
 
     def seen(self, loop: str, number: int, residual: float) -> bool:
-        """Take note of a pass; whether to stop here."""
-        self.passes, self.residual = self.passes + 1, residual
+        """Take note of so many passes; whether to stop here."""
+        self.passes, self.residual = number, residual
         now = time.monotonic()
         if self._tell is not None and now - self._told > 0.25:
             self._told = now
@@ -57,7 +50,7 @@ class Watch:
         return self.stopped or now > self._until
 
     def run(self, work: Callable[[], _T]) -> _T:
-        """Run ``work`` in a thread of its own under this watch, so that Ctrl-C reaches it between two passes.
+        """Run ``work`` in a thread of its own, so that Ctrl-C reaches it between two passes.
 
         The first Ctrl-C stops at the last iterate; a second one gives up at once.
         """
@@ -65,8 +58,7 @@ class Watch:
 
         def inside() -> None:
             try:
-                with watched_by(self):
-                    outcome.append((work(), None))
+                outcome.append((work(), None))
             except BaseException as problem:  # handed on to the caller's thread below
                 outcome.append((None, problem))
 
@@ -83,28 +75,3 @@ class Watch:
         if problem is not None:
             raise problem
         return found
-
-
-@contextmanager
-def watched_by(watch: Watch) -> Iterator[None]:
-    """While open, loops compiled with ``reporter`` tell ``watch``. Compiled code knows no caller, so there is
-    one at a time in a process.
-    """
-    global _watch
-    with _one_at_a_time:
-        _watch = watch
-        try:
-            yield
-        finally:
-            _watch = None
-
-
-def reporter(loop: str) -> Callable[[Any, Any], Any]:
-    """A function of (number of the pass, residual) for the loop of compiled code: whether to stop."""
-
-    def seen(number: Any, residual: Any) -> np.ndarray:
-        return np.asarray(_watch is not None and _watch.seen(loop, int(number), float(residual)))
-
-    return lambda number, residual: jax.pure_callback(
-        seen, jax.ShapeDtypeStruct((), jnp.bool_), number, residual, vmap_method="sequential"
-    )

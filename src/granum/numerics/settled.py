@@ -17,13 +17,16 @@ from granum.numerics.seeking import Seeking
 
 
 class Settled(NamedTuple):
-    """Outcome of `settle`: as for `fixed_point`, with what else the function made at the state."""
+    """Outcome of `settle`: as for `fixed_point`, with what else the function made at the state, and all that
+    the iteration knows, to go on from there.
+    """
 
     state: jax.Array
     made: Any
     converged: jax.Array
     steps: jax.Array
     residual: jax.Array
+    known: jax.Array | None = None
 
 
 def settle(
@@ -33,7 +36,7 @@ def settle(
     method: Anderson | Seeking = Anderson(),
     tolerance: float = 1e-10,
     max_steps: int = 200,
-    watch: Callable[[jax.Array, jax.Array], jax.Array] | None = None,
+    known: jax.Array | None = None,
 ) -> Settled:
     """Solve ``function(state)[0] == state`` for a vector scaled to about one; ``function`` makes further
     results on the way.
@@ -42,9 +45,9 @@ def settle(
     fast. Derivatives with respect to closed-over values follow from the implicit function theorem, forward
     and reverse, for the state and what is made.
 
-    ``watch`` is called with the number of each pass and the best residual so far and says whether to stop. Of
-    a function that never gives a number, what the first pass made is kept: it shows where the numbers were
-    lost.
+    ``known``, of an earlier outcome, goes on where that was left, ``max_steps`` counting from the beginning;
+    zeros (``knowledge`` says how many) begin. Of a function that never gives a number, what the first pass
+    made is kept: it shows where the numbers were lost.
 
     Example:
         >>> found = settle(lambda x: (jnp.cos(x), {"sine": jnp.sin(x)}), jnp.array([1.0]))
@@ -69,25 +72,23 @@ def settle(
 
     def searched(given: Any, start: jax.Array) -> tuple:
         def advance(carry: tuple) -> tuple:
-            iteration, kept, _ = carry
+            iteration, kept = carry
             image, made = traced(given, iteration[0])
             following = method.proceed(iteration, image - iteration[0])
             better = (following[1][1] < iteration[1][1]) | (iteration[-1] == 0)
-            stop = jnp.asarray(False) if watch is None else watch(following[-1], following[1][1])
-            return following, jnp.where(better, made, kept), stop
+            return following, jnp.where(better, made, kept)
 
         def unfinished(carry: tuple) -> jax.Array:
-            iteration, _, stop = carry
+            iteration, _ = carry
             x, size = iteration[1]
             unsettled = (size > within_rounding(x, tolerance)) & (iteration[-1] < max_steps)
-            return unsettled & method.hopes(iteration) & ~stop
+            return unsettled & method.hopes(iteration)
 
         blank = jnp.full((sum(math.prod(size) for size, _ in kinds),), jnp.nan, start.dtype)
-        iteration, made, _ = lax.while_loop(
-            unfinished, advance, (method.begin(start), blank, jnp.asarray(False))
-        )
+        begun = method.begin(start)
+        iteration, made = lax.while_loop(unfinished, advance, (_resumed(begun, known), blank))
         (x, size), number = iteration[1], iteration[-1]
-        return x, made, size, number.astype(x.dtype)
+        return x, made, size, number.astype(x.dtype), _packed(iteration)
 
     # nothing may be closed over by what is differentiated later, when this call has returned
     sought, limits, _image = converted(searched, given, start)
@@ -99,17 +100,42 @@ def settle(
     @search.defjvp
     def _derivative(primals: tuple, tangents: tuple) -> tuple:
         given, limits, start = primals
-        x, made, size, number = search(given, limits, start)
+        x, made, *numbers = search(given, limits, start)
         _, pushed = jax.jvp(lambda g: traced(g, x), (given,), (tangents[0],))
         _, linear = jax.linearize(lambda x: traced(given, x), x)
         change = solve_linear(lambda v: v - linear(v)[0], pushed[0])
         along = pushed[1] + linear(change)[1]
-        return (x, made, size, number), (change, along, jnp.zeros_like(size), jnp.zeros_like(number))
+        return (x, made, *numbers), (change, along, *map(jnp.zeros_like, numbers))
 
-    x, packed, size, number = search(given, limits, start)
+    x, packed, size, number, left = search(given, limits, start)
     parts = jnp.split(packed, list(accumulate(math.prod(size) for size, _ in kinds))[:-1])
     made = jax.tree.unflatten(
         tree, [part.reshape(size).astype(kind) for part, (size, kind) in zip(parts, kinds, strict=False)]
     )
     size = lax.stop_gradient(size)
-    return Settled(x, made, size <= within_rounding(x, tolerance), number.astype(int), size)
+    converged = size <= within_rounding(x, tolerance)
+    return Settled(x, made, converged, number.astype(int), size, lax.stop_gradient(left))
+
+
+def knowledge(method: Anderson | Seeking, size: int) -> int:
+    """How many numbers an iteration over so many unknowns knows."""
+    shapes = jax.eval_shape(method.begin, jax.ShapeDtypeStruct((size,), float))
+    return 1 + sum(leaf.size for leaf in jax.tree.leaves(shapes))
+
+
+def _packed(iteration: tuple) -> jax.Array:
+    leaves = (jnp.ravel(leaf).astype(float) for leaf in jax.tree.leaves(iteration))
+    return jnp.concatenate([jnp.ones((1,)), *leaves])
+
+
+def _resumed(begun: tuple, known: jax.Array | None) -> tuple:
+    """The iteration as it was left, but for what its best point made, which the next one makes anew."""
+    if known is None:
+        return begun
+    leaves, tree = jax.tree.flatten(begun)
+    ends = list(accumulate(leaf.size for leaf in leaves))
+    parts = jnp.split(known[1:], ends[:-1])
+    left = [part.reshape(leaf.shape).astype(leaf.dtype) for part, leaf in zip(parts, leaves, strict=True)]
+    x, (best, _size), *others = jax.tree.unflatten(tree, left)
+    again = (x, (best, jnp.full_like(_size, jnp.inf)), *others)
+    return jax.tree.map(lambda old, new: jnp.where(known[0] > 0, old, new), again, begun)
