@@ -77,6 +77,14 @@ def ways_to_write(unit: str) -> Iterator[str]:
                 yield pretty_unit(text)
 
 
+PER_AMOUNT = {
+    "J/(mol*K)": ("J/(mol*K)", "J/(kmol*K)", "kJ/(kmol*K)", "cal/(mol*K)", "molar_gas_constant"),
+    "J/mol": ("J/kmol", "kJ/kmol"),
+    "mol/m^3": ("kmol/m^3",),
+}
+"""Units in which tables of materials give properties, beyond those of the kinds."""
+
+
 def unit_table() -> str:
     """The text of ``granum/core/unit_table.csv``: every unit of a kind, a glossary entry or the customary
     system, by Pint.
@@ -84,9 +92,13 @@ def unit_table() -> str:
     usual = sorted({term.unit for term in glossary().values() if term.unit})
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    for si in dict.fromkeys(kind.unit for kind in KINDS.values()):
+    for si in dict.fromkeys((*(kind.unit for kind in KINDS.values()), *PER_AMOUNT)):
         own = [unit for kind in KINDS.values() if kind.unit == si for unit in kind.units]
-        written = (way for unit in (*own, *FIELD.get(si, ()), *usual) for way in ways_to_write(unit))
+        written = (
+            way
+            for unit in (*own, *FIELD.get(si, ()), *PER_AMOUNT.get(si, ()), *usual)
+            for way in ways_to_write(unit)
+        )
         for unit in dict.fromkeys(written):
             try:
                 known = bool(unit) and same_by_pint(unit, si) and affine_by_pint(unit, si)

@@ -13,6 +13,7 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+import jax
 import numpy as np
 from jax.extend.core import ClosedJaxpr, Literal
 
@@ -143,7 +144,8 @@ def _by_jax(eqn: Any) -> Step:
     fixed, several = eqn.params, eqn.primitive.multiple_results
 
     def step(*values: Any) -> Any:
-        found = eqn.primitive.bind(*values, **fixed)
+        with jax.ensure_compile_time_eval():  # a program may run while another is being traced
+            found = eqn.primitive.bind(*values, **fixed)
         out = [np.asarray(x)[()] for x in found] if several else np.asarray(found)[()]
         return out[0] if several and len(out) == 1 else out
 
@@ -152,6 +154,12 @@ def _by_jax(eqn: Any) -> Step:
 
 def _quotient(x: Any, y: Any) -> Any:
     return x / y if x.dtype.kind == "f" else np.trunc(x / y).astype(x.dtype)
+
+
+def _before(x: Any, y: Any) -> Any:
+    """Total order of floating-point numbers: -0 before 0, all before NaN."""
+    signs = (x == y) & np.signbit(x) & ~np.signbit(y) if np.asarray(x).dtype.kind == "f" else False
+    return (x < y) | ((y != y) & (x == x)) | signs
 
 
 PLAIN: dict[str, Step] = {
@@ -202,6 +210,8 @@ PLAIN: dict[str, Step] = {
     "shift_left": np.left_shift,
     "shift_right_arithmetic": np.right_shift,
     "nextafter": np.nextafter,
+    "lt_to": _before,
+    "le_to": lambda x, y: ~_before(y, x),
     "clamp": lambda low, x, high: np.minimum(np.maximum(x, low), high),
     "copy": lambda x: x,
     "copy_p": lambda x: x,
@@ -312,9 +322,22 @@ def _product(params: Any, eqn: Any) -> Step | None:
     return lambda x, y: np.tensordot(x, y, axes=(left, right))[()]
 
 
-def _each(function: Callable[[float], float]) -> Step:
+def _each(function: Callable[[float], float]) -> Callable[[Any, Any], Step]:
     each = np.frompyfunc(function, 1, 1)
-    return lambda x: np.asarray(each(x), x.dtype)[()]
+    return lambda _params, _eqn: lambda x: np.asarray(each(x), x.dtype)[()]
+
+
+def _lgamma(x: float) -> float:
+    return math.inf if x <= 0.0 and (math.isinf(x) or x == math.floor(x)) else math.lgamma(x)
+
+
+def _convert(params: Any, eqn: Any) -> Step:
+    target = np.dtype(params["new_dtype"])
+    if eqn.invars[0].aval.dtype.kind != "f" or target.kind not in "iu":
+        return lambda x: x.astype(target)
+    low, high = float(np.iinfo(target).min), np.nextafter(float(np.iinfo(target).max), 0.0)
+    # beyond the ends and without a number as XLA does it
+    return lambda x: np.clip(np.where(np.isnan(x), 0.0, x), low, high).astype(target)[()]
 
 
 def _places(indices: Any, mode: Any, sizes: Sequence[int]) -> tuple[tuple[Any, ...], Any]:
@@ -359,13 +382,13 @@ def _scatter(put: Callable[[Any, Any, Any], None]) -> Callable[[Any, Any], Step 
 
     def made(params: Any, eqn: Any) -> Step | None:
         numbers, mode = params["dimension_numbers"], params["mode"]
+        if numbers.operand_batching_dims:
+            return None
         shape, given = eqn.invars[0].aval.shape, eqn.invars[2].aval.shape
         indexed, inserted = tuple(numbers.scatter_dims_to_operand_dims), set(numbers.inserted_window_dims)
         others = tuple(axis for axis in range(len(shape)) if axis not in indexed)
         windows = iter(numbers.update_window_dims)
         sizes = [1 if axis in inserted else given[next(windows)] for axis in range(len(shape))]
-        if numbers.operand_batching_dims:
-            return None
 
         def window(x: Any, indices: Any, update: Any) -> Any:
             first = np.zeros(len(shape), int)
@@ -398,6 +421,8 @@ def _put(out: Any, places: Any, values: Any) -> None:
 
 def _split(params: Any, _eqn: Any) -> Step:
     ends = np.cumsum(params["sizes"])[:-1]
+    if not ends.size:
+        return lambda x: x
     return lambda x: np.split(x, ends, axis=params["axis"])
 
 
@@ -414,13 +439,11 @@ def _rounding(params: Any, _eqn: Any) -> Step | None:
     return np.rint if int(params["rounding_method"]) == 1 else None
 
 
-_erf, _erfc, _lgamma = _each(math.erf), _each(math.erfc), _each(math.lgamma)
-
 SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "integer_pow": _integer_pow,
     "select_n": _select,
     "broadcast_in_dim": _broadcast,
-    "convert_element_type": lambda params, _eqn: lambda x: x.astype(params["new_dtype"]),
+    "convert_element_type": _convert,
     "bitcast_convert_type": lambda params, eqn: (
         (lambda x: x.view(params["new_dtype"]))
         if np.dtype(params["new_dtype"]).itemsize == eqn.invars[0].aval.dtype.itemsize
@@ -458,9 +481,9 @@ SHAPED: dict[str, Callable[[Any, Any], Step | None]] = {
     "split": _split,
     "iota": _iota,
     "round": _rounding,
-    "erf": lambda _params, _eqn: _erf,
-    "erfc": lambda _params, _eqn: _erfc,
-    "lgamma": lambda _params, _eqn: _lgamma,
+    "erf": _each(math.erf),
+    "erfc": _each(math.erfc),
+    "lgamma": _each(_lgamma),
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from math import inf, nan
+from math import inf, isnan, nan
 from typing import Any
 
 import jax
@@ -55,6 +55,8 @@ _KIND_OF = {
     "heat_capacity": "HeatCapacity",
     "conductivity": "ThermalConductivity",
 }
+_BY_AMOUNT = {"kg/m^3": ("mol/m^3", 1), "J/kg": ("J/mol", -1), "J/(kg*K)": ("J/(mol*K)", -1)}
+"""The unit of a property given per amount of substance, and the power of the molar mass that it lacks."""
 _FLUID_PROPERTIES = tuple(name for name in _KIND_OF if name in FluidEntry.model_fields)
 _SOLID_PROPERTIES = ("density", "heat_capacity", "conductivity")
 
@@ -84,9 +86,11 @@ def _factor(unit: str, kind_name: str, molar_mass: float, owner: str) -> float:
     """From a printed unit to SI; amounts become masses with the molar mass."""
     if not unit:
         return 1.0
-    if (row := rows().get((unit, KINDS[kind_name].unit))) is not None and not row.offset:
-        return row.factor
-    target = units.registry().Unit(KINDS[kind_name].unit)
+    target = KINDS[kind_name].unit
+    for si, power in ((target, 0), _BY_AMOUNT.get(target, (target, 0))):
+        row = rows().get((unit, si))
+        if row is not None and not row.offset and not (power and isnan(molar_mass)):
+            return row.factor * molar_mass**power if power else row.factor
     mass = units.registry().Quantity(molar_mass, "kg/mol")
     quantity = units.registry().Quantity(1.0, units.parse_unit(unit))
     for candidate in (quantity, quantity * mass, quantity / mass):

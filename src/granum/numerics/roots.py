@@ -105,11 +105,7 @@ def _search(
     f: Callable, lower: jax.Array, upper: jax.Array, guess: jax.Array, tolerance: float, most: int
 ) -> tuple[jax.Array, tuple]:
     """Roots, with status 1 found, 0 kept but not found, -1 no root; and the number of passes."""
-    floor = jnp.minimum(abs(lower), abs(upper))
-
-    def slack(x: jax.Array) -> jax.Array:
-        return tolerance * jnp.maximum(abs(x), floor)
-
+    width = (tolerance, jnp.minimum(abs(lower), abs(upper)))
     lower, upper = jnp.broadcast_to(lower, guess.shape), jnp.broadcast_to(upper, guess.shape)
     # the ends are the first two passes of the one loop, so that the function is compiled once
     if guess.size < LARGE:
@@ -123,15 +119,16 @@ def _search(
             jnp.full(guess.shape, OPEN, jnp.int8),
             jnp.zeros((), guess.dtype),
         )
-        x, status, steps = _safe(f, lower, upper, guess, carry, slack, most)
+        x, status, steps = _safe(f, lower, upper, guess, carry, width, most)
         return x, (status.astype(x.dtype), steps)
     ends = jax.vmap(f)(jnp.stack([lower, upper]))
     x, status, below, above = _bracketed(lower, upper, ends[0], ends[1], guess)
     crossing = status == OPEN
-    x, lost, steps = _newton(f, lower, upper, x, crossing, slack, min(FAST_STEPS, most))
+    x, lost, steps = _newton(f, lower, upper, x, crossing, width, min(FAST_STEPS, most))
+    slack = _slack(x, width)
     # A small step is no proof: the function may turn away within it.
     low, high = jnp.minimum(lower, upper), jnp.maximum(lower, upper)
-    around = jnp.sign(jax.vmap(f)(jnp.clip(jnp.stack([x - slack(x), x + slack(x)]), low, high)))
+    around = jnp.sign(jax.vmap(f)(jnp.clip(jnp.stack([x - slack, x + slack]), low, high)))
     failed = lost | (crossing & ~(around[0] * around[1] <= 0))
     status = jnp.where(failed, OPEN, jnp.where(crossing, 1, status)).astype(jnp.int8)
     ceiling = jnp.maximum(abs(ends[0]), abs(ends[1]))
@@ -143,7 +140,7 @@ def _search(
             upper,
             guess,
             (x, below, above, ceiling, abs(upper - lower), status, steps + 2),
-            slack,
+            width,
             most,
         )
 
@@ -166,7 +163,7 @@ def _bracketed(
     return x, status, jnp.where(first < 0, lower, upper), jnp.where(first < 0, upper, lower)
 
 
-def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
+def _newton(f, lower, upper, x, wanted, width, most) -> tuple:
     """Newton's method while its steps halve and stay between the ends; which elements it lost.
 
     It carries only the unknown and its last step (0 when done, infinite when lost), because on
@@ -180,7 +177,7 @@ def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
         step = abs(ahead - x)
         halved = (step <= 0.5 * size) & (abs(slope) < jnp.inf)
         good = halved & ((ahead - lower) * (ahead - upper) <= 0)
-        next_size = jnp.where(good, jnp.where(step <= slack(ahead), 0.0, step), jnp.inf)
+        next_size = jnp.where(good, jnp.where(step <= _slack(ahead, width), 0.0, step), jnp.inf)
         moving = (size > 0) & (size < jnp.inf)
         return (
             jnp.where(moving & good, ahead, x),
@@ -197,7 +194,7 @@ def _newton(f, lower, upper, x, wanted, slack, most) -> tuple:
     return x, size > 0, steps
 
 
-def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
+def _safe(f, lower, upper, guess, carry, width, most) -> tuple:
     """Newton or bisection in a shrinking bracket; in the end, bisection of the numbers themselves.
 
     Passes 0 and 1 evaluate the ends; a carry that knows them starts at 2. It ends only when the bracket
@@ -205,54 +202,69 @@ def _safe(f, lower, upper, guess, carry, slack, most) -> tuple:
     small steps go a little too far on purpose.
     """
 
-    def judge(y: jax.Array, small: jax.Array, ceiling: jax.Array) -> jax.Array:
-        # A pole changes sign too, but the function grows towards it.
-        closed = jnp.where(abs(y) <= ceiling, 1, 0)
-        result = jnp.where(y == 0, 1, jnp.where(small, closed, OPEN))
-        return jnp.where(jnp.isnan(y), -1, result).astype(jnp.int8)
-
     def advance(carry: tuple) -> tuple:
-        x, below, above, ceiling, size, status, steps = carry
+        x = carry[0]
         y, slope = jax.jvp(f, (x,), (jnp.ones_like(x),))
-        low, high = jnp.where(y < 0, x, below), jnp.where(y > 0, x, above)
-        ahead = x - y / slope
-        within = ((ahead - low) * (ahead - high) <= 0) & (abs(slope) < jnp.inf)
-        late = steps >= GUARDED_STEPS + 2
-        middle = jnp.where(late, _middle_number(low, high), _middle(low, high))
-        narrow = abs(high - low) <= 2.0 * slack(middle)
-        fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
-        step = ahead - x
-        # a step may round to nothing, so its own sign is not asked
-        across = jnp.sign(jnp.where(y < 0, high, low) - x)
-        beyond = ahead + across * 0.5 * slack(ahead)
-        overshoot = ~narrow & (abs(step) <= slack(ahead)) & ((beyond - low) * (beyond - high) < 0)
-        following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
-        exhausted = ~fast & ((middle == low) | (middle == high))
-        result = judge(y, narrow | exhausted, ceiling)
-        going = status == OPEN
-        onward = (
-            jnp.where(going & (y != 0), following, x),
-            jnp.where(going, low, below),
-            jnp.where(going, high, above),
-            ceiling,
-            abs(following - x),
-            jnp.where(going, result, status),
-        )
-        # At the first end `ceiling` keeps the value there for the second.
-        start, begun, under, over = _bracketed(lower, upper, ceiling, y, guess)
-        first_end = (upper, below, above, y, size, status)
-        second_end = (start, under, over, jnp.maximum(abs(ceiling), abs(y)), abs(upper - lower), begun)
-        chosen = tuple(
-            jnp.where(steps == 0, a, jnp.where(steps == 1, b, c))
-            for a, b, c in zip(first_end, second_end, onward, strict=True)
-        )
-        return *chosen, steps + 1
+        return _moved(carry, y, slope, (lower, upper, guess), width)
 
     def unfinished(carry: tuple) -> jax.Array:
         return jnp.any(carry[5] == OPEN) & (carry[6] < most + 2)
 
     x, _, _, _, _, status, steps = lax.while_loop(unfinished, advance, carry)
     return x, jnp.where(status == OPEN, 0, status).astype(jnp.int8), steps - 2
+
+
+@jax.jit
+def _moved(carry: tuple, y: Any, slope: Any, given: tuple, width: tuple) -> tuple:
+    """A carry of `_safe` one pass on: apart, so that it is traced once for all equations of a shape."""
+    lower, upper, guess = given
+    x, below, above, ceiling, size, status, steps = carry
+    low, high = jnp.where(y < 0, x, below), jnp.where(y > 0, x, above)
+    ahead = x - y / slope
+    slack = _slack(ahead, width)
+    within = ((ahead - low) * (ahead - high) <= 0) & (abs(slope) < jnp.inf)
+    late = steps >= GUARDED_STEPS + 2
+    middle = jnp.where(late, _middle_number(low, high), _middle(low, high))
+    narrow = abs(high - low) <= 2.0 * _slack(middle, width)
+    fast = within & (narrow | ((abs(ahead - x) <= 0.5 * size) & ~late))
+    step = ahead - x
+    # a step may round to nothing, so its own sign is not asked
+    across = jnp.sign(jnp.where(y < 0, high, low) - x)
+    beyond = ahead + across * 0.5 * slack
+    overshoot = ~narrow & (abs(step) <= slack) & ((beyond - low) * (beyond - high) < 0)
+    following = jnp.where(fast, jnp.where(overshoot, beyond, ahead), middle)
+    exhausted = ~fast & ((middle == low) | (middle == high))
+    result = _judged(y, narrow | exhausted, ceiling)
+    going = status == OPEN
+    onward = (
+        jnp.where(going & (y != 0), following, x),
+        jnp.where(going, low, below),
+        jnp.where(going, high, above),
+        ceiling,
+        abs(following - x),
+        jnp.where(going, result, status),
+    )
+    # At the first end `ceiling` keeps the value there for the second.
+    start, begun, under, over = _bracketed(lower, upper, ceiling, y, guess)
+    first_end = (upper, below, above, y, size, status)
+    second_end = (start, under, over, jnp.maximum(abs(ceiling), abs(y)), abs(upper - lower), begun)
+    chosen = tuple(
+        jnp.where(steps == 0, a, jnp.where(steps == 1, b, c))
+        for a, b, c in zip(first_end, second_end, onward, strict=True)
+    )
+    return *chosen, steps + 1
+
+
+def _slack(x: jax.Array, width: tuple) -> jax.Array:
+    tolerance, floor = width
+    return tolerance * jnp.maximum(abs(x), floor)
+
+
+def _judged(y: jax.Array, small: jax.Array, ceiling: jax.Array) -> jax.Array:
+    # A pole changes sign too, but the function grows towards it.
+    closed = jnp.where(abs(y) <= ceiling, 1, 0)
+    result = jnp.where(y == 0, 1, jnp.where(small, closed, OPEN))
+    return jnp.where(jnp.isnan(y), -1, result).astype(jnp.int8)
 
 
 def _middle(first: jax.Array, second: jax.Array) -> jax.Array:

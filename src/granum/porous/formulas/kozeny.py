@@ -262,6 +262,7 @@ def void_fraction_kozeny_carman(
         lambda x: 3.0 * jnp.log1p(jnp.exp(-x)) - 2.0 * jnp.log1p(jnp.exp(x)) + jnp.log(group),
         jnp.minimum(third, 0.0) - 5.0,
         jnp.maximum(jnp.log(group) / 2.0, 0.0) + 5.0,
+        tolerance=1e-13,
     )
     unconverged(root.converged)
     return 1.0 / (1.0 + jnp.exp(-root.value))
