@@ -1,14 +1,12 @@
 """Random valid inputs into every formula: a value within the bounds of its own kind, or none and a flag; the
 bounds of inputs flagged.
 
-A run takes 1000 sets a card, of those with series fewer. Step by step, since compiling takes longer than
-running once; every example runs compiled anyway. ``GRANUM_RANDOM_SETS=1000000 pytest -n
+A run takes 1000 sets a card, of those with series fewer; ``GRANUM_RANDOM_SETS=1000000 pytest -n
 0 tests/contracts/test_random_inputs.py`` is the long search.
 """
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from typing import Any
 
 import jax
@@ -20,7 +18,6 @@ from tests.contracts.drawing import (
     FORMULAS,
     SETS,
     draw,
-    quickly,
     random_inputs,
     rows,
     wrong,
@@ -33,8 +30,6 @@ from granum.core.formulas import Formula
 WITH_SERIES = {k: f for k, f in FORMULAS.items() if any(p.series and p.kind for p in f.card.parameters)}
 ROWS = max(SETS // 100, 1)  # one call each, as a card with series takes one value of the others
 POINTS = 6
-# hundreds of steps: compiled is quicker
-LONG = {"particles.settling_distance", "drying.primary_drying", "drying.freeze_drying_limit"}
 
 
 def beyond(f: Formula, inputs: dict[str, np.ndarray]) -> str | None:
@@ -58,8 +53,7 @@ def test_any_input_gives_a_value_within_its_bounds_or_none_and_a_flag(key: str) 
         if not inputs:
             return
         name = beyond(f, inputs)
-        with nullcontext() if key in LONG else jax.disable_jit():
-            result = f.evaluate(**inputs)
+        result = f.evaluate(**inputs)
         assert not wrong(result, inputs)
         if name is not None:
             for out in jax.tree.leaves(result.value):
@@ -77,7 +71,7 @@ def test_a_row_of_values_gives_figures_within_their_bounds_or_one_message(key: s
         return {n: float(v[0]) for n, v in single.items()} | rows(f.card.parameters, POINTS, seed)
 
     # NumPy rows, whose powers may overflow
-    with quickly(f, {n: [v] for n, v in drawn(0).items()}), np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):
         for seed in range(ROWS):
             inputs = drawn(seed)
             try:

@@ -23,8 +23,9 @@ ONE_BY_ONE: tuple[Callable[[Any], Any], ...] = (
     jnp.abs, jnp.sign, jnp.floor, jnp.ceil, jnp.round, jnp.sqrt, lax.rsqrt, jnp.cbrt, jnp.square, jnp.exp,
     jnp.exp2, jnp.expm1, jnp.log, jnp.log1p, jnp.sin, jnp.cos, jnp.tan, jnp.arcsin, jnp.arccos, jnp.arctan,
     jnp.sinh, jnp.cosh, jnp.tanh, jnp.isfinite, jax.scipy.special.erf, jax.scipy.special.erfc,
-    lambda x: jax.scipy.special.gammaln(abs(x)), lambda x: x**3, lambda x: x**-2, lambda x: x**0.7, lambda x: -x,
-    lambda x: lax.convert_element_type(x, int), lambda x: jnp.arctan2(x, 0.5), lambda x: jnp.fmod(x, 0.7),
+    lambda x: jax.scipy.special.gammaln(abs(x)), lambda x: x**3, lambda x: x**-2, lambda x: x**0.7,
+    lambda x: -x, lambda x: lax.convert_element_type(x, int), lambda x: jnp.arctan2(x, 0.5),
+    lambda x: jnp.fmod(x, 0.7),
     lambda x: jnp.clip(x, -1.0, 2.0), lambda x: jnp.where(x > 0.0, x, 1.0), lambda x: (x < 1.0) ^ (x != 0.0),
     lambda x: jnp.nextafter(x, 1.0), lambda x: jnp.maximum(x, 0.1) - jnp.minimum(x, 0.1), jnp.nan_to_num,
 )  # fmt: skip
