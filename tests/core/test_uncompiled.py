@@ -10,9 +10,10 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from jax import lax
+from jax.scipy.linalg import solve_triangular
 
 from granum.core.compiling import begun, once
-from granum.core.uncompiled import Program, TooLong
+from granum.core.uncompiled import Program
 
 X = np.array([[-2.5, -1.0, 0.0, 0.4], [0.9, 1.5, 3.0, 7.25], [-0.0, 2.5, 11.0, 0.05]])
 V = np.array([0.3, -1.2, 2.0, 0.3])
@@ -58,7 +59,10 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "sorted": lambda x, v: (jnp.sort(v), jnp.argsort(x, 0), jnp.median(x), jnp.unique(v, size=4)),
     "interpolated": lambda x, v: (jnp.interp(x, jnp.sort(v), v), jnp.polyval(v, x)),
     "solved": lambda x, v: (
-        jnp.linalg.solve(x[:, :3] + 9.0 * jnp.eye(3), v[:3]),
+        jnp.linalg.solve(x[:, :3] + 9.0 * jnp.eye(3), v[:3]), jnp.linalg.lstsq(x[:, :2], v[:3])[0],
+        jnp.linalg.qr(x[:, :2]), jnp.max(x[:0], initial=1.0),
+        solve_triangular(x[:, :3] + 9.0 * jnp.eye(3), v[:3], trans=1),
+        solve_triangular(x[:, :3], x, lower=True, unit_diagonal=True),
         lax.custom_linear_solve(lambda y: 2.0 * y, v, solve=lambda _f, b: b / 2.0),
     ),
     "loops": lambda x, v: (
@@ -76,7 +80,8 @@ OF_ARRAYS: dict[str, Callable[[Any, Any], Any]] = {
     "choices": lambda x, v: (
         lax.cond(v[0] > 0, lambda: x.sum(), lambda: v.sum()),
         lax.switch(jnp.int32(7), [lambda: v, lambda: 2 * v, lambda: 3 * v]),
-        lax.select_n(jnp.array([0, 2, 1, 1]), v, 2 * v, 3 * v),
+        lax.select_n(jnp.array([0, 2, 1, 1]), v, 2 * v, 3 * v), lax.reduce_max(x[:0], (0, 1)),
+        lax.select_n(jnp.int32(2), v, 2 * v, 3 * v),
     ),
     "derivatives": lambda x, v: (
         jax.grad(lambda y: jnp.sum(jnp.tanh(x @ y)))(v),
@@ -121,16 +126,28 @@ def test_a_program_may_run_while_another_is_traced() -> None:
     assert jax.jit(outer)(2.0) == 2.0
 
 
-def test_a_run_is_bounded() -> None:
-    program = Program(jax.make_jaxpr(lambda x: lax.while_loop(lambda y: y > 0.0, lambda y: y + 1.0, x))(1.0))
-    with pytest.raises(TooLong):
-        program.run([1.0], steps=1000)
+def test_a_long_loop_goes_on_compiled_from_where_it_is() -> None:
+    def function(x: Any) -> Any:
+        return lax.while_loop(lambda y: y < 1e6, lambda y: y + 1.0, x)
+
+    found, steps = Program(jax.make_jaxpr(function)(0.5)).run([0.5])
+    assert found == [1e6 + 0.5]
+    assert steps < 1e5
+
+
+def test_a_loop_bound_to_be_long_is_compiled_at_once() -> None:
+    def function(x: Any) -> Any:
+        return lax.scan(lambda c, _n: (jnp.sin(c) + 1.0, c), x, length=200_000)
+
+    found, steps = Program(jax.make_jaxpr(function)(0.5)).run([0.5])
+    assert steps < 100
+    np.testing.assert_allclose(found[1], jax.jit(function)(0.5)[1], rtol=1e-12)
 
 
 def test_what_is_called_often_is_compiled() -> None:
     ready = begun(lambda x: {"cube": x**3})
-    values = [ready(0.1 * k)["cube"] for k in range(400)]
-    np.testing.assert_allclose(values, (0.1 * np.arange(400)) ** 3, rtol=1e-14)
+    values = [ready(0.1 * k)["cube"] for k in range(1000)]
+    np.testing.assert_allclose(values, (0.1 * np.arange(1000)) ** 3, rtol=1e-14)
     assert isinstance(values[0], np.floating)
     assert isinstance(values[-1], jax.Array)
 

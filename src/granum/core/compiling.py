@@ -14,10 +14,8 @@ import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
 from granum.core.conversion import is_tracer
-from granum.core.uncompiled import Program, TooLong
+from granum.core.uncompiled import RENT, Program
 
-RENT = 60
-"""Steps run uncompiled that cost as much as compiling one operation."""
 LARGE = 1000
 """Operations from which on what was traced is compiled; below, it is traced again, to be called faster."""
 
@@ -57,10 +55,7 @@ class _Begun:
         if trial is None:
             return self._jitted(*given)
         if trial.left > 0:
-            try:
-                return trial.run(leaves)
-            except TooLong:
-                trial.left = 0.0
+            return trial.run(leaves)
         if trial.compiled is None:
             self._hot = self._jitted
             return self._jitted(*given)
@@ -77,14 +72,14 @@ class _Trial:
     """A program traced for one sort of arguments, and the steps that it may still take uncompiled."""
 
     def __init__(self, closed: Any, tree: Any, options: dict[str, Any]):
-        program = Program(closed)
+        program = Program(closed, **options)
         allowed = RENT * program.size
         self.program, self.tree = program, tree
         self.left = allowed if program.work <= allowed else 0.0
         self.compiled = jax.jit(jaxpr_as_fun(closed), **options) if program.size >= LARGE else None
 
     def run(self, leaves: list[Any]) -> Any:
-        found, spent = self.program.run(leaves, self.left)
+        found, spent = self.program.run(leaves)
         self.left -= spent
         return jax.tree.unflatten(self.tree, [jnp.asarray(x) if x.ndim else x for x in found])
 

@@ -12,7 +12,7 @@ import numpy as np
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution, Wanted, solve
 
-PASSES = 200
+PASSES = 400
 """Passes through the loops of a line, and again for each parameter that is sought."""
 
 

@@ -17,6 +17,7 @@ from granum.numerics.implicit import implicit_root
 
 GROWTH, CAUTION = 4.0, 0.2  # of the pseudo time step after a good and after a bad step
 LATE = 1e8  # first steps that make a step as good as infinite
+LEAST = 1e-15  # of the first step: a step so short that there is no way on
 PATIENCE = 7  # steps in which Newton's method may go to and fro before the path in time is taken
 BOLD = 60  # steps after which that path is taken again with every step in time examined
 SHARE = 0.8  # of the largest change allowed, which the next step aims at
@@ -326,7 +327,9 @@ def solve_chain(
             lost = ~(jnp.isfinite(far) & straight & _all(jax.tree.map(jnp.isfinite, r)))
             # Newton's method from the guess is given up when it goes astray, the path without examination
             # when it takes too long
-            failed = (trial & (~good | (astray & (number >= PATIENCE)))) | (~careful & (number >= BOLD))
+            stuck = h <= LEAST * first_step
+            given_up = trial & (~good | (astray & (number >= PATIENCE)))
+            failed = given_up | (~careful & (stuck | (number >= BOLD)))
             late = good & (h >= LATE * first_step) & ~failed  # only then is a change that of a Newton step
             whole = jnp.minimum(jnp.min(damping.lanes), jnp.min(damping.shared)) >= 1.0
             # Newton's method is quadratic
@@ -375,7 +378,8 @@ def solve_chain(
             )
 
         def unfinished(carry: tuple) -> Any:
-            return (carry[5] > tolerance) & (carry[8] < max_steps)
+            stuck = (carry[7] == 2) & (carry[2] <= LEAST * first_step)
+            return (carry[5] > tolerance) & (carry[8] < max_steps) & ~stuck
 
         none = jnp.asarray(jnp.inf)
         first = (
