@@ -140,7 +140,7 @@ def test_a_loop_bound_to_be_long_is_compiled_at_once() -> None:
         return lax.scan(lambda c, _n: (jnp.sin(c) + 1.0, c), x, length=200_000)
 
     found, steps = Program(jax.make_jaxpr(function)(0.5)).run([0.5])
-    assert steps < 100
+    assert steps < 1000
     np.testing.assert_allclose(found[1], jax.jit(function)(0.5)[1], rtol=1e-12)
 
 
