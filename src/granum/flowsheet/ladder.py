@@ -34,7 +34,7 @@ EXACT: dict[str, Any] = {"method": Newton(), "max_steps": 50}
 RUNGS = 3
 FIRST = 10
 """Passes through the loops before anybody looks how far they are."""
-PAUSE = 0.5
+PAUSE = 1.0
 """Seconds of passes between two looks."""
 
 
