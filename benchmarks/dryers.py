@@ -1,7 +1,7 @@
 """Ten thousand dryers by balance: the card of a dryer, and the unit with its heater, recycle and outlets as a
 flowsheet has it.
 
-    python benchmarks/dryers.py
+    python -m benchmarks.dryers
 
 Budget, warm: 0.2 s for ten thousand. No peer computes these.
 """
@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import granum as gr
+from benchmarks.rows import Row, tell
 from granum.drying.equipment.convective import ConvectiveDryer
 from granum.streams.from_materials import mixture_of
 from granum.streams.stream import empty
@@ -68,13 +69,10 @@ if __name__ == "__main__":
     draw = np.random.default_rng(0)
     T, moisture = draw.uniform(340.0, 400.0, COUNT), draw.uniform(0.1, 0.3, COUNT)
     HUMID = False
-    print(
-        f"card, outlet temperature given: "
-        f"{best(jax.jit(jax.vmap(card)), T, draw.uniform(315.0, 330.0, COUNT)):.3f} s"
-    )
+    seconds = best(jax.jit(jax.vmap(card)), T, draw.uniform(315.0, 330.0, COUNT))
+    tell(Row("10 000 dryers by balance, outlet temperature given", seconds, kind="alone"))
     HUMID = True
-    print(
-        f"card, outlet humidity given:    "
-        f"{best(jax.jit(jax.vmap(lambda T, phi: card(T, phi))), T, draw.uniform(0.3, 0.8, COUNT)):.3f} s"
-    )
-    print(f"unit, product moisture given:   {best(jax.jit(jax.vmap(unit)), T, moisture):.3f} s")
+    seconds = best(jax.jit(jax.vmap(lambda T, phi: card(T, phi))), T, draw.uniform(0.3, 0.8, COUNT))
+    tell(Row("10 000 dryers by balance, outlet humidity given", seconds, kind="alone"))
+    seconds = best(jax.jit(jax.vmap(unit)), T, moisture)
+    tell(Row("10 000 dryers as units, product moisture given", seconds, kind="alone"))

@@ -1,12 +1,13 @@
 """Two dynamic flowsheets of the simulator Dyssol 1.1.1 (TUHH, BSD-3), solved here and, where the program is
 installed, there.
 
-    python benchmarks/dyssol.py FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/
+    python -m benchmarks.dyssol FOLDER_WITH_THE_TWO_SCRIPTS [--program PATH/DyssolC --models FOLDER/
     --materials FILE] [--limit 900] [--plant-time 1200]
 
 The scripts ``sieve-mill-process.txt`` and ``agglomeration-process.txt`` come with Dyssol; Debian ships the
-program as ``dyssol``. The first is two screens and two population-balance mills in nested recycles, 200 size
-× 50 attribute classes, 6 h. The second is an agglomerator, two screens, a mill and a recycle, 320 size
+program as ``dyssol``. Without a folder the environment variable DYSSOL_SCRIPTS names it; without either
+there is nothing to solve. The first is two screens and two population-balance mills in nested recycles, 200
+size × 50 attribute classes, 6 h. The second is an agglomerator, two screens, a mill and a recycle, 320 size
 classes, 10 h. Both are solved as flowsheets in time, checked against SciPy on the same equations, and set
 against what the program itself makes of them. Times are processor time, since the machine may be shared, and
 wall time.
@@ -16,12 +17,16 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import os
 import re
 import resource
+import shutil
 import subprocess
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -29,6 +34,7 @@ import jax.numpy as jnp
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from benchmarks.rows import Row, tell
 from granum.comminution.breakage import AustinBreakage, AustinSelection
 from granum.comminution.equipment.mills import BallMill
 from granum.comminution.equipment.screens import Screen
@@ -176,7 +182,7 @@ class PairKernel(eqx.Module):
 
     coefficient: float
 
-    def __call__(self, size: object, other: object) -> object:
+    def __call__(self, size: Any, other: Any) -> Any:
         return self.coefficient * (size + other) ** 2 / (size * other)
 
 
@@ -458,31 +464,29 @@ def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]
     few = gather_axes(line, held)
     end = spans[-1][0]
     times, product, processor, wall = solved(few.line, profiles, few.holdups, spans)
-    print(
-        f"{name}: {len(times) - 1} steps, {processor:.2f} s of processor, {wall:.2f} s of wall, "
-        f"{end / processor:.0f} s of plant time a second"
-    )
     reference = (
         by_scipy(line, profiles, held, times)
         if name == "sieve-mill"
         else agglomeration_by_scipy(line, held, times)
     )
     miss = np.abs(product - reference).sum(axis=1) / reference.sum(axis=1)
-    print(
-        f"  share of the product in another class than SciPy has it: at most {0.5 * miss.max():.1e}, "
-        f"median {0.5 * np.median(miss):.1e}"
+    here = Row(
+        f"{name}, {end:g} s of plant time in {len(times) - 1} steps",
+        processor,
+        "Dyssol",
+        kind="dyssol",
+        agreement=f"{0.5 * miss.max():.1e} of the product in another class than SciPy has it",
+        figures={"wall, s": wall},
     )
     if not given.program:
+        tell(here)
         return
     reached, theirs, took, found = other(given, path, end)
-    late = "" if reached >= end else " (not to the end; it is slower at the start than later)"
-    print(
-        f"  Dyssol: {reached:.0f} s of plant time in {theirs:.0f} s of processor, {took:.0f} s of wall{late}"
-    )
-    print(
-        f"  ratio: {end / processor / (reached / theirs):.0f} by processor time, "
-        f"{end / wall / (reached / took):.0f} by wall time"
-    )
+    if reached >= end:
+        tell(replace(here, peer_seconds=theirs, figures={**here.figures, "Dyssol, wall, s": took}))
+    else:
+        late = f"{reached:.0f} s of plant time in {theirs:.0f} s"
+        tell(replace(here, peer=None, figures={**here.figures, "Dyssol, not to the end": late}))
     if found is not None:
         there = np.stack([np.interp(times, found[:, 0], column) for column in found[:, 1:].T], 1)
 
@@ -500,8 +504,8 @@ def compare(name: str, given: argparse.Namespace, spans: list[tuple[float, int]]
 
 def main() -> None:
     options = argparse.ArgumentParser(description=__doc__)
-    options.add_argument("folder", type=Path)
-    options.add_argument("--program", type=Path)
+    options.add_argument("folder", type=Path, nargs="?", default=os.environ.get("DYSSOL_SCRIPTS"))
+    options.add_argument("--program", type=Path, default=shutil.which("DyssolC"))
     options.add_argument("--models", default="/usr/lib/x86_64-linux-gnu/Dyssol/Units/")
     options.add_argument("--materials", default="/usr/share/Dyssol/MaterialsDB/Materials.dmdb")
     options.add_argument(
@@ -511,6 +515,9 @@ def main() -> None:
         "--plant-time", type=float, default=np.inf, help="seconds of plant time after which both stop"
     )
     given = options.parse_args()
+    if given.folder is None:
+        tell(Row("the two flowsheets of Dyssol", peer="Dyssol", kind="dyssol"))
+        return
     compare("agglomeration", given, [(1500.0, 300), (9000.0, 300), (36000.0, 300)])
     compare("sieve-mill", given, [(end, 300) for end in (300.0, 7200.0, 7500.0, 14400.0, 14700.0, 21600.0)])
 

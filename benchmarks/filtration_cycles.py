@@ -1,7 +1,7 @@
 """A hundred thousand filter cycles at once: the closed cycle, and whole presses in a line with washing and
 draining.
 
-    python benchmarks/filtration_cycles.py
+    python -m benchmarks.filtration_cycles
 
 Budget: 1 s warm each. The peer is the same cycle found by SciPy's scalar minimizer, timed over 200 cases in
 the same run and scaled.
@@ -16,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from benchmarks.rows import Row, tell
 from granum.filtration import filtration_cycle
 from granum.filtration.equipment.batch import PlateAndFramePress
 from granum.streams.mixture import Mixture, Species
@@ -81,12 +82,8 @@ def main() -> None:
     theirs = np.array([peer(x) for x in few])
     scaled = (time.perf_counter() - start) * COUNT / len(few)
     apart = np.asarray(filtration_cycle(**CASE, dead_time=few).filtrate_volume) / theirs - 1.0
-    print(f"1e5 best cycles, closed form       {closed:8.4f} s  (budget 1)")
-    print(f"1e5 presses with wash in a line    {whole:8.3f} s  (budget 1)")
-    print(
-        f"scalar search, scaled              {scaled:8.1f} s, {scaled / closed:.0f} times longer; "
-        f"largest difference {abs(apart).max():.1e}"
-    )
+    tell(Row("100 000 best filter cycles", closed, "SciPy scalar search", scaled, f"{abs(apart).max():.0e}"))
+    tell(Row("100 000 presses with washing and draining", whole, kind="alone"))
     if max(closed, whole) > 1.0:
         raise SystemExit("over budget")
 

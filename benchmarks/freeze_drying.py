@@ -1,6 +1,6 @@
 """Primary drying of vials: a batch at once against a vial at a time with SciPy.
 
-    python benchmarks/freeze_drying.py [--vials 10000]
+    python -m benchmarks.freeze_drying [--vials 10000]
 
 The peer solves the same quasi-steady equations in the way of LyoPRONTO (Shivkumar et al. 2019):
 `scipy.integrate.solve_ivp` over time with the balance of heat at the ice front solved by
@@ -18,6 +18,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
+from benchmarks.rows import Row, tell
 from granum.drying.formulas.freeze_drying import primary_drying
 
 TORR = 133.322368
@@ -103,12 +104,16 @@ def main() -> None:
             one_vial(float(h), float(r)) for h, r in zip(heat[:sample], resistance[:sample], strict=True)
         ]
         peers.append((time.perf_counter() - start) / sample)
-    print(
-        f"granum: {np.median(spans) * 1e6:.1f} us per vial in a batch of {count} (first call {first:.1f} s)"
+    tell(
+        Row(
+            f"primary drying of a vial, in a batch of {count}",
+            float(np.median(spans)),
+            "SciPy BDF and fsolve",
+            float(np.median(peers)),
+            f"{np.max(np.abs(ours[:sample] / np.array(theirs) - 1)):.0e} of the time",
+            figures={"first call, s": first},
+        )
     )
-    print(f"scipy:  {np.median(peers) * 1e6:.0f} us per vial")
-    print(f"ratio:  {np.median(peers) / np.median(spans):.0f}")
-    print(f"largest difference of the times: {np.max(np.abs(ours[:sample] / np.array(theirs) - 1)):.2e}")
 
 
 if __name__ == "__main__":

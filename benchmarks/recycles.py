@@ -1,6 +1,6 @@
 """How each way to bring a loop to rest does on the corpus of hard recycles.
 
-    python benchmarks/recycles.py
+    python -m benchmarks.recycles
 
 Passes through the units for Anderson's method, steps for Newton's (each with directional derivatives of the
 whole loop); "–" where the way does not converge. What has no steady state must fail in all of them.
@@ -8,19 +8,16 @@ whole loop); "–" where the way does not converge. What has no steady state mus
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import jax
 import numpy as np
+from tests.flowsheet.corpus import cases as corpus
 
+from benchmarks.rows import Row, tell
 from granum.flowsheet import solve
 from granum.flowsheet.packing import compiled
 from granum.numerics import Anderson, Newton
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from tests.flowsheet.corpus import cases as corpus
 
 
 @compiled
@@ -57,22 +54,21 @@ WAYS = {
 
 def main() -> None:
     passed = dict.fromkeys(WAYS, 0)
-    print("| case | " + " | ".join(WAYS) + " |\n|---|" + "--:|" * len(WAYS))
     for name, case in corpus.CASES.items():
         line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case().line)
         found = {way: run(line) for way, run in WAYS.items()}
         for way, solution in found.items():
             passed[way] += bool(solution.converged)
-        steps = [str(sum(int(n) for n in s.steps)) if bool(s.converged) else "–" for s in found.values()]
-        print(f"| {name} | " + " | ".join(steps) + " |", flush=True)
-    print(f"| solved of {len(corpus.CASES)} | " + " | ".join(str(n) for n in passed.values()) + " |")
+        steps = {
+            way: str(sum(int(n) for n in s.steps)) if bool(s.converged) else "–" for way, s in found.items()
+        }
+        tell(Row(name, kind="recycle", figures=steps))
+    solved = {way: str(n) for way, n in passed.items()}
+    tell(Row(f"solved of {len(corpus.CASES)}", kind="recycle", figures=solved))
     for name, case in corpus.REFUSED.items():
         line = jax.tree.map(lambda x: np.asarray(x) if isinstance(x, float) else x, case().line)
-        print(
-            f"| no steady state: {name} | "
-            + " | ".join("–" if not bool(run(line).converged) else "WRONG" for run in WAYS.values())
-            + " |"
-        )
+        steps = {way: "WRONG" if bool(run(line).converged) else "–" for way, run in WAYS.items()}
+        tell(Row(f"no steady state: {name}", kind="recycle", figures=steps))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@ in one run.
 
 The peer is a flux-limited finite volume grid of 200 classes integrated by SciPy's BDF with its
 finite-difference Jacobian, as several open tools do it. Accuracy is measured against moment equations at a
-tolerance of 1e-11. Run: python benchmarks/seeded_batch.py
+tolerance of 1e-11. Run: python -m benchmarks.seeded_batch
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import granum  # noqa: F401  (double precision)
+from benchmarks.rows import Row, tell
 from granum.crystallization.formulas.growth import PowerLawGrowth
 from granum.crystallization.formulas.nucleation import PowerLawNucleation
 from granum.crystallization.formulas.solubility_laws import PolynomialSolubility
@@ -119,8 +120,8 @@ def main():
     q = jnp.array([KG, G, KB, B, 4.0, 5e-4])
     run, jacobian = jax.jit(ours), jax.jit(jax.jacfwd(ours))
     out = np.asarray(run(q))
-    one, one_median = clock(run, q)
-    jac, _jac_median = clock(jacobian, q)
+    one = clock(run, q)[0]
+    jac = clock(jacobian, q)[0]
     begin = time.perf_counter()
     number, _cubes, _total = grid_by_bdf()
     peer = time.perf_counter() - begin
@@ -131,21 +132,27 @@ def main():
     jax.block_until_ready(many(spread))
     ensemble = time.perf_counter() - begin
     worst = np.max(np.abs(out[:5] / exact - 1))
-    print(
-        f"packets, {STEPS} steps: {one * 1e3:.2f} ms (median {one_median * 1e3:.2f}); worst moment "
-        f"error {worst:.1e}, composition {out[5] - composition:+.1e}"
+    print(f"packets, {STEPS} steps: composition {out[5] - composition:+.1e}")
+    tell(
+        Row(
+            "a seeded cooling batch by packets",
+            one,
+            "grid of 200 classes by SciPy BDF",
+            peer,
+            f"packets {worst:.0e} (worst moment), grid {abs(number.sum() / exact[0] - 1):.0e} (number)",
+        )
     )
-    print(f"exact Jacobian, 6 parameters: {jac * 1e3:.2f} ms = {jac / one:.1f} runs")
-    print(f"10 000 batches: {ensemble:.1f} s")
-    print(
-        f"grid of 200 classes by BDF: {peer * 1e3:.0f} ms, error in number "
-        f"{number.sum() / exact[0] - 1:+.1e}; ratio {peer / one:.0f}"
-    )
-    assert worst < 1e-4
-    assert peer > 100 * one
-    assert one < 3e-3
-    assert jac < 6 * one
-    assert ensemble < 15
+    tell(Row("the seeded batch with exact derivatives to 6 parameters", jac, kind="alone"))
+    tell(Row("10 000 seeded batches", ensemble, kind="alone"))
+    budgets = {
+        "moments within 1e-4": worst < 1e-4,
+        "100 times the grid": peer > 100 * one,
+        "a batch in 3 ms": one < 3e-3,
+        "derivatives in 6 batches": jac < 6 * one,
+        "10 000 batches in 15 s": ensemble < 15,
+    }
+    if missed := [words for words, met in budgets.items() if not met]:
+        raise SystemExit(f"over budget: {', '.join(missed)}")
 
 
 if __name__ == "__main__":

@@ -3,13 +3,14 @@ of the same fluxes.
 
 Both solve 100 cells over 24 h from an empty tank (BSM1 settling function, logarithmic effective stress, 4 m
 deep). The peer is written in NumPy with the same Godunov, upwind and compression fluxes and handed to SciPy's
-LSODA and BDF. Then 1 000 parameter sets batched, and the exact derivative of the underflow. Run: python
-benchmarks/settling.py
+LSODA and BDF. Then 1 000 parameter sets batched, and the exact derivative of the underflow. Run: python -m
+benchmarks.settling
 """
 
 from __future__ import annotations
 
 import time
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -17,6 +18,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import granum  # noqa: F401  (double precision)
+from benchmarks.rows import Row, tell
 from granum.settling.column import Operation, Suspension, simulate, steps_needed
 from granum.settling.compression import LogarithmicStress
 from granum.settling.velocities import Takacs, Vesilind
@@ -61,7 +63,7 @@ def peer(method):
         change[mid] += Q * FEED / dz
         return change
 
-    options = {"lband": 1, "uband": 1} if method == "LSODA" else {}
+    options: dict[str, Any] = {"lband": 1, "uband": 1} if method == "LSODA" else {}
     return solve_ivp(
         rate, (0, HOURS * 3600.0), np.zeros(CELLS), method=method, rtol=1e-6, atol=1e-8, **options
     )
@@ -81,16 +83,21 @@ def main() -> None:
     jax.block_until_ready(ours(suspension))
     course, seconds = clock(lambda: jax.block_until_ready(ours(suspension)))
     need = steps_needed(suspension, DEPTH, CELLS, OPERATION)
+    underflow = float(course.concentration[-1, -1])
     print(
-        f"ours                 {1e3 * seconds:8.1f} ms   underflow "
-        f"{float(course.concentration[-1, -1]):.4f} kg/m³, "
-        f"balance {float(course.mass_error):.0e}, {HOURS * int(need.steps)} steps × {int(need.compression)}"
+        f"underflow {underflow:.4f} kg/m³, balance {float(course.mass_error):.0e}, "
+        f"{HOURS * int(need.steps)} steps × {int(need.compression)}"
     )
     for method in ("LSODA", "BDF"):
-        found, seconds = clock(lambda method=method: peer(method), 1)
-        print(
-            f"SciPy {method:<14} {1e3 * seconds:8.1f} ms   underflow {found.y[-1, -1]:.4f} kg/m³, "
-            f"{found.nfev} evaluations"
+        found, theirs = clock(lambda method=method: peer(method), 1)
+        tell(
+            Row(
+                "a day of a clarifier with compression, 100 cells",
+                seconds,
+                f"SciPy {method}",
+                theirs,
+                f"{abs(found.y[-1, -1] / underflow - 1.0):.0e} of the underflow",
+            )
         )
 
     slope = jax.jit(
@@ -101,8 +108,8 @@ def main() -> None:
         )
     )
     jax.block_until_ready(slope(5e-3))
-    out, seconds = clock(lambda: jax.block_until_ready(slope(5e-3)))
-    print(f"with exact derivative {1e3 * seconds:7.1f} ms   d(underflow)/d(v0) = {float(out[1]):.2f}")
+    _out, seconds = clock(lambda: jax.block_until_ready(slope(5e-3)))
+    tell(Row("a day of the clarifier with its derivative to the settling velocity", seconds, kind="alone"))
 
     velocities = jnp.linspace(1.0e-3, 1.6e-3, 1000)
     for name, stress in (("without compression", None), ("with compression", STRESS)):
@@ -115,7 +122,7 @@ def main() -> None:
         many = jax.jit(lambda v, one=one: jax.lax.map(one, v, batch_size=25))
         jax.block_until_ready(many(velocities))
         _out, seconds = clock(lambda many=many: jax.block_until_ready(many(velocities)), 2)
-        print(f"1 000 parameter sets  {seconds:7.2f} s    {name}")
+        tell(Row(f"1 000 parameter sets of the clarifier, {name}", seconds, kind="alone"))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """100 000 sieve analyses of 14 root-two classes to D[3,2], D[4,3], d10, d50 and d90, beside the library
 ``fluids`` in the same run.
 
-    python benchmarks/sieve_analyses.py
+    python -m benchmarks.sieve_analyses
 
 ``fluids`` takes one analysis at a time: its loop is timed over 200 analyses and scaled. Budget: 0.20 s warm
 and 50 times the peer. Needs ``pip install granum[bench]``.
@@ -10,14 +10,14 @@ and 50 times the peer. Needs ``pip install granum[bench]``.
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from fluids.numerics import NotBoundedError
-from fluids.particle_size_distribution import ParticleSizeDistribution
 
 import granum  # noqa: F401  (64-bit floats)
+from benchmarks.rows import Row, installed, tell
 from granum.particles.distributions import SizeDistribution
 
 COUNT, SAMPLE = 100_000, 200
@@ -35,6 +35,9 @@ def peer(amounts: np.ndarray) -> tuple[float, ...]:
     """The same figures of one analysis by the peer; not a number where it finds no percentile (in the
     outermost classes).
     """
+    from fluids.numerics import NotBoundedError
+    from fluids.particle_size_distribution import ParticleSizeDistribution
+
     d = ParticleSizeDistribution(ds=EDGES, fractions=(amounts / amounts.sum()).tolist(), order=3)
 
     def percentile(part: float) -> float:
@@ -56,18 +59,26 @@ def main() -> None:
         start = time.perf_counter()
         jax.block_until_ready(figures(amounts))
         taken.append(time.perf_counter() - start)
+    asked = Row(
+        "100 000 sieve analyses to five figures",
+        float(np.median(taken)),
+        "fluids",
+        figures={"first call, s": first},
+    )
+    if installed("fluids") is None:
+        tell(asked)
+        return
     few = amounts[:: COUNT // SAMPLE]
     start = time.perf_counter()
     theirs = np.array([peer(row) for row in few])
     scaled = (time.perf_counter() - start) * COUNT / len(few)
     ours = np.column_stack([sauter, mass_mean, percentiles])[:: COUNT // SAMPLE]
-    print(f"granum, first call                {first:8.3f} s")
-    print(f"granum, 1e5 analyses, warm        {min(taken):8.3f} s best, {np.median(taken):.3f} s median")
-    print(f"fluids, 1e5 analyses (scaled)     {scaled:8.3f} s")
-    print(f"ratio                             {scaled / np.median(taken):8.0f}")
-    print(f"largest difference of the means   {100 * abs(ours / theirs - 1.0)[:, :2].max():8.4f} %")
-    print(f"largest difference of percentiles {100 * np.nanmax(abs(ours / theirs - 1.0)[:, 2:]):8.4f} %")
-    print(f"percentiles the peer fails to find{np.isnan(theirs).sum():6d} of {theirs[:, 2:].size}")
+    apart = abs(ours / theirs - 1.0)
+    agreement = (
+        f"{100 * apart[:, :2].max():.2g} % of the means, {100 * np.nanmax(apart[:, 2:]):.2g} % of percentiles"
+    )
+    tell(replace(asked, peer_seconds=scaled, agreement=agreement))
+    print(f"percentiles the peer fails to find: {np.isnan(theirs).sum()} of {theirs[:, 2:].size}")
 
 
 if __name__ == "__main__":

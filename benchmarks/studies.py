@@ -1,7 +1,7 @@
 """Studies of the potassium nitrate line (nine units, one recycle): cases a second, cost of a derivative; a
 million cases of a formula.
 
-    python benchmarks/studies.py
+    python -m benchmarks.studies
 
 Budgets, warm, on 2 cores: 10 000 cases of the line within 10 s; figures with one directional derivative
 within 5 solves.
@@ -15,6 +15,7 @@ from pathlib import Path
 import jax
 import jax.numpy as jnp
 
+from benchmarks.rows import Row, tell
 from granum.cases import read_studies
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -31,14 +32,21 @@ def best_of(job, repeats: int) -> float:
 
 
 def main() -> None:
-    """Print the figures."""
+    """Measure and hand over."""
     study = read_studies(EXAMPLES / "potassium-nitrate" / "studies.toml")["spread"]
     start = time.perf_counter()
     study.with_options(samples=64).run()
-    print(f"line, first use (compilation): {time.perf_counter() - start:.1f} s")
+    first = time.perf_counter() - start
     found = study.with_options(samples=10_000)
     times = [found.run().elapsed for _run in range(2)]
-    print(f"line, 10 000 cases, warm: {min(times):.2f} s")
+    tell(
+        Row(
+            "10 000 cases of the potassium nitrate line",
+            min(times),
+            kind="alone",
+            figures={"first call, s": first},
+        )
+    )
 
     inputs = tuple(study.uncertain)
     run, numbers = study.subject.traced(inputs, tuple(study.options["outputs"])), study.subject.numbers()
@@ -47,14 +55,12 @@ def main() -> None:
     both = jax.jit(lambda x: jax.jvp(lambda x: run(numbers, x)[0], (x,), (x,)))
     jax.block_until_ready((solve(at), both(at)))
     one, two = best_of(lambda: solve(at), 50), best_of(lambda: both(at), 50)
-    print(
-        f"line, one solve {1e3 * one:.2f} ms, with a directional derivative {1e3 * two:.2f} ms: "
-        f"{two / one:.2f} solves"
-    )
+    tell(Row("one solve of the potassium nitrate line", one, kind="alone"))
+    tell(Row("one solve of that line with a directional derivative", two, kind="alone"))
 
     settling = read_studies(EXAMPLES / "studies" / "settling.toml")["spread"].with_options(samples=1_000_000)
     settling.run()
-    print(f"formula, 1 000 000 cases, warm: {settling.run().elapsed:.2f} s")
+    tell(Row("a million cases of a formula as a study", settling.run().elapsed, kind="alone"))
 
 
 if __name__ == "__main__":

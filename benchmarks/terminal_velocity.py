@@ -1,7 +1,7 @@
 """A million terminal velocities of quartz in water, 1 µm to 20 mm, beside the library ``fluids`` in the same
 run.
 
-    python benchmarks/terminal_velocity.py
+    python -m benchmarks.terminal_velocity
 
 ``fluids`` is scalar: its loop is timed over 20 000 sizes spread over the same range and scaled. Budget:
 0.10 s warm and 50 times the peer. Needs ``pip install granum[bench]``.
@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import time
 
-import fluids
 import numpy as np
 
 import granum
+from benchmarks.rows import Row, installed, tell
 
 COUNT, SAMPLE = 1_000_000, 20_000
 PHASES = {"particle_density": 2650.0, "fluid_density": 998.0, "dynamic_viscosity": 1.0e-3}
@@ -42,11 +42,6 @@ def main() -> None:
         lambda: granum.particles.terminal_diameter(velocity=velocities, **PHASES).block_until_ready()
     )
 
-    few = sizes[:: COUNT // SAMPLE].tolist()
-    start = time.perf_counter()
-    peer = [fluids.v_terminal(D=d, rhop=2650.0, rho=998.0, mu=1.0e-3) for d in few]
-    theirs = (time.perf_counter() - start) * COUNT / len(few)
-
     one = (
         best_of(
             lambda: [
@@ -55,14 +50,26 @@ def main() -> None:
         )[0]
         / 200
     )
-    apart = np.asarray(velocities)[:: COUNT // SAMPLE] / np.asarray(peer) - 1.0
-    print(f"granum, first call                {first:8.3f} s")
-    print(f"granum, 1e6 velocities, warm      {ours[0]:8.3f} s best, {ours[1]:.3f} s median")
-    print(f"granum, 1e6 diameters, warm       {back[0]:8.3f} s best, {back[1]:.3f} s median")
-    print(f"granum, one velocity              {1e6 * one:8.1f} µs")
-    print(f"fluids.v_terminal, 1e6 (scaled)   {theirs:8.3f} s")
-    print(f"ratio                             {theirs / ours[1]:8.1f}")
-    print(f"largest difference of the laws    {100 * abs(apart).max():8.1f} %")
+    theirs, agreement = None, ""
+    if fluids := installed("fluids"):
+        few = sizes[:: COUNT // SAMPLE].tolist()
+        start = time.perf_counter()
+        peer = [fluids.v_terminal(D=d, rhop=2650.0, rho=998.0, mu=1.0e-3) for d in few]
+        theirs = (time.perf_counter() - start) * COUNT / len(few)
+        apart = np.asarray(velocities)[:: COUNT // SAMPLE] / np.asarray(peer) - 1.0
+        agreement = f"{100 * abs(apart).max():.2g} % (other drag laws)"
+    tell(
+        Row(
+            "a million terminal velocities",
+            ours[1],
+            "fluids",
+            theirs,
+            agreement,
+            figures={"first call, s": first},
+        )
+    )
+    tell(Row("a million diameters from terminal velocities", back[1], kind="alone"))
+    tell(Row("one terminal velocity", one, kind="alone"))
 
 
 if __name__ == "__main__":

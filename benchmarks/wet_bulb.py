@@ -1,7 +1,7 @@
 """A million wet-bulb temperatures: ideal air, real air and a solvent, beside psychrolib (plain and compiled)
 and CoolProp in the same run.
 
-    python benchmarks/wet_bulb.py
+    python -m benchmarks.wet_bulb
 
 Budgets, warm: 0.10 s ideal, 0.25 s real gas; 40 times psychrolib, 5 times its compiled mode, 500 times
 CoolProp. The peers are timed on fewer states and scaled. Needs ``pip install granum[bench]``.
@@ -10,11 +10,13 @@ CoolProp. The peers are timed on fewer states and scaled. Needs ``pip install gr
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import jax
 import numpy as np
 
 import granum  # noqa: F401  (double precision)
+from benchmarks.rows import Row, installed, tell
 from granum.humid_gas import relations as rel
 from granum.humid_gas.formulas.properties import wet_bulb_temperature
 from granum.humid_gas.formulas.state import state
@@ -69,7 +71,7 @@ def psychrolib(compiled: bool):
 
 
 def main() -> None:
-    ours = {}
+    ours, first = {}, {}
     for name, pair in (
         ("ideal air", AIR_WATER),
         ("real air", AIR_WATER_REAL),
@@ -78,20 +80,24 @@ def main() -> None:
         T, w = (jax.numpy.asarray(a) for a in states(pair, COUNT))
         start = time.perf_counter()
         jax.block_until_ready(wet_bulb_temperature(temperature=T, humidity_ratio=w, pair=pair))
-        first = time.perf_counter() - start
+        first[name] = {"first call, s": time.perf_counter() - start}
         ours[name] = best_of(
             lambda T=T, w=w, pair=pair: wet_bulb_temperature(temperature=T, humidity_ratio=w, pair=pair)
-        )
-        print(
-            f"granum, {name:22s} {ours[name][0]:8.3f} s best, {ours[name][1]:8.3f} s median, first call "
-            f"{first:.1f} s"
-        )
+        )[1]
+    solvent = "nitrogen and ethanol"
+    tell(Row(f"a million wet bulbs, {solvent}", ours[solvent], kind="alone", figures=first[solvent]))
     T, w = states(AIR_WATER, COUNT)
     found = np.asarray(wet_bulb_temperature(temperature=T, humidity_ratio=w))
     for mode in ("plain", "compiled"):
         peer = psychrolib(mode == "compiled")
+        asked = Row(
+            "a million wet bulbs, ideal air",
+            ours["ideal air"],
+            "psychrolib" + (" compiled by numba" if mode == "compiled" else ""),
+            figures=first["ideal air"],
+        )
         if peer is None:
-            print(f"psychrolib, {mode}: not to be had here")
+            tell(asked)
             continue
         many = COUNT if mode == "compiled" else SAMPLE
         if mode == "compiled":
@@ -102,8 +108,8 @@ def main() -> None:
             start = time.perf_counter()
             values = np.array([peer.GetTWetBulbFromHumRatio(T[i] - 273.15, w[i], P) for i in range(many)])
         taken = (time.perf_counter() - start) * COUNT / many
-        print(f"psychrolib, {mode:9s}         {taken:8.2f} s, ratio {taken / ours['ideal air'][1]:.1f}")
-        print(f"largest difference            {np.abs(values + 273.15 - found[:many]).max():8.4f} K")
+        apart = np.abs(values + 273.15 - found[:many]).max()
+        tell(replace(asked, peer_seconds=taken, agreement=f"{apart:.2g} K"))
     some = np.random.default_rng(1).uniform(0.1, 0.9, COUNT)
     for second, given in (
         ("relative_humidity", {"relative_humidity": some}),
@@ -113,20 +119,20 @@ def main() -> None:
         x = next(iter(given.values()))
         jax.block_until_ready(job(T, x))
         taken = best_of(lambda job=job, x=x: job(T, x), 5)
-        print(f"full state, temperature and {second:18s} {taken[0]:.3f} s best, {taken[1]:.3f} s median")
-    try:
-        from CoolProp.CoolProp import HAPropsSI
-    except ImportError:
-        print("CoolProp is not installed")
-    else:
+        words = second.replace("_", " ")
+        tell(Row(f"a million humid gases from temperature and {words}", taken[1], kind="alone"))
+    asked = Row(
+        "a million wet bulbs, real air", ours["real air"], "CoolProp HAPropsSI", figures=first["real air"]
+    )
+    if coolprop := installed("CoolProp.CoolProp"):
         real = np.asarray(
             wet_bulb_temperature(temperature=T[:SLOW], humidity_ratio=w[:SLOW], pair=AIR_WATER_REAL)
         )
         start = time.perf_counter()
-        peer = np.array([HAPropsSI("B", "T", T[i], "P", P, "W", w[i]) for i in range(SLOW)])
+        peer = np.array([coolprop.HAPropsSI("B", "T", T[i], "P", P, "W", w[i]) for i in range(SLOW)])
         taken = (time.perf_counter() - start) * COUNT / SLOW
-        print(f"CoolProp HAPropsSI, scaled    {taken:8.1f} s, ratio {taken / ours['real air'][1]:.0f}")
-        print(f"largest difference            {np.nanmax(np.abs(peer - real)):8.5f} K")
+        asked = replace(asked, peer_seconds=taken, agreement=f"{np.nanmax(np.abs(peer - real)):.2g} K")
+    tell(asked)
 
 
 if __name__ == "__main__":
