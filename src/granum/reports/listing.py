@@ -17,11 +17,18 @@ def print_list(cards: Sequence[Entry]) -> None:
     """
     console = Console(highlight=False)
     width = max((len(card.key) for card in cards), default=0)
-    for card in cards:
-        sort = "" if card.sort == "formula" else f" ({_(card.sort)})"
-        line = Text.assemble((card.key.ljust(width), "bold"), "  ", card.title, (sort, "dim"))
+    lines = Text("\n").join(
+        Text.assemble(
+            (card.key.ljust(width), "bold"),
+            "  ",
+            card.title,
+            ("" if card.sort == "formula" else f" ({_(card.sort)})", "dim"),
+        )
+        for card in cards
+    )
+    if cards:
         console.print(
-            line,
+            lines,
             no_wrap=True,
             overflow="ellipsis" if console.is_terminal else "ignore",
             crop=console.is_terminal,
