@@ -16,6 +16,7 @@ from jax.extend.core import jaxpr_as_fun
 from granum.core.conversion import is_tracer
 from granum.core.uncompiled import RENT, Program
 
+HASTY = {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 1}
 LARGE = 1000
 """Operations from which on what was traced is compiled; below, it is traced again, to be called faster."""
 
@@ -82,6 +83,21 @@ class _Trial:
         found, spent = self.program.run(leaves)
         self.left -= spent
         return jax.tree.unflatten(self.tree, [jnp.asarray(x) if x.ndim else x for x in found])
+
+
+def ahead(function: Callable[..., Any], *like: Any) -> Any:
+    """Compiled for arguments like these; on a processor in half the time, for code that runs a fifth longer.
+
+    >>> float(ahead(lambda x: 2.0 * x, 1.0)(3.0))
+    6.0
+    """
+    try:
+        options = HASTY if jax.default_backend() == "cpu" else None
+        return jax.jit(function, compiler_options=options).lower(*like).compile()
+    except jax.errors.JaxRuntimeError as problem:
+        if "option" not in str(problem).lower():
+            raise
+        return jax.jit(function).lower(*like).compile()  # a compiler that does not know these options
 
 
 def once(function: Callable[..., Any], *given: Any) -> Any:

@@ -14,7 +14,7 @@ from granum.core.units import format_number
 from granum.flowsheet.findings import Fault, Findings, faults, findings, sound
 from granum.flowsheet.packing import as_arrays, compiled
 from granum.flowsheet.sheet import Flowsheet
-from granum.flowsheet.solving import nothing_known, solve
+from granum.flowsheet.solving import no_stream, nothing_known, solve
 from granum.flowsheet.specifications import PASSES, Designed, Target, among, design, figure
 from granum.flowsheet.watching import Watch
 from granum.numerics import Anderson, Newton
@@ -38,15 +38,38 @@ PAUSE = 1.0
 """Seconds of passes between two looks."""
 
 
-def at_rung(sheet: Flowsheet, targets: tuple[Target, ...], rung: int) -> Designed:
-    """The line as the quick solver (0), the patient one (1) or Newton's method from where the quick one ends
-    (2) leaves it. Pure, to be batched.
+class Beginning(NamedTuple):
+    """Where the search for a solution begins: torn streams and values to be found."""
+
+    torn: dict[str, Stream]
+    near: dict[str, Any]
+
+
+def beginning(sheet: Flowsheet, targets: tuple[Target, ...], left: Designed | None = None) -> Beginning:
+    """Empty streams and the values that the line has, or what an earlier solution left."""
+    torn = [name for block in sheet.blocks for name in block.tears]
+    if left is not None:
+        return Beginning({name: left.solution.streams[name] for name in torn}, dict(left.values))
+    nothing = no_stream(sheet)
+    return Beginning(
+        dict.fromkeys(torn, nothing),
+        {t.vary: np.asarray(np.nan if (own := sheet.value(t.vary)) is None else own, float) for t in targets},
+    )
+
+
+def at_rung(
+    sheet: Flowsheet, targets: tuple[Target, ...], rung: int, begin: Beginning | None = None
+) -> Designed:
+    """The line as the quick solver (0), from where it may ``begin``, the patient one (1) or Newton's method
+    from where the quick one ends (2) leaves it. Pure, to be batched.
     """
-    if rung < RUNGS - 1:
-        return design(sheet, targets, sheets=True, **(PATIENT if rung else {}))
-    left = design(sheet, targets)
-    torn = {n: left.solution.streams[n] for block in sheet.blocks for n in block.tears}
-    return design(sheet, targets, sheets=True, start=torn, near=left.values, **EXACT)
+    if rung == 1:
+        return design(sheet, targets, sheets=True, **PATIENT)
+    if rung == 0:
+        given = begin or beginning(sheet, targets)
+        return design(sheet, targets, sheets=True, start=given.torn, near=given.near)
+    left = beginning(sheet, targets, design(sheet, targets))
+    return design(sheet, targets, sheets=True, start=left.torn, near=left.near, **EXACT)
 
 
 def _measured(sheet: Flowsheet, targets: tuple[Target, ...], **how: Any) -> Tried:
@@ -91,9 +114,8 @@ def climb(
         return found, wrongs(found, targets)
 
     def by_newton() -> Tried:
-        left = found.designed
-        torn = {n: left.solution.streams[n] for block in sheet.blocks for n in block.tears}
-        return _by_newton(as_arrays(sheet), targets, torn, left.values)
+        left = beginning(sheet, targets, found.designed)
+        return _by_newton(as_arrays(sheet), targets, left.torn, left.near)
 
     most = PASSES * (1 + len(targets))
     found, wrong = attempt(lambda: _in_passes(_quickly, Anderson(), sheet, targets, most, watch))

@@ -200,7 +200,6 @@ def solve(
     whole = Made(streams, {}, {}, {})
     converged, met, sought, steps, residual = jnp.asarray(True), jnp.asarray(True), None, [], []
     left_off: list[Any] = []
-    any_feed = next(iter(line.feeds.values()))
     of = frozenset(line.units if sheets is True else sheets or ())
     of = of if wanted is None else of | wanted.units
 
@@ -211,10 +210,7 @@ def solve(
     scale = jax.lax.stop_gradient(jnp.where(scale > 0, scale, 1.0))
     for block, aimed in _joined(line, frozenset() if wanted is None else wanted.among):
         if block.tears or aimed:
-            warmest = jnp.mean(jnp.stack([s.temperature for s in line.feeds.values()]))
-            guess = {
-                n: start.get(n, empty(any_feed.mixture, warmest, any_feed.pressure)) for n in block.tears
-            }
+            guess = {n: start[n] if n in start else no_stream(line) for n in block.tears}
             made, found, left = _run_loop(
                 line,
                 block,
@@ -256,6 +252,12 @@ def solve(
         sought,
         tuple(left_off),
     )
+
+
+def no_stream(line: Flowsheet) -> Stream:
+    """An empty stream as warm as the feeds, from which a loop is begun."""
+    feeds = list(line.feeds.values())
+    return empty(feeds[0].mixture, jnp.mean(jnp.stack([s.temperature for s in feeds])), feeds[0].pressure)
 
 
 def _with_parameters(method: Anderson, count: int) -> Anderson | Seeking:

@@ -25,10 +25,9 @@ from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.flowsheet import Flowsheet
 from granum.flowsheet.findings import CLOSURE, LEAST, SATURATED, findings, known_temperatures
-from granum.flowsheet.ladder import RUNGS, at_rung
+from granum.flowsheet.ladder import RUNGS, at_rung, beginning
 from granum.flowsheet.specifications import Designed, Target
 from granum.streams.stream import Stream, median_of
-from granum.studies.expressions import Lookup
 from granum.studies.subjects import (
     FINE,
     LOST,
@@ -38,6 +37,7 @@ from granum.studies.subjects import (
     OVERSATURATED,
     TOO_HOT,
     UNMET,
+    Computed,
     FormulaSubject,
     Subject,
     Variable,
@@ -221,8 +221,13 @@ class LineSubject(Subject):
     def arrays(self) -> Any:
         return self.sheet
 
-    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
-        found = at_rung(self._changed(arrays, values), self.targets, self.rung)
+    def begin(self) -> Any:
+        return beginning(self.sheet, self.targets)
+
+    def compute(
+        self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...], begin: Any
+    ) -> Computed:
+        found = at_rung(self._changed(arrays, values), self.targets, self.rung, begin)
         code = verdict(found)
         line, streams = found.line, found.solution.streams
         flags.hand_on([r for records in found.solution.records.values() for r in records])
@@ -245,7 +250,7 @@ class LineSubject(Subject):
                 stream, _dot, word = _before_species(plain)
             return stream_figure(streams[stream], word)
 
-        return lookup, code
+        return Computed(lookup, code, beginning(line, self.targets, found))
 
     def reason(self, code: int, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> str:
         if code >= LOST:

@@ -11,7 +11,7 @@ import re
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -64,6 +64,14 @@ class Variable:
     def unit(self) -> str:
         """SI unit."""
         return self.parameter.kind.unit if self.parameter.kind else ""
+
+
+class Computed(NamedTuple):
+    """A function that looks up figures, the code of the outcome, and where a case like this one may begin."""
+
+    lookup: Lookup
+    code: Any
+    left: Any = ()
 
 
 @dataclass(frozen=True)
@@ -120,9 +128,15 @@ class Subject(abc.ABC):
         they change.
         """
 
+    def begin(self) -> Any:
+        """Where the search for a solution begins, numbers as a pytree; nothing for most."""
+        return ()
+
     @abc.abstractmethod
-    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
-        """Solves for given inputs: a function that looks up figures, and the code of the outcome. Pure."""
+    def compute(
+        self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...], begin: Any
+    ) -> Computed:
+        """Solves for given inputs. Pure."""
 
     def kept(self, key: Any, build: Callable[[], Any]) -> Any:
         """What was compiled for this subject, made when it is first asked for; the last few are kept, as long
@@ -212,34 +226,43 @@ class Subject(abc.ABC):
             own |= dict.fromkeys(self._needed(inner)) if path in self.quantities else {path: None}
         return tuple(own)
 
-    def numbers(self) -> list[Any]:
-        """The numbers of the model, as ``traced`` takes them."""
-        return [jnp.asarray(leaf, dtype=float) for leaf in jax.tree.leaves(self.arrays()) if _is_number(leaf)]
+    def numbers(self, begin: Any = None) -> list[Any]:
+        """The numbers of the model and of where to begin, as ``traced`` takes them."""
+        model = [leaf for leaf in jax.tree.leaves(self.arrays()) if _is_number(leaf)]
+        start = jax.tree.leaves(self.begin() if begin is None else begin)
+        return [jnp.asarray(leaf, dtype=float) for leaf in (*model, *start)]
 
-    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> Traced:
-        """A pure function (numbers of the model, vector of inputs) → (vector of figures, code)."""
+    def traced(self, inputs: tuple[str, ...], outputs: tuple[str, ...], left: bool = False) -> Traced:
+        """A pure function (numbers, vector of inputs) → (vector of figures, code), and with ``left`` where
+        another case may begin.
+        """
 
         leaves, tree = jax.tree.flatten(self.arrays())
         moving = [_is_number(leaf) for leaf in leaves]
 
-        def run(numbers: Any, vector: Any) -> tuple[Any, Any]:
+        start = jax.tree.structure(self.begin())
+
+        def run(numbers: Any, vector: Any) -> tuple[Any, ...]:
             given = iter(numbers)
             model = tree.unflatten(
                 [next(given) if moves else leaf for leaf, moves in zip(leaves, moving, strict=True)]
             )
+            begin = start.unflatten(list(given))
             values = {path: vector[i] for i, path in enumerate(inputs)}
             with flags.collect() as records:
-                own, code = self.compute(model, values, self._needed(outputs))
+                found = self.compute(model, values, self._needed(outputs), begin)
+                own, code = found.lookup, found.code
 
                 def lookup(path: str) -> Any:
                     return self.quantities[path].value(lookup) if path in self.quantities else own(path)
 
                 figures = jnp.stack([jnp.asarray(lookup(path), dtype=float) for path in outputs])
-            beyond = [jnp.any(found.mask) for found in records if found.bit == flags.EXTRAPOLATED]
+            beyond = [jnp.any(record.mask) for record in records if record.bit == flags.EXTRAPOLATED]
             good = jnp.where(jnp.any(jnp.stack(beyond)), EXTRAPOLATED, FINE) if beyond else FINE
             lost = ~jnp.isfinite(figures)
             bad = jnp.where(jnp.any(lost), NOT_FINITE + jnp.argmax(lost), good)
-            return figures, jnp.where(code == FINE, bad, code).astype(jnp.int32)
+            told = figures, jnp.where(code == FINE, bad, code).astype(jnp.int32)
+            return (*told, jax.tree.leaves(found.left)) if left else told
 
         return run
 
@@ -382,7 +405,9 @@ class FormulaSubject(Subject):
                 missing=[p.name for p in missing],
             )
 
-    def compute(self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...]) -> tuple[Lookup, Any]:
+    def compute(
+        self, arrays: Any, values: Mapping[str, Any], wanted: tuple[str, ...], begin: Any
+    ) -> Computed:
         given = {**self.fixed, **{n: jnp.asarray(v) for n, v in arrays.items()}}
         for path, value in values.items():
             name, index = split_index(path)
@@ -396,4 +421,4 @@ class FormulaSubject(Subject):
             value = found[name] if name in found else given.get(name, defaults.get(name))
             return value if index is None else jnp.asarray(value)[index]
 
-        return lookup, jnp.asarray(FINE)
+        return Computed(lookup, jnp.asarray(FINE))
