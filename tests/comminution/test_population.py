@@ -197,6 +197,7 @@ def test_batch_grinding_rate() -> None:
     assert fit["remaining_fraction_start"].value == pytest.approx(0.96, rel=1e-9)
 
 
+@pytest.mark.long
 def test_grinding_kinetics_find_the_functions_that_made_noisy_data() -> None:
     sizes = 4e-3 * 2.0 ** (-0.5 * np.arange(12))[::-1]
     edges = np.concatenate([[0.0], sizes])

@@ -207,6 +207,7 @@ def test_size_dependent_growth_follows_its_path():
     assert float((found.moments[-1, 3] / found.moments[-1, 0]) ** (1 / 3)) == pytest.approx(exact, rel=1e-8)
 
 
+@pytest.mark.long
 def test_jacobian_of_six_parameters_is_exact():
     def run(q):
         return (

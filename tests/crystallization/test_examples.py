@@ -27,6 +27,7 @@ def test_seeded_batch_as_a_line():
     assert grown == pytest.approx(0.4929904 - ratio, rel=1e-3)
 
 
+@pytest.mark.long
 def test_study_and_recipe_find_the_same_profile():
     """Two optimizers, one engine: the least share of nuclei with five intervals."""
     found = read_studies(EXAMPLES / "cooling-profile" / "study.toml")["profile"].run().as_json()

@@ -116,6 +116,7 @@ def test_classes_agree_with_packets_and_moments_on_the_published_batch():
     np.testing.assert_allclose(found.solute_per_solvent, packets.solute_per_solvent, rtol=1e-12)
 
 
+@pytest.mark.long
 def test_constant_kernel_in_a_growing_batch():
     """With a constant kernel dN/dt = B V - beta N^2 / (2 V), whatever grows: here seeds alone, N = N0 / (1 +
     beta N0 t / (2 V)).
@@ -135,6 +136,7 @@ def test_constant_kernel_in_a_growing_batch():
     assert float(jnp.max(jnp.abs(total - total[0]))) < 1e-13
 
 
+@pytest.mark.long
 def test_agglomeration_in_a_batch_lowers_the_number_and_keeps_the_mass():
     def run(collisions):
         return march(model(), Programmed(linear_cooling), classed_seeds(), START, 1.0, TIMES, collisions)

@@ -126,6 +126,7 @@ def test_kubota_counts_what_was_born_since_saturation():
     assert found["kubota_coefficient"].value == pytest.approx(k, rel=2e-3)
 
 
+@pytest.mark.long
 def test_batch_kinetics_finds_the_parameters_that_made_the_data():
     times = np.linspace(0.0, 4800.0, 25)
     program = TemperaturePoints([0.0, 4800.0], [305.15, 301.15])

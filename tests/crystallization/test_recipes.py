@@ -79,6 +79,7 @@ def test_moment_equations_are_refused_where_they_are_not_closed():
         )
 
 
+@pytest.mark.long
 def test_optimal_cooling_beats_linear_and_cubic_and_respects_the_limit():
     best = optimal_cooling(**SEEDED, temperature_start=305.15, temperature_end=301.15, intervals=5, steps=300)
     cubic = batch(**SEEDED, temperature_program=PowerCooling(305.15, 301.15, DURATION, 3.0), steps=300)

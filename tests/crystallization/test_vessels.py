@@ -222,6 +222,7 @@ VESSELS = {
 }
 
 
+@pytest.mark.long
 def test_start_up_ends_in_the_steady_state():
     rates = model()
     steady = steady_msmpr(
@@ -367,6 +368,7 @@ def test_dispersion_of_zero_is_none():
     np.testing.assert_allclose(same.moments, plain.moments, rtol=1e-7)
 
 
+@pytest.mark.long
 def test_agglomerating_batch_asks_for_enough_steps():
     program = PowerCooling(305.15, 301.15, DURATION)
     kernel = {"law": "constant_kernel", "agglomeration_coefficient": 3e-9}

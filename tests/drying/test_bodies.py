@@ -18,7 +18,10 @@ from granum.drying.isotherms.products import PRODUCTS
 from granum.humid_gas.formulas.transport import transport
 
 
-@pytest.mark.parametrize(("shape", "series"), [("plate", diffusion.plate), ("sphere", diffusion.sphere)])
+@pytest.mark.parametrize(
+    ("shape", "series"),
+    [pytest.param("plate", diffusion.plate, marks=pytest.mark.long), ("sphere", diffusion.sphere)],
+)
 def test_crank_is_the_limit_of_fast_films(shape: str, series) -> None:
     t = np.linspace(0.0, 40000.0, 9)
     course = body_drying(

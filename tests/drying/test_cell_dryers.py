@@ -54,6 +54,7 @@ def test_rotary_example_of_coulson_and_richardson() -> None:
     assert not bad
 
 
+@pytest.mark.long
 def test_a_fluidized_bed_of_every_size_from_dust_to_lumps_is_solved() -> None:
     """Each class in turn runs into its critical moisture, a bend at which a solver that steps too far goes to
     and fro.
@@ -149,6 +150,7 @@ def test_spray_dryer_of_a_worked_sheet() -> None:
     assert not bad
 
 
+@pytest.mark.long
 def test_layer_follows_hukill() -> None:
     """Rate proportional to moisture ratio and to the depression of the wet bulb, sensible heat of the solid
     small: Hukill's closed form.
@@ -253,7 +255,12 @@ SIZED = {  # how each type is sized, feed, gas
 }
 
 
-@pytest.mark.parametrize("name", SIZED)
+OFTEN = ("rotary", "belt")  # a chain of cells and a stack of layers; the others once a night
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in OFTEN else pytest.mark.long) for name in SIZED]
+)
 def test_sizing_and_rating_agree_and_balances_close(name: str) -> None:
     size, feed, gas = SIZED[name]
     dryer = size(feed, gas)
@@ -266,6 +273,7 @@ def test_sizing_and_rating_agree_and_balances_close(name: str) -> None:
     assert float(closed.energy) < 1e-12
 
 
+@pytest.mark.long
 def test_balances_close_with_drops_that_follow_the_gas_at_once() -> None:
     """The finest change very much faster than the gas: what was left of their balances was lost."""
     dryer = SprayDryer(
@@ -330,6 +338,7 @@ def test_flash_dryer_in_a_recycle() -> None:
     assert float(found.streams["dry"].solid_flow) == pytest.approx(2.0 * float(fed.solid_flow), rel=1e-9)
 
 
+@pytest.mark.long
 def test_a_layer_in_long_steps_dries_as_in_short_ones() -> None:
     """A belt a hundred times too large in twelve steps: dry through and through, at the temperature of the
     gas, and the balance closes.

@@ -49,6 +49,7 @@ def test_dry_gas_of_the_water_balance():
         dry_gas_flow_evaporation(0.085, 0.056, 0.036)
 
 
+@pytest.mark.long
 def test_any_consistent_set_gives_the_same_dryer():
     whole = dryer_balance(
         **MAIZE,
