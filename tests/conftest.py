@@ -29,8 +29,27 @@ MANY_MAPS = 20_000
 RESIDENT = Path("/proc/self/statm")
 # bytes in use at which compiled functions are forgotten, and again when so much has been added since
 MUCH, MORE = 1.7e9, 0.4e9
+# what `pytest -m quick` runs: a minute of two cores
+QUICK = (
+    "cases/",
+    "centrifuges/",
+    "contracts/test_french.py",
+    "contracts/test_inputs.py",
+    "contracts/test_ranges.py",
+    "core/",
+    "costs/",
+    "materials/",
+    "porous/",
+)
 _finished = count(1)
 _kept = 0.0
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    here = Path(__file__).parent
+    for item in items:
+        if item.path.relative_to(here).as_posix().startswith(QUICK):
+            item.add_marker(pytest.mark.quick)
 
 
 @pytest.fixture(autouse=True)
