@@ -19,6 +19,9 @@ import pytest
 from hypothesis import settings
 
 import granum  # noqa: F401
+from granum.core.garbage import collect_seldom
+
+collect_seldom()
 
 settings.register_profile("granum", deadline=None, max_examples=40, derandomize=True)
 settings.load_profile("granum")

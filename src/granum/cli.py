@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from granum.core.errors import ConvergenceError, InputError
+from granum.core.garbage import collect_seldom
 from granum.core.i18n import _
 from granum.shell import (
     SHARED,
@@ -424,6 +425,7 @@ def serve(
 
 def main() -> None:
     """Entry point of the ``granum`` command."""
+    collect_seldom()
     keep_compiled_code()
     app()
 

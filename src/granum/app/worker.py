@@ -17,6 +17,8 @@ import sys
 import threading
 from typing import Any, BinaryIO
 
+from granum.core.garbage import collect_seldom
+
 
 def _limit(megabytes: int) -> None:
     """Cap the memory of this process where the system can do that."""
@@ -47,6 +49,7 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints must not end up between the answers
     _limit(int(sys.argv[1]))
+    collect_seldom()
     tasks: queue.SimpleQueue[Any] = queue.SimpleQueue()
     cancelled = threading.Event()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks, cancelled), daemon=True).start()
