@@ -296,11 +296,32 @@ def test_a_worn_process_is_replaced_and_nothing_is_lost(crew: Crew, monkeypatch:
     assert seen[0] != seen[1] == seen[2]
 
 
+def test_an_idle_process_that_holds_much_memory_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jobs, "REST", 0.2)
+    made = Crew(count=1, waiting=2, memory=2500)
+    try:
+        made.submit("rest", {"seconds": 0}).future.result(timeout=100)
+        light = made._idle[0]
+        time.sleep(0.5)
+        assert made._idle == [light]
+        monkeypatch.setattr(jobs, "IDLE_MEMORY", 0.0)
+        made.submit("rest", {"seconds": 0}).future.result(timeout=100)
+        deadline = time.monotonic() + 60.0
+        while not made._idle or made._idle == [light]:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        assert not light.alive
+        assert json.loads(made.submit("rest", {"seconds": 0}).future.result(timeout=100)) == {}
+    finally:
+        made.close()
+
+
 def test_compiled_code_is_forgotten_when_there_is_much_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     import jax
 
     monkeypatch.setattr(wear, "MOST_MEMORY", 2**50)  # a process that has run many tests may be worn indeed
     monkeypatch.setattr(wear, "MOST_MAPS", 2**30)
+    monkeypatch.setattr(wear, "MUCH", 2**50)
     assert not wear.worn()
     assert not wear.worn(2**30)  # no such process
     monkeypatch.setattr(wear, "MOST_MAPS", 10)

@@ -27,12 +27,13 @@ from typing import Any
 from fastapi import Request
 
 from granum.app.limits import Busy
-from granum.app.wear import worn
+from granum.app.wear import IDLE_MEMORY, resident, worn
 from granum.core.errors import GranumError, InputError
 from granum.core.i18n import _, current_language, language
 from granum.core.units import unit_system
 
 LOOK = 8  # jobs after which the memory of a process is looked at
+REST = 120.0  # seconds without a job after which a process that holds much memory is replaced
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
 # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
 LONG = 3.0
@@ -113,6 +114,7 @@ class _Process:
         self._answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.known: set[str] = set()
         self.jobs = 0
+        self.resting: threading.Timer | None = None
         self._reader = threading.Thread(target=self._listen, daemon=True)
         self._reader.start()
 
@@ -254,7 +256,10 @@ class Crew:
             self._idle = [p for p in self._idle if p.alive]
             best = max(range(len(self._idle)), key=lambda i: key in self._idle[i].known, default=None)
             if best is not None:
-                return self._idle.pop(best)
+                found = self._idle.pop(best)
+                if found.resting is not None:
+                    found.resting.cancel()
+                return found
         return _Process(self._memory, self._folder.name)
 
     def _give(self, process: _Process) -> None:
@@ -263,11 +268,25 @@ class Crew:
             spare = [process] if self._closed else []
             if not self._closed:
                 self._idle.append(process)
+                process.resting = threading.Timer(REST, self._relieve, (process,))
+                process.resting.daemon = True
+                process.resting.start()
                 if len(self._idle) > self._count:
                     spare = [min(self._idle, key=lambda p: len(p.known))]
                     self._idle.remove(spare[0])
         for one in spare:
             one.stop()
+
+    def _relieve(self, process: _Process) -> None:
+        """Replace a process that nobody needs now, if it holds much memory."""
+        if resident(process.id) < IDLE_MEMORY:
+            return
+        with self._lock:
+            if self._closed or process not in self._idle:
+                return
+            self._idle.remove(process)
+        process.stop()
+        self.warm()
 
     def _work(self, job: Job, key: str) -> None:
         """In a thread: find a process, hand over the job, watch it."""
