@@ -245,6 +245,24 @@ def test_no_chart_offers_to_be_sent_away(page: Page) -> None:
     titles = [b.get_attribute("data-title") or "" for b in page.all(".modebar-btn")]
     assert titles
     assert not [title for title in titles if "share" in title.lower() or "cloud" in title.lower()]
+    for button in page.all(".modebar-btn"):
+        page.browser.execute_script("arguments[0].click()", button)
+    page.check()  # also that nothing outside was asked for
+
+
+def test_a_chart_is_read_and_saved_without_a_mouse(page: Page) -> None:
+    page.open("charts/particles.drag_deviation_chart", "fr", theme="dark")
+    page.one(".plot .main-svg .scatterlayer .trace")
+    paper = "return getComputedStyle(document.querySelector('.plot .main-svg')).background"
+    assert "255, 255, 255" not in page.browser.execute_script(paper)
+    assert "Agrandir une zone" in [b.get_attribute("data-title") for b in page.all(".modebar-btn")]
+    assert [b.text for b in page.all(".files button")] == ["SVG", "PNG", "CSV"]
+    page.until(
+        lambda: next(s for s in page.all("details summary") if s.text == "Valeurs du diagramme")
+    ).click()
+    cells = page.until(lambda: page.all(".tall tbody tr:first-child td"))
+    assert "% en moyenne" in cells[0].text
+    page.check()
 
 
 def test_a_server_that_is_gone_is_said_once_and_found_again(page: Page) -> None:

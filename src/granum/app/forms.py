@@ -74,7 +74,7 @@ def _field(p: Parameter) -> dict[str, Any]:
     """What stands around a field: symbol, bounds, range, units, default."""
     return {
         "symbol_shown": mathml(p.term.symbol) if p.term and p.term.symbol else "",
-        "allowed": bounds_text(p),
+        "allowed": "" if _goes_without_saying(p) else bounds_text(p),
         "source_range": range_text(p, p.fitted) if p.fitted else "",
         "units": _units_of(p.kind, p.as_json()["units"]) if p.kind else [],
         "default_shown": None if p.required or p.default is None else entry(p, p.default),
@@ -118,8 +118,18 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)
-    shown = (f"{float(x):.6g}" for x in np.atleast_1d(from_si(array, unit, p.kind)))
+    shown = (_typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
+
+
+def _typed(number: float) -> str:
+    """A number as somebody would type it.
+
+    >>> _typed(1.07e8), _typed(85.0), _typed(2e-12)
+    ('1.07e8', '85', '2e-12')
+    """
+    digits, _e, power = f"{number:.6g}".partition("e")
+    return f"{digits}e{int(power)}" if power else digits
 
 
 def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -234,7 +244,7 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
     unit = p.display_unit(middle)
     number = float(from_si(middle, unit, p.kind))
-    return {"number": f"{float(f'{number:.2g}'):.6g}", "unit": "" if unit == "dimensionless" else unit}
+    return {"number": _typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
 
 
 def docstring_values(card: Card) -> dict[str, Any]:
@@ -306,6 +316,14 @@ def laws_with_parameters(p: Parameter) -> dict[str, dict[str, Any]]:
 
 def _edge(value: float, kind: Kind) -> str:
     return "0" if value == 0.0 and kind.unit != "K" else show(value, kind)
+
+
+def _goes_without_saying(p: Parameter) -> bool:
+    """Whether all that is asked is what nobody would get wrong: a length above zero, a temperature above
+    absolute zero.
+    """
+    kind = p.kind
+    return p.within is None and kind is not None and kind.upper == math.inf and kind.lower in (0.0, -math.inf)
 
 
 def bounds_text(p: Parameter) -> str:

@@ -32,8 +32,14 @@ NAMED = ("stokes", "allen", "newton", "fair_geyer")
 """Laws that get a color of their own beside the chosen one."""
 
 
-def _title(name: str) -> str:
-    return name.replace("_", "–").title()
+def _author(law: Any) -> str:
+    """The name of a drag law among the others: its author."""
+    title = law.card.title if hasattr(law, "card") else _("chosen law")
+    return title.partition(" (")[2].removesuffix(")") or title
+
+
+FAINT: dict[str, Any] = {"width": 0.8, "opacity": 0.5, "showlegend": False}
+"""How the many lines are drawn among which a few are named; theirs are the names that hover."""
 
 
 def _inside(law: Any, Re: np.ndarray) -> np.ndarray:
@@ -54,6 +60,12 @@ def drag_chart(
     operating point.
 
     The operating point, and the line C_D = X/Re² on which it lies, appear when particle and fluid are given.
+
+    >>> drawing = drag_chart(
+    ...     particle_diameter=85e-6, particle_density=2650.0, fluid_density=998.2, dynamic_viscosity=1.0016e-3
+    ... )
+    >>> drawing.data[-1].name
+    'Re = 0.5027, C<sub>D</sub> = 52.23'
     """
     from granum.core.charts import (
         ACCENT,
@@ -90,17 +102,16 @@ def drag_chart(
             drawing,
             x,
             np.asarray(law(x)),
-            _title(name),
+            _author(law),
             color=color,
-            width=1.6 if name in colors else 0.7,
-            opacity=1.0 if name in colors else 0.55,
+            **({"width": 1.6} if name in colors else FAINT),
         )
     for name, symbol in (("roos1971", "Roos–Willmarth"), ("morsi1972", "Morsi–Alexander")):
         x, y = measured_drag(name)
         add_points(drawing, x, y, symbol, color=GAS, hollow=True, opacity=0.8)
         drawing.data[-1].marker.size = 4
     x = _inside(drag, Re) if hasattr(drag, "card") and drag.card.sort == "formula" else Re
-    add_line(drawing, x, np.asarray(drag(x)), _title(chosen) or _("chosen law"), color=ACCENT, width=3)
+    add_line(drawing, x, np.asarray(drag(x)), _author(drag), color=ACCENT, width=3)
     if None not in (particle_diameter, particle_density, fluid_density, dynamic_viscosity):
         speed = abs(
             terminal_velocity(
@@ -119,7 +130,7 @@ def drag_chart(
             drawing.data[-1].marker.size = 11
             add_label(drawing, at * 1.3, drawn * 2.5, text, color=INK, xanchor="left")
     drawing.update_yaxes(range=[-1.3, 4.5])
-    drawing.update_layout(legend={"font": {"size": 9}, "x": 1.01, "y": 1.0}, height=560)
+    drawing.update_layout(legend={"x": 0.98, "xanchor": "right", "y": 0.98}, height=560)
     return drawing
 
 
@@ -128,7 +139,8 @@ def drag_deviation_chart(deviation_largest: Ratio = 0.25) -> Any:
     """Deviation of every drag law from measured drag against the Reynolds number, law by law inside its
     range.
     """
-    from granum.core.charts import DASHES, LINES, add_line, axis_title, figure
+    from granum.core.charts import ACCENT, GAS, HEAT, LIQUID, add_line, axis_title, figure
+    from granum.core.units import format_number
 
     drawing = figure(
         axis_title("reynolds"),
@@ -137,22 +149,21 @@ def drag_deviation_chart(deviation_largest: Ratio = 0.25) -> Any:
         x_log=True,
     )
     Re, measured = measured_drag("morsi1972")
-    for i, (name, law) in enumerate(sphere_laws().items()):
+    found = []
+    for law in sphere_laws().values():
         x = _inside(law, Re)
-        if x.size < 3:
-            continue
-        deviation = 100.0 * (np.asarray(law(x)) / np.interp(x, Re, measured) - 1.0)
-        add_line(
-            drawing,
-            x,
-            deviation,
-            _title(name),
-            color=LINES[i % len(LINES)],
-            dash=DASHES[i // len(LINES) % len(DASHES)],
-            width=1.4,
-        )
+        if x.size >= 3:
+            deviation = 100.0 * (np.asarray(law(x)) / np.interp(x, Re, measured) - 1.0)
+            found.append((float(np.abs(deviation).mean()), _author(law), x, deviation))
+    # named are those that come closest among the laws that speak for the whole range
+    whole = sorted(row[:2] for row in found if row[2].size >= 0.9 * Re.size)
+    named = dict(zip((author for _mean, author in whole), (ACCENT, LIQUID, HEAT), strict=False))
+    for mean, author, x, deviation in sorted(found, key=lambda row: -row[0]):
+        text = _("{law}: {deviation} % in the mean").format(law=author, deviation=format_number(mean, 2))
+        how: dict[str, Any] = {"width": 2} if author in named else FAINT
+        add_line(drawing, x, deviation, text, color=named.get(author, GAS), **how)
     drawing.update_yaxes(range=[-100.0 * deviation_largest, 100.0 * deviation_largest])
-    drawing.update_layout(legend={"font": {"size": 9}, "x": 1.01, "y": 1.0}, height=560)
+    drawing.update_layout(legend={"x": 0.98, "xanchor": "right", "y": 0.98}, height=560)
     return drawing
 
 

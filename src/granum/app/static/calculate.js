@@ -12,9 +12,9 @@ import {
   replaceLink,
   download,
   settings,
-  Plot,
   Working,
 } from './core.js';
+import { Plot, decoded } from './plot.js';
 import { Field, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Series } from './series.js';
@@ -116,7 +116,7 @@ function Work({ page, card, given }) {
       ${
         answer.data &&
         (kind === 'chart'
-          ? html`<${Plot} figure=${answer.data} label=${card.title} onPoint=${process ? (x, y) => addState(x, y) : null} />`
+          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} />`
           : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)
       }</div>
       ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
@@ -137,8 +137,7 @@ function resolved(values, data) {
 function stateAt(figure, x, y) {
   const grid = figure.data.find((trace) => trace.customdata && trace.mode === 'markers');
   if (!grid) return null;
-  const list = (values) => (Array.isArray(values) ? values : decoded(values));
-  const [gx, gy] = [list(grid.x), list(grid.y)];
+  const [gx, gy] = [decoded(grid.x), decoded(grid.y)];
   const rows = Array.isArray(grid.customdata) ? grid.customdata : rowsOf(grid.customdata);
   const [spanX, spanY] = ['xaxis', 'yaxis'].map((axis) =>
     Math.abs(figure.layout[axis].range[1] - figure.layout[axis].range[0]),
@@ -172,18 +171,6 @@ function fitPlane(points) {
   return (sz * minor - sx * (xz * yy - xy * yz) + sy * (xz * xy - xx * yz)) / whole;
 }
 
-const TYPES = {
-  f8: Float64Array,
-  f4: Float32Array,
-  i4: Int32Array,
-  i2: Int16Array,
-  i1: Int8Array,
-  u1: Uint8Array,
-};
-/** Numbers that Plotly packs in base 64. */
-const decoded = ({ dtype, bdata }) => [
-  ...new TYPES[dtype](Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0)).buffer),
-];
 function rowsOf(packed) {
   const flat = decoded(packed);
   const width = Number(String(packed.shape).split(',')[1]);

@@ -89,6 +89,7 @@ export function keep(name, value) {
 export function apply() {
   document.documentElement.lang = settings.language;
   document.documentElement.dataset.theme = settings.theme;
+  dispatchEvent(new Event('granum-theme'));
 }
 
 export function t(text, values = {}) {
@@ -241,109 +242,4 @@ export function download(name, text, type) {
   const place = URL.createObjectURL(new Blob([text], { type }));
   Object.assign(document.createElement('a'), { href: place, download: name }).click();
   URL.revokeObjectURL(place);
-}
-
-// ---- charts ---------------------------------------------------------------------------------------
-const NARROW = 560; // px
-let plotly = null;
-export function loadPlotly() {
-  plotly ||= new Promise((done, failed) => {
-    const script = document.createElement('script');
-    script.src = '/vendor/plotly.js';
-    script.onload = () => done(window.Plotly);
-    script.onerror = failed;
-    document.head.append(script);
-  });
-  return plotly;
-}
-
-/** In a narrow place the heads of a table take several lines. */
-const shareOf = (table) => Math.min((90 + 24 * table.cells.values[0].length) / 650, 0.6);
-const tabled = (data, width) =>
-  data.map((trace) =>
-    trace.type === 'table' && width < NARROW
-      ? {
-          ...trace,
-          domain: { x: [0, 1], y: [0, shareOf(trace)] },
-          header: { ...trace.header, font: { size: 10 } },
-          cells: { ...trace.cells, font: { size: 10 } },
-        }
-      : trace,
-  );
-
-/** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
-function fitted({ layout, data }, width) {
-  const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
-  const narrow = width < NARROW;
-  const right = layout.yaxis?.side === 'right';
-  const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
-  const table = narrow && data.find((trace) => trace.type === 'table');
-  const legend = narrow
-    ? {
-        ...layout.legend,
-        orientation: 'h',
-        x: 0,
-        xanchor: 'left',
-        y: table ? -0.03 : -0.22,
-        yanchor: 'top',
-        font: { size: 11 },
-      }
-    : layout.legend;
-  const axes = narrow
-    ? {
-        xaxis: { ...layout.xaxis, dtick: undefined, tickangle: 0 },
-        ...(count > 8 ? { showlegend: false } : {}),
-        ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }),
-      }
-    : {};
-  return {
-    ...layout,
-    title: undefined,
-    width: undefined,
-    autosize: true,
-    ...(table ? { height: (layout.height || 450) + 220 } : {}),
-    margin,
-    legend,
-    ...axes,
-  };
-}
-
-export function Plot({ figure, label, onPoint }) {
-  const clicked = useRef(null);
-  clicked.current = onPoint;
-  const place = useRef(null);
-  useEffect(() => {
-    let alive = true;
-    loadPlotly().then((Plotly) => {
-      if (alive && place.current && figure) {
-        Plotly.react(
-          place.current,
-          tabled(figure.data, place.current.clientWidth),
-          fitted(figure, place.current.clientWidth),
-          {
-            responsive: true,
-            displaylogo: false,
-            showSendToCloud: false,
-            plotlyServerURL: '',
-            displayModeBar: true,
-            modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
-            toImageButtonOptions: { format: 'svg', filename: 'granum' },
-          },
-        );
-        place.current.removeAllListeners?.('plotly_click');
-        place.current.on('plotly_click', (event) => {
-          const edge = place.current.getBoundingClientRect();
-          const { xaxis, yaxis } = place.current._fullLayout;
-          clicked.current?.(
-            xaxis.p2d(event.event.clientX - edge.left - xaxis._offset),
-            yaxis.p2d(event.event.clientY - edge.top - yaxis._offset),
-          );
-        });
-      }
-    });
-    return () => {
-      alive = false;
-    };
-  }, [figure]);
-  return html`<div class="drawn"><div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div></div>`;
 }

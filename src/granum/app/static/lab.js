@@ -10,9 +10,9 @@ import {
   replaceLink,
   useEffect,
   download,
-  Plot,
   Working,
 } from './core.js';
+import { Plot } from './plot.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';

@@ -12,9 +12,9 @@ import {
   replaceLink,
   download,
   stoppable,
-  Plot,
   Working,
 } from './core.js';
+import { Plot } from './plot.js';
 import { caseAt, keepDraft, packed } from './drafts.js';
 import { Field } from './form.js';
 

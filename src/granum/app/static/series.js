@@ -1,5 +1,6 @@
 // Results that run along an axis: every row in a table, one of the columns as a chart, all of it as a file.
-import { html, t, download, useState, Plot } from './core.js';
+import { html, t, download, useState } from './core.js';
+import { Plot } from './plot.js';
 
 const rising = (values) =>
   values.every((x, i) => i === 0 || x === null || values[i - 1] === null || x >= values[i - 1]) &&
@@ -29,7 +30,7 @@ function Table({ name, columns, rows }) {
     ${
       axis &&
       html`<div class="row"><label>${t('Draw')} <select value=${drawn} onChange=${(e) => draw(e.target.value)}>${columns.slice(1).map((c) => html`<option value=${c.name} selected=${c.name === drawn}>${c.label}</option>`)}</select></label></div>
-      <${Plot} figure=${figure(axis, column)} label=${titled(column)} />`
+      <${Plot} figure=${figure(axis, column)} label=${titled(column)} files=${false} />`
     }
     <div class="row spread"><span class="small dim">${t('{count} rows', { count: rows.length })}</span><button class="button" onClick=${save}>${t('Download as CSV')}</button></div>
     <div class="wide tall" tabindex="0" role="region" aria-label=${label}><table><thead><tr>${columns.map((c) => html`<th scope="col" class="n">${c.label}${c.unit && html` <span class="dim">/ ${c.unit}</span>`}</th>`)}</tr></thead>

@@ -1,5 +1,6 @@
 // One study on the server: started, asked about until it is done, also after a reload; and what it found.
-import { html, t, ask, download, remember, recall, useState, useEffect, useRef, Plot } from './core.js';
+import { html, t, ask, download, remember, recall, useState, useEffect, useRef } from './core.js';
+import { Plot } from './plot.js';
 
 const PAUSE = 400; // ms between two questions
 

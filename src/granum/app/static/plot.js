@@ -1,0 +1,254 @@
+// A chart of Plotly on the page: in the colors of the theme, readable when narrow and on paper, with its files and its numbers.
+import { html, t, download, settings, useState, useEffect, useRef } from './core.js';
+
+const NARROW = 560; // px
+let plotly = null;
+function loadPlotly() {
+  plotly ||= new Promise((done, failed) => {
+    const script = document.createElement('script');
+    script.src = '/vendor/plotly.js';
+    script.onload = () => {
+      window.Plotly.register(french());
+      done(window.Plotly);
+    };
+    script.onerror = failed;
+    document.head.append(script);
+  });
+  return plotly;
+}
+
+/** What the buttons of a chart are called in French. */
+const french = () => ({
+  moduleType: 'locale',
+  name: 'fr',
+  dictionary: Object.fromEntries(
+    ['Zoom', 'Pan', 'Zoom in', 'Zoom out', 'Reset axes', 'Double-click to zoom back out'].map((text) => [
+      text,
+      t(text),
+    ]),
+  ),
+  format: { decimal: ',', thousands: '\u202f' },
+});
+
+/** Colors of light charts, and what takes their place on a dark page. */
+const DARK = {
+  white: '#1a2129',
+  '#ffffff': '#1a2129',
+  '#1c2430': '#e6e9ee',
+  '#e6e9ee': '#343e4a',
+  '#d9dde3': '#343e4a',
+  '#eef2f2': '#26303a',
+  '#8a94a3': '#9aa6b4',
+  '#0b6e6e': '#4fb3ae',
+  '#2b6cb0': '#6ba6e0',
+  '#6b7f99': '#9db0c6',
+  '#c2410c': '#ee8a5c',
+  '#b91c1c': '#f08a8a',
+  '#b45309': '#eaa15b',
+  '#2f855a': '#6cc497',
+  '#b7791f': '#d9a24b',
+  '#6b46c1': '#a78bee',
+  '#97266d': '#de7fb9',
+  '#2c5282': '#7aa5dd',
+  'rgba(255,255,255,0.8)': 'rgba(26,33,41,0.8)',
+  'rgba(255,255,255,0.85)': 'rgba(26,33,41,0.85)',
+};
+const dark = (part) =>
+  typeof part === 'string'
+    ? (DARK[part.toLowerCase()] ?? part)
+    : Array.isArray(part)
+      ? part.map(dark)
+      : part && typeof part === 'object' && !ArrayBuffer.isView(part)
+        ? Object.fromEntries(Object.entries(part).map(([key, value]) => [key, dark(value)]))
+        : part;
+const PAGE = { paper_bgcolor: 'white', plot_bgcolor: 'white', font: { color: '#1c2430' } };
+const GRID = { gridcolor: '#e6e9ee', linecolor: '#1c2430', zerolinecolor: '#d9dde3' };
+
+/** A figure in the colors of the page. */
+function colored({ data, layout }) {
+  const whole = {
+    data,
+    layout: {
+      ...PAGE,
+      ...layout,
+      font: { ...PAGE.font, ...layout.font },
+      ...Object.fromEntries(
+        Object.entries(layout)
+          .filter(([name]) => /^[xy]axis\d*$/.test(name))
+          .map(([name, axis]) => [name, layout.template ? axis : { ...GRID, ...axis }]),
+      ),
+    },
+  };
+  return settings.theme === 'dark' && !printing ? dark(whole) : whole;
+}
+
+let printing = false;
+for (const [event, now] of [
+  ['beforeprint', true],
+  ['afterprint', false],
+])
+  addEventListener(event, () => {
+    printing = now;
+    dispatchEvent(new Event('granum-theme'));
+  });
+
+/** In a narrow place the heads of a table take several lines. */
+const shareOf = (table) => Math.min((90 + 24 * table.cells.values[0].length) / 650, 0.6);
+const tabled = (data, width) =>
+  data.map((trace) =>
+    trace.type === 'table' && width < NARROW
+      ? {
+          ...trace,
+          domain: { x: [0, 1], y: [0, shareOf(trace)] },
+          header: { ...trace.header, font: { size: 10 } },
+          cells: { ...trace.cells, font: { size: 10 } },
+        }
+      : trace,
+  );
+
+/** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
+function fitted({ layout, data }, width) {
+  const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
+  const narrow = width < NARROW;
+  const right = layout.yaxis?.side === 'right';
+  const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
+  const table = narrow && data.find((trace) => trace.type === 'table');
+  const legend = narrow
+    ? {
+        ...layout.legend,
+        orientation: 'h',
+        x: 0,
+        xanchor: 'left',
+        y: table ? -0.03 : -0.22,
+        yanchor: 'top',
+        font: { size: 11 },
+      }
+    : layout.legend;
+  const axes = narrow
+    ? {
+        xaxis: { ...layout.xaxis, dtick: undefined, nticks: 6, tickangle: 0 },
+        ...(count > 8 ? { showlegend: false } : {}),
+        ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }),
+      }
+    : {};
+  return {
+    ...layout,
+    title: undefined,
+    width: undefined,
+    autosize: true,
+    ...(table ? { height: (layout.height || 450) + 220 } : {}),
+    margin,
+    legend,
+    ...axes,
+  };
+}
+
+const axisText = (axis, fallback) =>
+  (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
+
+const TYPES = {
+  f8: Float64Array,
+  f4: Float32Array,
+  i4: Int32Array,
+  i2: Int16Array,
+  i1: Int8Array,
+  u1: Uint8Array,
+};
+/** Numbers of a trace, which Plotly may have packed in base 64. */
+export const decoded = (values) =>
+  values?.bdata
+    ? [...new TYPES[values.dtype](Uint8Array.from(atob(values.bdata), (c) => c.charCodeAt(0)).buffer)]
+    : values;
+
+/** The numbers of a chart: a row for each point, with the curve it lies on. */
+function numbers({ data, layout }) {
+  const x = axisText(layout.xaxis, 'x');
+  const y = axisText(layout.yaxis, 'y');
+  const flat = (values) => Array.isArray(values) && values.every((v) => !Array.isArray(v));
+  const rows = data
+    .filter((trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false)
+    .map((trace) => ({ name: trace.name ?? '', x: decoded(trace.x), y: decoded(trace.y) }))
+    .filter((trace) => flat(trace.x) && flat(trace.y))
+    .flatMap((trace) => trace.x.map((at, i) => [trace.name, at, trace.y[i]]))
+    .filter(([, at, value]) => at !== null && value !== null && value !== undefined);
+  return { heads: [t('Curve'), x, y], rows };
+}
+
+const quoted = (cell) => (/[",\n]/.test(String(cell)) ? `"${String(cell).replaceAll('"', '""')}"` : cell);
+const shown = (cell) =>
+  typeof cell === 'number'
+    ? new Intl.NumberFormat(settings.language, {
+        maximumSignificantDigits: 5,
+        ...(cell !== 0 && (Math.abs(cell) >= 1e6 || Math.abs(cell) < 1e-4) && { notation: 'scientific' }),
+      }).format(cell)
+    : cell;
+
+/** What a chart can be taken away as, and its numbers to read. */
+function Files({ figure, place, name, label }) {
+  const [open, setOpen] = useState(false);
+  const table = numbers(figure);
+  const image = async (format) =>
+    (await loadPlotly()).downloadImage(place.current, {
+      format,
+      filename: name,
+      width: 900,
+      height: Math.round((900 * place.current.clientHeight) / place.current.clientWidth),
+      ...(format === 'png' && { scale: 2 }),
+    });
+  const save = () =>
+    download(
+      `${name}.csv`,
+      [table.heads, ...table.rows].map((row) => row.map(quoted).join(',')).join('\n') + '\n',
+      'text/csv',
+    );
+  return html`<div class="row small files"><span class="dim">${t('Save the chart as')}</span>${['SVG', 'PNG'].map((format) => html`<button class="button" onClick=${() => image(format.toLowerCase())}>${format}</button>`)}
+    ${table.rows.length > 0 && html`<button class="button" onClick=${save}>CSV</button>`}</div>
+    ${
+      table.rows.length > 0 &&
+      html`<details class="small" onToggle=${(e) => setOpen(e.target.open)}><summary>${t('Numbers of the chart')}</summary>${open && html`<div class="wide tall" tabindex="0" role="region" aria-label=${t('Numbers of the chart')}><table aria-label=${label}><thead><tr>${table.heads.map((head, i) => html`<th scope="col" class=${i ? 'n' : ''}>${head}</th>`)}</tr></thead><tbody>${table.rows.slice(0, MOST_ROWS).map((row) => html`<tr>${row.map((cell, i) => html`<td class=${i ? 'n' : ''}>${shown(cell)}</td>`)}</tr>`)}</tbody></table>${table.rows.length > MOST_ROWS && html`<p class="dim">${t('The first {count} rows; the file has all of them.', { count: MOST_ROWS })}</p>`}</div>`}</details>`
+    }`;
+}
+const MOST_ROWS = 500;
+
+/** `files`: whether what the chart can be taken away as stands below it; where its numbers stand beside it anyway, not. */
+export function Plot({ figure, label, onPoint, files = true, name = 'granum' }) {
+  const clicked = useRef(null);
+  clicked.current = onPoint;
+  const place = useRef(null);
+  const [theme, setTheme] = useState(0);
+  useEffect(() => {
+    const changed = () => setTheme((count) => count + 1);
+    addEventListener('granum-theme', changed);
+    return () => removeEventListener('granum-theme', changed);
+  }, []);
+  useEffect(() => {
+    let alive = true;
+    loadPlotly().then((Plotly) => {
+      if (alive && place.current && figure) {
+        const width = place.current.clientWidth;
+        const drawn = colored(figure);
+        Plotly.react(place.current, tabled(drawn.data, width), fitted(drawn, width), {
+          responsive: true,
+          displaylogo: false,
+          showSendToCloud: false,
+          plotlyServerURL: '',
+          locale: settings.language,
+          modeBarButtonsToRemove: ['toImage', 'select2d', 'lasso2d', 'autoScale2d'],
+        });
+        place.current.removeAllListeners?.('plotly_click');
+        place.current.on('plotly_click', (event) => {
+          const edge = place.current.getBoundingClientRect();
+          const { xaxis, yaxis } = place.current._fullLayout;
+          clicked.current?.(
+            xaxis.p2d(event.event.clientX - edge.left - xaxis._offset),
+            yaxis.p2d(event.event.clientY - edge.top - yaxis._offset),
+          );
+        });
+      }
+    });
+    return () => {
+      alive = false;
+    };
+  }, [figure, theme]);
+  return html`<div class="drawn"><div class="plot" ref=${place} role="group" aria-label=${label || t('Chart')}></div></div>${files && figure && html`<${Files} figure=${figure} place=${place} name=${name} label=${label} />`}`;
+}
