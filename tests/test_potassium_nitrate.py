@@ -40,6 +40,7 @@ def test_overall_balance_by_hand(run) -> None:
     assert salt * 3600 == pytest.approx(1500.0 * 0.68, rel=1e-9)
 
 
+@pytest.mark.long
 def test_crystal_size_follows_growth_and_residence_time(run) -> None:
     """Exponential size distribution by number: mass median 3.67 G τ (Randolph and Larson 1988); returned
     fines shift it by under 1 %.

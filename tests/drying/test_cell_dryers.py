@@ -307,6 +307,7 @@ def test_what_cannot_be_is_said() -> None:
     assert "product temperature over its limit" in failed
 
 
+@pytest.mark.long
 def test_flash_dryer_in_a_recycle() -> None:
     """Half of the product goes back to the feed; the loop starts from an empty stream, whose residual says
     little.

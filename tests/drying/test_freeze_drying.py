@@ -136,6 +136,7 @@ def test_against_scipy_with_the_same_equations():
         assert ours.drying_time == pytest.approx(path.t_events[0][0], rel=2e-3)
 
 
+@pytest.mark.long
 def test_limits_and_signs():
     base = f.primary_drying(**VIAL, **SHELF).drying_time
     assert (

@@ -74,6 +74,7 @@ def test_steady_state_conserves_water_and_energy(name: str) -> None:
     )
 
 
+@pytest.mark.long
 def test_cells_tend_to_the_plug_flow_closed_form_with_order_one() -> None:
     """Wet solid at the wet bulb: gas cools along T − T_w = (T₁ − T_w) e^(−NTU); Stefan flow and rising heat
     capacity are kept small.
@@ -162,6 +163,7 @@ def test_dynamic_conserves_and_reaches_the_steady_state() -> None:
     np.testing.assert_allclose(calm.moisture[-1], steady.moisture, atol=2e-6)
 
 
+@pytest.mark.long
 def test_second_order_in_time() -> None:
     def moisture(steps: int) -> float:
         inlets = jax.tree.map(lambda v: jnp.broadcast_to(v, (steps, *jnp.shape(v))), INLET)

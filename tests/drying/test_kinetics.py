@@ -163,6 +163,7 @@ def test_drying_curve_without_one_period() -> None:
         DryingCurve(time=t[::-1].copy(), moisture_dry_basis=falling).fit()
 
 
+@pytest.mark.long
 def test_thin_layer_ranking_knows_equal_curves() -> None:
     # Page's constants of the survey's apple slices at 50 °C: k = 9.46e-4 min⁻ⁿ, n = 1.328
     t = np.linspace(0, 300, 25) * 60

@@ -147,6 +147,7 @@ def random_bed(x):
     return jnp.maximum(found.mass, found.energy), out.product.moisture_dry_basis, moist, warmed
 
 
+@pytest.mark.long
 def test_random_beds_are_solved() -> None:
     """Mass and energy close, no moisture is negative, no exhaust beyond saturation, none hotter than the gas
     unless vapor condenses in the solid.

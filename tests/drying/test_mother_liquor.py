@@ -52,6 +52,7 @@ def test_what_was_dissolved_stays_on_the_crystals(name: str) -> None:
     assert float(jnp.sum(out.product.solid[1]) + salt) == pytest.approx(0.3 + 0.02 * DISSOLVED, rel=1e-12)
 
 
+@pytest.mark.long
 def test_a_solution_is_spray_dried_to_powder() -> None:
     """No solid enters; the drops' classes take the crystals."""
     dryer = SprayDryer(12.0, 2.0, GivenDrops("100 um"), KINETICS, dry_density=1500.0, cells=20)

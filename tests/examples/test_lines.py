@@ -89,6 +89,7 @@ def test_start_up_ends_in_the_steady_states() -> None:
     assert back[last] / back[before] > 1.2
 
 
+@pytest.mark.long
 def test_crystallizer_starts_and_follows_its_feed() -> None:
     """Four hours and more after each change the line stands within 0.2 % of the steady states of 1500 and of
     1800 kg/h; matter closes.

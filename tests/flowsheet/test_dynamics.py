@@ -102,6 +102,7 @@ def circuit() -> tuple[Flowsheet, BallMill]:
     return Flowsheet(units, {"f": feed}, links), mill
 
 
+@pytest.mark.long
 def test_grinding_circuit_settles_and_follows_scipy() -> None:
     line, mill = circuit()
     steady = solve_compiled(line)

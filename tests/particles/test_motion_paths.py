@@ -74,6 +74,7 @@ def test_closed_form_of_the_course():
     np.testing.assert_allclose(np.asarray(general)[:, 1], np.asarray(path)[:, 1], rtol=1e-9)
 
 
+@pytest.mark.long
 def test_settling_distance():
     fine = {
         "particle_diameter": 1e-5,

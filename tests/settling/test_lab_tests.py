@@ -182,6 +182,7 @@ def test_shape_constraints():
     assert np.all(np.diff(fitted, 2) >= -1e-12)
 
 
+@pytest.mark.long
 def test_hindrance_and_compression_from_one_curve():
     t = np.concatenate([np.linspace(60, 1800, 12), np.linspace(2400, 6 * 3600, 10)])
     truth = {

@@ -224,6 +224,7 @@ def test_continues_after_a_kill(tmp_path) -> None:
     assert np.isfinite(found.column("terminal_velocity")).all()
 
 
+@pytest.mark.long
 def test_two_workers_one_killed_nothing_lost(monkeypatch) -> None:
     """The same cases on two local Dask workers, one of them killed while it works, equal those computed
     here.

@@ -78,6 +78,7 @@ def value(along):
     return lambda z: along(jnp.asarray(z), jnp.zeros(len(INPUTS)))[0]
 
 
+@pytest.mark.long
 def test_every_derivative_equals_differences(outputs, along, value) -> None:
     def slope(direction: np.ndarray) -> np.ndarray:
         return along(jnp.ones(len(INPUTS)), jnp.asarray(direction))[1]
