@@ -104,7 +104,7 @@ def drag_chart(
             np.asarray(law(x)),
             _author(law),
             color=color,
-            **({"width": 1.6} if name in colors else FAINT),
+            **(dict[str, Any](width=1.6) if name in colors else FAINT),
         )
     for name, symbol in (("roos1971", "Roos–Willmarth"), ("morsi1972", "Morsi–Alexander")):
         x, y = measured_drag(name)
