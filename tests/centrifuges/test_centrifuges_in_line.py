@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.centrifuges.equipment.decanters import ScrollDecanter
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
 from granum.centrifuges.equipment.screens import (
     ScrollScreen,
@@ -16,7 +17,7 @@ from granum.centrifuges.equipment.screens import (
     TumblingScreen,
     VibratingScreen,
 )
-from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
+from granum.centrifuges.equipment.settling import DiscStack, SolidBasket, TubularBowl
 from granum.centrifuges.formulas import conveying
 from granum.core.constants import ZERO_CELSIUS
 from granum.streams.audit import closure
