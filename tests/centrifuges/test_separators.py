@@ -315,6 +315,13 @@ def test_screens_know_the_stay_of_their_cake():
     assert SlidingCakeScreen(stay_time=4.0, **cone, **angles).stay == 4.0
 
 
+def test_pushing_a_cake_is_its_friction_along_the_way():
+    # 1 kg/s feels ω² r = 7018 m/s² for each kilogram that stands on the wall: ṁ/v a meter, F = tan φ of it
+    assert conveying.power_pushing(1.0, 0.4, 0.25, 167.55, np.radians(45)) == pytest.approx(
+        167.55**2 * 0.25 * 0.4
+    )
+
+
 def test_spins_in_a_row_by_hand():
     s, share = np.array([1e-9, 1e-11]), np.array([0.3, 0.7])
     w, t, r1, r2 = [1000.0, 4000.0], [600.0, 3600.0], 0.05, 0.1

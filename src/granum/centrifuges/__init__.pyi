@@ -78,6 +78,7 @@ from granum.centrifuges.formulas.clarifying import (
 from granum.centrifuges.formulas.conveying import (
     conveying_torque as conveying_torque,
     conveying_velocity as conveying_velocity,
+    power_pushing as power_pushing,
     slide_length_cycle as slide_length_cycle,
     sliding_ratio as sliding_ratio,
     stay_time_scroll as stay_time_scroll,

@@ -20,6 +20,7 @@ from granum.centrifuges.equipment.filtering import (
     machine_limits,
 )
 from granum.centrifuges.formulas.conveying import (
+    power_pushing,
     slide_length_cycle,
     sliding_ratio,
     stay_time_scroll,
@@ -104,12 +105,23 @@ class ScrollScreen(ConicalScreen):
 
     scroll_pitch: Length
     differential_speed: RotationSpeed
+    _: KW_ONLY
+    friction_angle: ConeAngle = 0.5
 
     limits: ClassVar[Limits] = _screen_limits(6e-5, (300.0, 3000.0))
 
     @property
     def stay(self) -> Any:
         return stay_time_scroll(self.basket_length, self.scroll_pitch, self.differential_speed)
+
+    def pushing(self, cake: Stream) -> Any:
+        return power_pushing(
+            cake.solid_flow + cake.liquid_flow,
+            self.basket_length,
+            self.radius_outer,
+            self.rotation_speed,
+            self.friction_angle,
+        )
 
 
 class SlidingScreen(ConicalScreen):

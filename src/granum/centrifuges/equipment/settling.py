@@ -5,6 +5,7 @@ its own grade efficiency.
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -183,7 +184,7 @@ TUBE_LIMITS: Limits = (
     )
     | slender(8.0, 16.0)
     | CRITICAL
-    | {"emptied": Limit("interval between cleanings", 0.5, 720.0, "hour", "robatel1989")}
+    | {"emptied": Limit("interval between cleanings", 0.5, math.inf, "hour", "robatel1989")}
 )
 
 
@@ -251,7 +252,7 @@ class Discs(Bowl):
 
 
 DISC_SPEED: Limits = {"speed": Limit("rotation speed", 0.0, 12000 * RPM, "radian/s", "robatel1989")}
-EJECTED: Limits = {"emptied": Limit("interval between discharges", 1.0, 43200.0, "min", "leung1998")}
+EJECTED: Limits = {"emptied": Limit("interval between discharges", 1.0, math.inf, "min", "leung1998")}
 DISC_LIMITS: Limits = (
     machine_limits(
         solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"

@@ -17,7 +17,9 @@ from granum.core.kinds import (
     Frequency,
     Length,
     Mass,
+    MassFlow,
     PositiveNumber,
+    Power,
     RotationSpeed,
     Speed,
     Time,
@@ -185,6 +187,36 @@ def conveying_torque(
     weight = mass * rotation_speed**2 * radius
     pull = jnp.tan(friction_angle_bowl) * jnp.cos(beach_angle) * jnp.cos(jnp.maximum(path, 0.0))
     return weight * pull * radius
+
+
+@formula(
+    source="leung1998",
+    equation=r"P = \dot m\,\omega^2 r\,L\tan\varphi",
+    title="Power that pushes a cake",
+    output="power_conveying",
+    typical={
+        "mass_flow": (0.1, 20.0),
+        "basket_length": (0.2, 0.6),
+        "radius": (0.2, 0.6),
+        "rotation_speed": (100.0, 250.0),
+        "friction_angle": (0.3, 0.7),
+    },
+)
+def power_pushing(
+    mass_flow: MassFlow,
+    basket_length: Length,
+    radius: Length,
+    rotation_speed: RotationSpeed,
+    friction_angle: QuarterTurn,
+) -> Power:
+    """Power that pushes a cake along a basket against its friction under the field.
+
+    What the mechanism itself takes comes on top.
+
+    >>> round(power_pushing("10 t/hour", "40 cm", "25 cm", "1600 rpm", "30 degree"))
+    4502
+    """
+    return mass_flow * rotation_speed**2 * radius * basket_length * jnp.tan(friction_angle)
 
 
 @formula(
