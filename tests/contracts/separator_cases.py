@@ -23,6 +23,7 @@ from granum.settling.equipment.clarifiers import (
     Lamella,
     RectangularClarifier,
 )
+from granum.settling.equipment.flocculator import Flocculator
 from granum.settling.equipment.thickener import Thickener
 from granum.settling.velocities import Vesilind
 from granum.streams.mixture import Mixture, Species
@@ -140,6 +141,15 @@ UNITS = {
         )
         for way in ("countercurrent", "cocurrent", "crosscurrent")
     },
+    "flocculator": (
+        slurry,
+        lambda f, a, b, c: Flocculator(
+            f.slurry_volume_flow * 10.0 ** (2.0 + 2.0 * a),
+            100.0 * b,
+            tank_number=1.0 + 5.0 * c,
+            aggregation_constant=10.0 ** (-5.0 + 2.0 * c),
+        ),
+    ),
     "grit": (
         slurry,
         lambda f, a, b, c: GritChamber(

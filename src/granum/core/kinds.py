@@ -155,6 +155,7 @@ PressureGradient = Annotated[Any, _any("pressure gradient", "Pa/m", "bar/m", "kP
 Force = Annotated[Any, _any("force", "N", "N", "mN", "kN")]
 Torque = Annotated[Any, _nonnegative("torque", "N*m", "N*m", "kN*m")]
 Stress = Annotated[Any, _any("stress", "Pa", "MPa", "N/mm^2")]
+ForcePerLength = Annotated[Any, _positive("force per length", "N/m", "N/m", "kN/m")]
 SurfaceTension = Annotated[Any, _positive("surface tension", "N/m", "mN/m", "dyn/cm")]
 Permeability = Annotated[Any, _positive("permeability", "m^2", "darcy", "um^2")]
 Permeance = Annotated[Any, _positive("permeance", "m/(s Pa)", "L/(m^2 hour bar)", "m/(s Pa)")]

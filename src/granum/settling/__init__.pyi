@@ -29,10 +29,16 @@ from granum.settling.equipment.clarifier_thickener import (
 from granum.settling.equipment.clarifiers import (
     AbstractBasin as AbstractBasin,
     CircularClarifier as CircularClarifier,
+    CircularFigures as CircularFigures,
     Clarifier as Clarifier,
     GritChamber as GritChamber,
     Lamella as Lamella,
     RectangularClarifier as RectangularClarifier,
+)
+from granum.settling.equipment.flocculator import (
+    Flocculated as Flocculated,
+    Flocculator as Flocculator,
+    FlocculatorFigures as FlocculatorFigures,
 )
 from granum.settling.equipment.gravity import (
     AbstractSettler as AbstractSettler,
@@ -65,10 +71,18 @@ from granum.settling.formulas.basins import (
     basin_length as basin_length,
     horizontal_velocity_basin as horizontal_velocity_basin,
     overflow_rate_basin as overflow_rate_basin,
+    rake_torque_circular as rake_torque_circular,
     removal_efficiency_camp as removal_efficiency_camp,
     removal_efficiency_classes as removal_efficiency_classes,
     removal_efficiency_hazen as removal_efficiency_hazen,
     scour_velocity_camp as scour_velocity_camp,
+)
+from granum.settling.formulas.flocculation import (
+    aggregation_constant_shear as aggregation_constant_shear,
+    flocculation_ratio_tanks as flocculation_ratio_tanks,
+    power_stirring as power_stirring,
+    settling_growth_fractal as settling_growth_fractal,
+    velocity_gradient_stirred as velocity_gradient_stirred,
 )
 from granum.settling.formulas.lamella import (
     critical_velocity_cocurrent as critical_velocity_cocurrent,

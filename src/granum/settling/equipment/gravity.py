@@ -172,7 +172,12 @@ class AbstractSettler(Unit):
         shares = over_axes(inside.sunk, feed), over_axes(inside.floated, feed)
         return skim(feed, *shares, self.underflow_concentration, self.skimmings_concentration)
 
-    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
+    @abc.abstractmethod
+    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Any:
+        """Figures of the data sheet."""
+
+    def settled(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
+        """Figures that all settlers share."""
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         return Figures(
             inside.critical,
@@ -182,5 +187,6 @@ class AbstractSettler(Unit):
             concentration(outlets.overflow),
         )
 
-    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def thinner(self, feed: Stream) -> dict[str, Any]:
+        """Number for the limit that all settlers share."""
         return {"thinner": concentration(feed) / self.underflow_concentration}

@@ -1,0 +1,128 @@
+"""Flocculator: stirred tanks in which grains join to flocs that settle faster."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import jax.numpy as jnp
+
+from granum.core import equipment
+from granum.core.kinds import (
+    Fraction,
+    Frequency,
+    PositiveNumber,
+    Power,
+    Ratio,
+    Time,
+    Volume,
+    Within,
+)
+from granum.core.limits import Limit
+from granum.settling.formulas.flocculation import (
+    aggregation_constant_shear,
+    flocculation_ratio_tanks,
+    power_stirring,
+    settling_growth_fractal,
+)
+from granum.streams.stream import Stream
+from granum.streams.units import Limits, Unit
+
+FASTEST = 1e-9  # m³/s, a trickle for which a stay is still told
+LARGEST = 1e12  # grains per floc
+
+
+class Flocculated(NamedTuple):
+    """The slurry with its flocs."""
+
+    product: Stream
+
+
+class FlocculatorFigures(NamedTuple):
+    """Figures of a flocculator."""
+
+    residence_time: Time
+    camp_number: Ratio
+    aggregation_constant: Ratio
+    flocculation_ratio: PositiveNumber
+    equivalent_growth: PositiveNumber
+    shaft_power: Power
+
+
+def coarsen(edges: tuple[float, ...], growth: Any) -> Any:
+    """Transfer operator (target × source) that moves every class to sizes ``growth`` times as large; what
+    would lie beyond the largest class gathers in it.
+    """
+    bounds = jnp.asarray(edges)
+    low, high = growth * bounds[:-1], growth * bounds[1:]
+    inside = jnp.clip((bounds[:, None] - low) / (high - low), 0.0, 1.0)
+    inside = inside.at[0].set(0.0).at[-1].set(1.0)
+    return jnp.diff(inside, axis=0)
+
+
+@equipment(
+    "flocculator",
+    source="argaman1970; camp1943; jiang1991",
+    title="Flocculator",
+    equation=r"\frac{N_0}{N_m} = \frac{(1 + K_A G T/m)^m}{1 + K_B G^2\,\frac{T}{m}\sum_i (1 + K_A G T/m)^i}",
+)
+class Flocculator(Unit):
+    """Equal stirred tanks in series after a coagulant: shear brings grains together and breaks flocs, and
+    what leaves settles, or rises, faster.
+
+    The stream goes on with the size of the compact grain that settles as fast as the floc: all classes grow
+    by one factor, each by the same number of grains. The constant of aggregation follows from the volume of
+    the grains and the share of collisions that last, unless a jar test gives it.
+    """
+
+    volume: Volume
+    velocity_gradient: Frequency
+    tank_number: PositiveNumber = 3.0
+    _: KW_ONLY
+    capture_efficiency: Fraction = 0.3
+    aggregation_constant: Ratio | None = None
+    breakage_constant: Time = 1e-7
+    fractal_dimension: Annotated[Ratio, Within(1.5, 3.0)] = 2.2
+
+    limits: ClassVar[Limits] = {
+        "gradient": Limit("velocity gradient", 10.0, 100.0, "1/s", "camp1955"),
+        "camp": Limit("velocity gradient times stay", 2e4, 2.1e5, "dimensionless", "camp1955"),
+        "held": Limit("solids gathered in the largest class", 0.0, 0.05, "dimensionless", "argaman1970"),
+    }
+
+    def inside(self, feed: Stream) -> FlocculatorFigures:
+        flow = jnp.maximum(feed.slurry_volume_flow, FASTEST)
+        stay = self.volume / flow
+        constant = (
+            aggregation_constant_shear(feed.solids_volume_fraction, self.capture_efficiency)
+            if self.aggregation_constant is None
+            else jnp.asarray(self.aggregation_constant, dtype=float)
+        )
+        number = flocculation_ratio_tanks(
+            self.velocity_gradient, stay, constant, self.breakage_constant, self.tank_number
+        )
+        number = jnp.clip(number, 1.0, LARGEST)
+        return FlocculatorFigures(
+            stay,
+            self.velocity_gradient * stay,
+            constant,
+            number,
+            settling_growth_fractal(number, self.fractal_dimension),
+            power_stirring(self.velocity_gradient, self.volume, feed.liquid_viscosity),
+        )
+
+    def outlets(self, inside: FlocculatorFigures, feed: Stream) -> Flocculated:
+        return Flocculated(feed.regraded(coarsen(feed.mixture.edges, inside.equivalent_growth)))
+
+    def figures(self, inside: FlocculatorFigures, outlets: Flocculated, feed: Stream) -> FlocculatorFigures:
+        return inside
+
+    def measured(
+        self, inside: FlocculatorFigures, outlets: Flocculated, figures: FlocculatorFigures, feed: Stream
+    ) -> dict[str, Any]:
+        gathered = outlets.product.size_fractions[-1] - feed.size_fractions[-1]
+        return {
+            "gradient": self.velocity_gradient,
+            "camp": figures.camp_number,
+            "held": jnp.maximum(gathered, 0.0),
+        }
