@@ -49,7 +49,7 @@ class FlocculatorFigures(NamedTuple):
     shaft_power: Power
 
 
-def coarsen(edges: tuple[float, ...], growth: Any) -> Any:
+def coarsen(edges: Any, growth: Any) -> Any:
     """Transfer operator (target × source) that moves every class to sizes ``growth`` times as large; what
     would lie beyond the largest class gathers in it.
     """
