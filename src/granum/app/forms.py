@@ -34,14 +34,14 @@ from granum.core.units import (
 )
 from granum.core.written import read_number
 from granum.materials.stated import asked_of_a_fluid
-from granum.reports.mathml import mathml
+from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import law_label, limit_rows
 
 
 def card_form(key: str) -> dict[str, Any]:
     """One card with everything a form needs."""
     card = registry.find(key).card
-    data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
+    data = card.as_json() | {"equation_shown": equation_lines(card.equation)}
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
     examples = docstring_values(card)
@@ -73,7 +73,7 @@ def fluid_field(card: Card) -> dict[str, Any] | None:
 def _field(p: Parameter) -> dict[str, Any]:
     """What stands around a field: symbol, bounds, range, units, default."""
     return {
-        "symbol_shown": mathml(p.term.symbol) if p.term and p.term.symbol else "",
+        "symbol_shown": mathml(p.symbol),
         "allowed": "" if _goes_without_saying(p) else bounds_text(p),
         "source_range": range_text(p, p.fitted) if p.fitted else "",
         "units": _units_of(p.kind, p.as_json()["units"]) if p.kind else [],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -144,8 +144,18 @@ def make_card(
     title: str = "",
     limits: tuple[Limit, ...] = (),
     arguments: tuple[Parameter, ...] = (),
+    symbols: Mapping[str, str] | None = None,
 ) -> Card:
-    """The card of a declared function or class."""
+    """The card of a declared function or class.
+
+    ``symbols`` by name where those of the glossary do not suit; ``=name`` for a result that bears the name of
+    an input.
+    """
+    own = symbols or {}
+    parameters, arguments = (
+        tuple(replace(p, own_symbol=own.get(p.name, "")) for p in group) for group in (parameters, arguments)
+    )
+    outputs = tuple(replace(p, own_symbol=own.get(f"={p.name}", own.get(p.name, ""))) for p in outputs)
     return Card(
         key=key_of(thing, name),
         sort=sort,

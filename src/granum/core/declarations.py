@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar, get_type_hints
 
@@ -75,6 +75,7 @@ def _declare(
     family: str,
     title: str,
     results: Callable[..., Any] | None,
+    symbols: Mapping[str, str] | None = None,
 ) -> type[T]:
     def build() -> Card:
         outputs: tuple[Parameter, ...] = ()
@@ -100,6 +101,7 @@ def _declare(
             family=family,
             title=title,
             limits=tuple(getattr(cls, "limits", {}).values()),
+            symbols=symbols,
         )
 
     original = cls.__init__
@@ -182,13 +184,15 @@ def law(
     fitted: Ranges | None = None,
     typical: Ranges | None = None,
     title: str = "",
+    symbols: Mapping[str, str] | None = None,
 ) -> Callable[[type[T]], type[T]]:
     """Declare a parametrised law: a frozen module whose fields are its parameters and whose call is the
     law.
 
     ``family`` is what it can be passed as, ``name`` its key; formulas declared with ``@formula`` may share
     the family. ``fitted`` are ranges over which the source holds, by parameter, argument of the call or
-    result (the family's name), SI units.
+    result (the family's name), SI units. ``symbols`` are those of this equation by name, where the glossary's
+    do not suit.
     """
 
     def declare(cls: type[T]) -> type[T]:
@@ -199,7 +203,17 @@ def law(
                 type.__setattr__(cls, "called", classmethod(_called))
                 type.__setattr__(cls, "evaluate", classmethod(_evaluate))
         return _declare(
-            cls, name, "law", source, equation, fitted or {}, typical or {}, family, title, cls.__call__
+            cls,
+            name,
+            "law",
+            source,
+            equation,
+            fitted or {},
+            typical or {},
+            family,
+            title,
+            cls.__call__,
+            symbols,
         )
 
     return declare

@@ -76,12 +76,14 @@ class Formula(Generic[P, R]):
         title: str,
         output: str,
         family: str,
+        symbols: Mapping[str, str],
     ):
         self.function: Callable[..., R] = function
         self.fitted = fitted
         self.source = source
         self._declared = {"equation": equation, "title": title, "family": family}
         self._typical = typical
+        self._symbols = symbols
         self._compiled: dict[Any, Callable[..., Any]] = {}
         self._prepared: dict[tuple[str, ...], tuple[Any, ...]] = {}
         functools.update_wrapper(self, function)
@@ -107,6 +109,7 @@ class Formula(Generic[P, R]):
             fitted=self.fitted,
             family=family,
             title=self._declared["title"],
+            symbols=self._symbols,
         )
 
     @functools.cached_property
@@ -466,6 +469,7 @@ def formula(
     title: str = "",
     output: str = "",
     family: str = "",
+    symbols: Mapping[str, str] | None = None,
 ) -> Callable[[Callable[P, R]], Formula[P, R]]:
     """Declare a formula.
 
@@ -479,6 +483,8 @@ def formula(
     title: English title; by default the glossary label with the author from the name.
     output: glossary name of the result; by default the glossary word the function name starts with.
     family: name under which it can be passed as a law; by default the output name.
+    symbols: LaTeX symbols in this equation by name, where those of the glossary do not suit; ``=name`` for a
+        result that bears the name of an input.
     """
 
     def declare(function: Callable[P, R]) -> Formula[P, R]:
@@ -491,6 +497,7 @@ def formula(
             title=title,
             output=output,
             family=family,
+            symbols=symbols or {},
         )
 
     return declare

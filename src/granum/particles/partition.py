@@ -280,6 +280,7 @@ def sharpness_index(percentile_25: Length, percentile_75: Length) -> Ratio:
     source="svarovsky2001; kelsall1953",
     equation=r"G' = \frac{G - R_f}{1 - R_f}",
     title="Reduced (corrected) partition number",
+    symbols={"=partition_number": "G'"},
 )
 def partition_number_reduced(
     partition_number: Fraction, bypass_fraction: Annotated[Fraction, Within(0.0, 0.999)]

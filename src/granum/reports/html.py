@@ -19,7 +19,7 @@ from granum.core.results import Result
 from granum.core.sources import cite
 from granum.core.units import format_number, from_si
 from granum.estimation.results import by_fit
-from granum.reports.mathml import mathml
+from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import (
     check_row,
     defaults_text,
@@ -38,7 +38,7 @@ def _row(p: Parameter, value: Any, origin: str = "") -> dict[str, str]:
     label = f"{p.label} ({origin})" if origin else p.label
     return {
         "label": label,
-        "symbol": mathml(p.term.symbol) if p.term else p.name,
+        "symbol": mathml(p.symbol) if p.symbol else p.name,
         "text": value_text(value, p),
     }
 
@@ -48,7 +48,7 @@ def note_step(step: Result) -> dict[str, Any]:
     return {
         "title": step.card.title,
         "key": step.card.key,
-        "equation": mathml(step.card.equation, display=True),
+        "equation": equation_lines(step.card.equation),
         "inputs": [
             _row(p, step.inputs[p.name], step.origins.get(p.name, ""))
             for p in step.card.parameters
@@ -71,12 +71,12 @@ def note_steps(steps: Iterable[Result]) -> list[dict[str, Any]]:
 def nomenclature(steps: Iterable[Result]) -> list[tuple[str, str]]:
     """The symbols of a calculation note with what they mean."""
     words = {
-        p.term
+        (p.symbol, p.term.label)
         for step in steps
         for p in (*step.card.parameters, *step.card.outputs)
-        if p.term and p.term.symbol
+        if p.term and p.symbol
     }
-    return sorted(((mathml(word.symbol), word.label) for word in words), key=lambda row: row[1])
+    return sorted(((mathml(symbol), label) for symbol, label in words), key=lambda row: row[1])
 
 
 def _unit_sheet(run: Any, name: str) -> dict[str, Any]:

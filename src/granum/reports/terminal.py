@@ -85,7 +85,7 @@ def print_result(result: Result) -> None:
         label = f"{p.label} ({origin})" if origin else p.label
         table.add_row(
             label,
-            text_symbol(p.term.symbol) if p.term else "",
+            text_symbol(p.symbol),
             value_text(result.inputs[p.name], p),
             style="dim",
         )
@@ -94,7 +94,7 @@ def print_result(result: Result) -> None:
         if p not in columns:
             table.add_row(
                 Text(p.label, style="bold"),
-                text_symbol(p.term.symbol) if p.term else "",
+                text_symbol(p.symbol),
                 Text(value_text(result.outputs[p.name], p), style="bold"),
             )
     console.print(table)

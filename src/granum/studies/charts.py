@@ -34,8 +34,8 @@ def shown(p: Parameter, values: Any, unit: str) -> np.ndarray:
 
 
 def _axis(v: Variable, unit: str) -> str:
-    term = None if v.named else v.parameter.term
-    symbol = f" <i>{html_symbol(term.symbol)}</i>" if term and term.symbol else ""
+    latex = "" if v.named else v.parameter.symbol
+    symbol = f" <i>{html_symbol(latex)}</i>" if latex else ""
     label = pretty_unit(unit)
     return f"{v.label}{symbol}" + (f" / {label}" if label else "")
 

@@ -38,7 +38,7 @@ def variable_json(v: Variable) -> dict[str, Any]:
     return {
         "name": v.path,
         "label": v.label,
-        "symbol": v.parameter.term.symbol if v.parameter.term and not v.named else "",
+        "symbol": "" if v.named else v.parameter.symbol,
         "unit": v.unit,
         "units": list(v.parameter.units),
     }

@@ -27,7 +27,7 @@ from granum.particles.formulas.terminal import Drag, drag_coefficient_brown_lawl
 
 @formula(
     source="perry2008, § 18",
-    equation=r"y = y_0 + \frac{\omega^2 x^2}{2g}",
+    equation=r"y = y_0 + \frac{\omega^2 r^2}{2g}",
     typical={"radius": (0.01, 0.3), "rotation_speed": (1.0, 30.0), "surface_height_center": (0.0, 0.5)},
 )
 def surface_height_rotating(
@@ -117,7 +117,7 @@ def liquid_pressure_bowl(
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = K\,v_g",
+    equation=r"v_c = K\,v_t,\quad \mathrm{Re} = \frac{\rho_f v_c d_p}{\eta} \le 2",
     title="Settling velocity in a centrifuge, laminar",
     fitted={"reynolds": (0.0, 2.0)},
     typical={
@@ -150,7 +150,7 @@ _FAST = {"terminal_velocity": (1e-3, 1e-1), "centrifugal_effect": (100.0, 2000.0
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = K^{1/1.4}\,v_g",
+    equation=r"v_c = K^{1/1.4}\,v_t",
     title="Settling velocity in a centrifuge, intermediate",
     typical=_FAST,
     output="settling_velocity_centrifugal",
@@ -172,7 +172,7 @@ def settling_velocity_centrifugal_allen(
 
 @formula(
     source="richardson2002, ch. 9",
-    equation=r"v_c = \sqrt{K}\,v_g",
+    equation=r"v_c = \sqrt{K}\,v_t",
     title="Settling velocity in a centrifuge, turbulent",
     typical=_FAST,
     output="settling_velocity_centrifugal",

@@ -91,6 +91,7 @@ class ProductKernel(AgglomerationKernel):
     equation=r"\beta = \frac{2 k T}{3\eta}\,\frac{(L+\lambda)^2}{L\lambda}",
     output="agglomeration_coefficient",
     typical={"crystal_size": (1e-7, 1e-6), "crystal_size_other": (1e-7, 1e-6)},
+    symbols={"agglomeration_coefficient": r"\beta", "crystal_size_other": r"\lambda"},
 )
 def agglomeration_coefficient_brownian(
     crystal_size: Length,
@@ -120,6 +121,7 @@ def agglomeration_coefficient_brownian(
     equation=r"\beta = \sqrt{\tfrac{8\pi}{15}}\,\psi\,\dot\gamma\,\frac{(L+\lambda)^3}{8}",
     output="agglomeration_coefficient",
     typical={"shear_rate": (10.0, 1000.0), "capture_efficiency": (0.01, 1.0)},
+    symbols={"agglomeration_coefficient": r"\beta", "crystal_size_other": r"\lambda"},
 )
 def agglomeration_coefficient_turbulent(
     crystal_size: Length,

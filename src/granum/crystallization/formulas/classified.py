@@ -86,6 +86,7 @@ def population_density_classified(
         "growth_length_first": (1e-4, 1.4e-4),
         "growth_length_second": (4e-5, 8e-5),
     },
+    symbols={"population_density": "n_2"},
 )
 def population_density_second_stage(
     crystal_size: Distance,
@@ -127,6 +128,7 @@ class ClassifyingProduction(NamedTuple):
     equation=r"\dot P = \frac{4 G M_T}{L_p},\quad B_0 = \frac{\dot P}{k_v \rho_c L_p^3}",
     title="Ideal product-classifying crystallizer",
     typical={"growth_rate": (2e-8, 2e-7)},
+    symbols={"product_size": "L_p"},
 )
 def production_classifying(
     growth_rate: ForwardGrowthRate,

@@ -20,6 +20,7 @@ OVERALL = "All resistances together pass less heat than the film on one side alo
         "heat_transfer_coefficient": (200.0, 600.0),
         "heat_transfer_coefficient_inside": (800.0, 2000.0),
     },
+    symbols={"heat_transfer_coefficient": "U", "heat_transfer_coefficient_inside": "h_i"},
 )
 def wall_temperature_jacket(
     temperature: Temperature,
@@ -56,6 +57,11 @@ def wall_temperature_jacket(
         "undercooling": (0.5, 3.0),
         "heat_transfer_coefficient": (200.0, 600.0),
         "heat_transfer_coefficient_inside": (800.0, 2000.0),
+    },
+    symbols={
+        "heat_transfer_coefficient": "U",
+        "heat_transfer_coefficient_inside": "h_i",
+        "temperature_difference": "(T - T_j)_{max}",
     },
 )
 def temperature_difference_encrustation(

@@ -18,7 +18,10 @@ SHORTEST = 0.1  # of the time without gas, where the gas would sweep the solid o
 @formula(
     source="friedman1949; perry2008, ch. 12",
     fitted={"drum_slope": (0.0, 0.08)},
-    equation=r"\tau = \frac{0.23\,L}{S\,N^{0.9}D} \pm \frac{1.97\,B\,L\,G}{F},\quad B = 5\,d_p^{-1/2}",
+    equation=(
+        r"\tau = \frac{0.23\,L}{S\,N^{0.9}D} \pm \frac{1.97\,B\,L\,G}{F},\quad B = 5\,d_p^{-1/2},\ N = "
+        r"\frac{\omega}{2\pi}"
+    ),
     typical={
         "length": (3.0, 30.0),
         "diameter": (0.5, 3.0),
@@ -63,7 +66,7 @@ def residence_time_friedman_marshall(
 @formula(
     source="saeman1954; perry2008, ch. 12",
     fitted={"drum_slope": (0.0, 0.08), "cascade_factor": (2.0, pi)},
-    equation=r"\tau = \frac{L}{f\,N\,D\,(S \mp m\,u)}",
+    equation=r"\tau = \frac{L}{f\,N\,D\,(S \mp m\,u)},\quad N = \frac{\omega}{2\pi}",
     typical={
         "length": (3.0, 30.0),
         "diameter": (0.5, 3.0),

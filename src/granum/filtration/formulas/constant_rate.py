@@ -34,7 +34,7 @@ _SMALL = {
 
 @formula(
     source="carman1938; mccabe2005, ch. 29",
-    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{\Omega^2}\,t + \frac{\eta\,R_s}{\Omega}\,q",
+    equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{A^2}\,t + \frac{\eta\,R_s}{A}\,q",
     typical=_SMALL,
 )
 def pressure_drop_constant_rate(
@@ -68,8 +68,12 @@ def pressure_drop_constant_rate(
 
 @formula(
     source="tiller1955",
-    equation=r"\Delta p - \frac{\eta R_s q}{\Omega} = \left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{\Omega^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}",  # noqa: E501
+    equation=(
+        r"\Delta p - \frac{\eta R_s q}{A} = "
+        r"\left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{A^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}"
+    ),
     typical={**_SMALL, "compressibility": (0.0, 0.7), "cake_resistance_reference": (1e6, 1e8)},
+    symbols={"cake_resistance_reference": r"\alpha_0"},
 )
 def pressure_drop_constant_rate_compressible(
     time: Time,
@@ -134,8 +138,10 @@ def cake_thickness_constant_rate(
 
 @formula(
     source="geankoplis2003, § 14.2",
-    equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,\Omega^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta p\,\Omega}V,\quad "  # noqa: E501
-    r"V_r = \frac{\Omega}{\alpha W}\left(\frac{\Delta p\,\Omega}{\eta\,q} - R_s\right)",
+    equation=(
+        r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta "
+        r"p\,A}V,\quad V_r = \frac{A}{\alpha W}\left(\frac{\Delta p\,A}{\eta\,q} - R_s\right)"
+    ),
     typical={**_SMALL, "filtrate_volume": (0.1, 1.0), "filtrate_flow": (1e-3, 1e-2)},
 )
 def filtration_time_rate_then_pressure(

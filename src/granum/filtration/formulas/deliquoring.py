@@ -26,7 +26,11 @@ from granum.core.kinds import (
 _CAKE = {"cake_thickness": (5e-3, 5e-2), "particle_diameter": (1e-5, 2e-4), "pressure_drop": (2e4, 4e5)}
 
 
-@formula(source="wakeman2005", equation=r"p_b = \frac{4.6\,\sigma\,(1-\varepsilon)}{\varepsilon\,d_p}")
+@formula(
+    source="wakeman2005",
+    equation=r"p_b = \frac{4.6\,\sigma\,(1-\varepsilon)}{\varepsilon\,d_p}",
+    symbols={"threshold_pressure": "p_b"},
+)
 def threshold_pressure_cake(
     particle_diameter: Length, void_fraction: VoidFraction, surface_tension: SurfaceTension
 ) -> PressureDrop:
@@ -161,6 +165,7 @@ def moisture_dry_basis_cake(
         "dynamic_viscosity": (1.5e-5, 2.5e-5),
         "reduced_saturation": (0.05, 0.8),
     },
+    symbols={"pressure": "p_1", "dynamic_viscosity": r"\eta_g"},
 )
 def gas_velocity_deliquoring(
     cake_permeability: Permeability,

@@ -30,7 +30,7 @@ _MAT = {
 
 @formula(
     source="davies1953",
-    equation=r"\Delta p = \frac{64\,\eta\,u\,L\,\beta^{1.5}(1 + 56\beta^3)}{d_f^2}",
+    equation=r"\Delta p = \frac{64\,\eta\,U\,L\,\beta^{1.5}(1 + 56\beta^3)}{d_f^2}",
     fitted={"fiber_fraction": (0.006, 0.3)},
     typical=_MAT,
 )
@@ -78,7 +78,7 @@ def penetration_fibers(
 
 @formula(
     source="cooper2011",
-    equation=r"\Delta p = K_1 v + K_2\,c\,v^2\,t",
+    equation=r"\Delta p = K_1 U + K_2\,c\,U^2\,t",
     typical={
         "superficial_velocity": (0.005, 0.03),
         "concentration_inlet": (1e-3, 2e-2),

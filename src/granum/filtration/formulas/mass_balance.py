@@ -125,7 +125,7 @@ def dry_cake_per_filtrate(
 
 @formula(
     source="ruth1935",
-    equation=r"Z = \frac{W V}{\Omega\,(1 - \varepsilon)\,\rho_s}",
+    equation=r"Z = \frac{W V}{A\,(1 - \varepsilon)\,\rho_s}",
     typical={"filtrate_volume": (0.01, 1.0), "area": (0.5, 10.0)},
 )
 def cake_thickness(

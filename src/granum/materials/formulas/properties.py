@@ -273,7 +273,7 @@ class SaltSaturation(NamedTuple):
     source="davies1962, ch. 3; haynes2014, sec. 5",
     equation=(
         r"\mathrm{SI} = \log_{10}\frac{(\gamma_c m_c)^p(\gamma_a m_a)^q}{K_{sp}},\quad S = "
-        r"10^{\mathrm{SI}/(p+q)}"
+        r"10^{\mathrm{SI}/(p+q)},\quad \gamma_i = \gamma_i(I)"
     ),
     typical={"cation_molality": (1e-5, 1e-2), "anion_molality": (1e-5, 1e-2), "ionic_strength": (1e-3, 0.3)},
     fitted={"ionic_strength": (0.0, 0.5)},

@@ -175,8 +175,10 @@ class FallByRegime(NamedTuple):
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
     equation=(
-        r"\mathrm{Re} = \frac{X}{24}\ (X\le "
-        r"4.8),\ \left(\frac{X}{18.5}\right)^{1/1.4},\ \sqrt{\frac{X}{0.44}}\ (X\ge 110\,000)"
+        r"\mathrm{Re} = \frac{X}{24}\ (X\le 4.8),\ \left(\frac{X}{18.5}\right)^{1/1.4},\ "
+        r"\sqrt{\frac{X}{0.44}}\ (X\ge 110\,000),\quad X = C_D\,\mathrm{Re}^2 = "
+        r"\frac{4\,g\,d_p^3\,\rho_f\,|\rho_p - \rho_f|}{3\,\eta^2},\quad v_t = "
+        r"\frac{\mathrm{Re}\,\eta}{\rho_f\,d_p}"
     ),
     fitted={"reynolds_number": (0.0, 2e5)},
 )
@@ -221,7 +223,11 @@ class SizeByRegime(NamedTuple):
 
 @formula(
     source="stokes1851; allen1900; newton1687; perry2008, section 6",
-    equation=r"\mathrm{Re} = \sqrt{24Y}\ (Y\le 1.66\cdot10^{-3}),\ (18.5Y)^{1/1.6},\ 0.44Y\ (Y\ge 1136)",
+    equation=(
+        r"\mathrm{Re} = \sqrt{24Y}\ (Y\le 1.66\cdot10^{-3}),\ (18.5Y)^{1/1.6},\ 0.44Y\ (Y\ge "
+        r"1136),\quad Y = \frac{3\,\rho_f^2 v^3}{4\,\eta\,g\,|\rho_p - \rho_f|},\quad d_p = "
+        r"\frac{\mathrm{Re}\,\eta}{\rho_f\,v}"
+    ),
     fitted={"reynolds_number": (0.0, 2e5)},
 )
 def terminal_diameter_by_regime(

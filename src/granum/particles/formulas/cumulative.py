@@ -21,6 +21,7 @@ _SPREAD = Annotated[PositiveNumber, Within(1.0000001)]
     source="rosin1933",
     equation=r"Q = 1 - \exp\left[-(x/x')^n\right]",
     typical={"particle_diameter": (1e-5, 1e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_rosin_rammler(
     particle_diameter: Distance, size_modulus: Length, distribution_exponent: PositiveNumber
@@ -37,6 +38,7 @@ def cumulative_fraction_rosin_rammler(
     source="hatch1929",
     equation=r"Q = \Phi\left(\frac{\ln(x/d_{50})}{\ln \sigma_g}\right)",
     typical={"particle_diameter": (1e-5, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_log_normal(
     particle_diameter: Distance, median_diameter: Length, geometric_standard_deviation: _SPREAD
@@ -57,6 +59,7 @@ def cumulative_fraction_log_normal(
         "mean_diameter": (2e-4, 3e-4),
         "standard_deviation": (2e-5, 6e-5),
     },
+    symbols={"particle_diameter": "x", "mean_diameter": r"\bar x"},
 )
 def cumulative_fraction_normal(
     particle_diameter: Distance, mean_diameter: Length, standard_deviation: Length
@@ -73,6 +76,7 @@ def cumulative_fraction_normal(
     source="schuhmann1940",
     equation=r"Q = (x/x_{\max})^n",
     typical={"particle_diameter": (1e-5, 1e-4), "size_maximum": (2e-4, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_gates_gaudin_schuhmann(
     particle_diameter: Distance, size_maximum: Length, distribution_exponent: PositiveNumber
@@ -89,6 +93,7 @@ def cumulative_fraction_gates_gaudin_schuhmann(
     source="gaudin1962",
     equation=r"Q = 1 - (1 - x/x_{\max})^n",
     typical={"particle_diameter": (1e-5, 1e-4), "size_maximum": (2e-4, 1e-3)},
+    symbols={"particle_diameter": "x"},
 )
 def cumulative_fraction_gaudin_meloy(
     particle_diameter: Distance, size_maximum: Length, distribution_exponent: PositiveNumber
@@ -101,7 +106,11 @@ def cumulative_fraction_gaudin_meloy(
     return GaudinMeloy(size_maximum, distribution_exponent)(particle_diameter)
 
 
-@formula(source="lynch1977; tromp1937", equation=r"G = \frac{1}{1 + (d_{50}/x)^n}")
+@formula(
+    source="lynch1977; tromp1937",
+    equation=r"G = \frac{1}{1 + (d_{50}/x)^n}",
+    symbols={"particle_diameter": "x"},
+)
 def partition_number_logistic(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
 ) -> Fraction:
@@ -117,6 +126,7 @@ def partition_number_logistic(
     source="plitt1976",
     equation=r"G = 1 - \exp\left[-\ln 2\,(x/d_{50})^n\right]",
     typical={"particle_diameter": (5e-5, 1e-4), "cut_size": (5e-5, 1e-4), "sharpness": (1.0, 2.5)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_rosin_rammler(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
@@ -133,6 +143,7 @@ def partition_number_rosin_rammler(
     source="napiermunn1996",
     equation=r"G = 1 - \frac{e^n - 1}{e^{n x/d_{50}} + e^n - 2}",
     typical={"particle_diameter": (5e-5, 2e-4), "cut_size": (5e-5, 2e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_whiten(
     particle_diameter: Distance, cut_size: Length, sharpness: PositiveNumber
@@ -149,6 +160,7 @@ def partition_number_whiten(
     source="molerus1969",
     equation=r"G = \left\{1 + (d_{50}/x)^2 \exp\left[n\left(1 - (x/d_{50})^2\right)\right]\right\}^{-1}",
     typical={"particle_diameter": (5e-5, 2e-4), "cut_size": (5e-5, 2e-4)},
+    symbols={"particle_diameter": "x"},
 )
 def partition_number_molerus_hoffmann(
     particle_diameter: Distance, cut_size: Length, sharpness: Ratio

@@ -83,7 +83,7 @@ def drag_coefficient_allen(reynolds: PositiveNumber) -> PositiveNumber:
 
 @formula(
     source="newton1687; perry2008, section 6",
-    equation=r"C_D = 0.44",
+    equation=r"C_D(\mathrm{Re}) = 0.44",
     fitted={"reynolds": (500.0, 2e5)},
 )
 def drag_coefficient_newton(reynolds: PositiveNumber) -> PositiveNumber:

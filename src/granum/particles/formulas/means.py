@@ -158,6 +158,7 @@ def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
     source="allen1997; iso9276-2",
     equation=r"D_{4,3} = \sum x_i\,d_i \Big/ \sum x_i",
     title="Mass mean D[4,3]",
+    symbols={"class_sizes": "d_i", "class_masses": "x_i"},
 )
 def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Arithmetic mean diameter by mass (or volume).
@@ -169,7 +170,10 @@ def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
 
 
 @formula(
-    source="allen1997; iso9276-2", equation=r"\bar d = \frac{1}{\sum x_i/d_i}", title="Harmonic mean by mass"
+    source="allen1997; iso9276-2",
+    equation=r"\bar d = \frac{1}{\sum x_i/d_i}",
+    title="Harmonic mean by mass",
+    symbols={"class_sizes": "d_i", "class_masses": "x_i", "mean_diameter": r"\bar d"},
 )
 def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Harmonic mean diameter by mass: the Sauter diameter of a mass analysis.
@@ -243,6 +247,7 @@ def mean_diameter_moment_ratio(
     equation=r"D_{p,q} = d_{50,r}\,\exp\!\left(\tfrac{p + q - 2r}{2}\,\ln^2\sigma_g\right)",
     title="Mean diameter of a log-normal powder (Hatch–Choate)",
     typical={"moment_order_upper": (3.1, 4.0), "moment_order_lower": (1.0, 2.0)},
+    symbols={"median_diameter": "d_{50,r}"},
 )
 def mean_diameter_hatch_choate(
     median_diameter: Length,
@@ -275,6 +280,7 @@ def mean_diameter_hatch_choate(
     source="hatch1929",
     equation=r"d_{50,s} = d_{50,r}\,\exp\!\left((s - r)\ln^2\sigma_g\right)",
     title="Median on another basis, log-normal (Hatch–Choate)",
+    symbols={"median_diameter": "d_{50,s}"},
 )
 def median_diameter_hatch_choate(
     median_diameter_known: Length,
@@ -327,6 +333,7 @@ def curvature_coefficient(
     source="hatch1929",
     equation=r"\sigma_g = \sqrt{\frac{d_{84.13}}{d_{15.87}}}",
     title="Geometric standard deviation from percentiles",
+    symbols={"percentile_84": "d_{84.13}", "percentile_16": "d_{15.87}"},
 )
 def geometric_standard_deviation(percentile_84: Length, percentile_16: Length) -> PositiveNumber:
     """Geometric standard deviation from the sizes one standard deviation either side of the median.

@@ -271,6 +271,7 @@ def void_fraction_kozeny_carman(
 @formula(
     source="carman1937; ergun1952",
     equation=r"a_g = \sum_i\frac{6 x_i}{\psi d_i},\quad \bar d = \frac{1}{\sum_i x_i/d_i}",
+    symbols={"class_sizes": "d_i", "class_fractions": "x_i"},
 )
 def specific_surface_mixture(
     class_sizes: Annotated[Length, Series("classes")],

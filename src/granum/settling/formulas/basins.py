@@ -43,7 +43,7 @@ def basin_area(volume_flow: VolumeFlow, settling_velocity: Speed) -> Area:
     return volume_flow / settling_velocity
 
 
-@formula(source="camp1946", equation=r"U_x = \frac{Q}{l\,h}")
+@formula(source="camp1946", equation=r"U_x = \frac{Q}{l\,H}")
 def horizontal_velocity_basin(volume_flow: VolumeFlow, width: Length, height: Length) -> Speed:
     """Mean horizontal velocity in a rectangular basin.
 
@@ -53,7 +53,7 @@ def horizontal_velocity_basin(volume_flow: VolumeFlow, width: Length, height: Le
     return volume_flow / (width * height)
 
 
-@formula(source="camp1946", equation=r"L = U_x\,\frac{h}{v_s}")
+@formula(source="camp1946", equation=r"L = U_x\,\frac{H}{v_s}")
 def basin_length(horizontal_velocity: Speed, height: Length, settling_velocity: Speed) -> Length:
     """Length of a rectangular basin in which a particle that enters at the surface just reaches the bottom.
 
@@ -89,7 +89,11 @@ def removal_efficiency_hazen(
     return -jnp.expm1(-tank_number * jnp.log1p(settling_velocity / (tank_number * overflow_rate)))
 
 
-@formula(source="camp1946", equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)")
+@formula(
+    source="camp1946",
+    equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)",
+    symbols={"class_fractions": "w_i", "class_velocities": "v_i", "overflow_rate": "v_0"},
+)
 def removal_efficiency_classes(
     class_velocities: Annotated[Speed, Series("classes")], class_fractions: Shares, overflow_rate: Speed
 ) -> Fraction:
