@@ -1,4 +1,4 @@
-"""What a line takes in all: sums of its units by hand, what other units of the line give, energy per water."""
+"""What a line takes: sums of its units by hand, what other units give, energy per water."""
 
 from __future__ import annotations
 
@@ -128,9 +128,9 @@ def test_studies_watch_what_is_taken() -> None:
         ],
     )
     run = gr.read(STARCH).solve()
-    assert float(found["utilities.energy_per_water"].values[-1]) == pytest.approx(
+    assert float(found.dataset["utilities.energy_per_water"].values[-1]) == pytest.approx(
         run.utilities.energy_per_water, rel=1e-6
     )
-    assert float(found["cyclones.electric_power_fan"].values[-1]) == pytest.approx(
+    assert float(found.dataset["cyclones.electric_power_fan"].values[-1]) == pytest.approx(
         float(run.units["cyclones"].uses["electric_power_fan"]), rel=1e-6
     )
