@@ -111,6 +111,8 @@ def _input_row(found: Any, path: str) -> dict[str, Any] | None:
 def _figures(found: Any) -> Iterator[Any]:
     yield from (found.output(path) for path in found.outputs())
     sheet = getattr(found, "sheet", None)
+    if sheet is not None:
+        yield from (found.output(path) for path in found.taken())
     for link in sheet.links if sheet is not None else ():
         for word in WATCHED:
             try:

@@ -33,6 +33,7 @@ from granum.reports.quantities import (
     value_text,
 )
 from granum.reports.streams import audit_text, stream_figures, stream_table
+from granum.reports.utilities import utility_table
 
 LONGEST = 900.0  # s that a line may take
 
@@ -219,6 +220,7 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
             "flags": noticed(data["flags"]),
             "diagram": outcome.drawing(),
             "stream_table": stream_table(outcome),
+            "utility_table": utility_table(outcome),
         }
     )
 

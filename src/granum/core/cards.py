@@ -11,6 +11,7 @@ from granum.core.docstrings import written_doc
 from granum.core.index import Entry, entries
 from granum.core.limits import Limit
 from granum.core.parameters import Parameter
+from granum.core.utilities import Use
 
 Ranges = Mapping[str, tuple[float, float]]
 
@@ -27,7 +28,7 @@ class Card:
     source: key in ``references`` with equation, table or page.
     equation: LaTeX.
     family: what it can be passed as, for laws (``drag_coefficient``).
-    limits: practical limits, for equipment.
+    limits: practical limits, utilities: what is taken from outside, for equipment.
     arguments: what a law is called with, besides the parameters that it is made of.
     """
 
@@ -45,6 +46,7 @@ class Card:
     attribute: str
     limits: tuple[Limit, ...] = ()
     arguments: tuple[Parameter, ...] = ()
+    utilities: tuple[Use, ...] = ()
 
     @cached_property
     def entry(self) -> Entry:
@@ -115,6 +117,7 @@ class Card:
             "fitted": {k: [float(a), float(b)] for k, (a, b) in self.fitted.items()},
             "family": self.family,
             "limits": [limit.as_json() for limit in self.limits],
+            "utilities": [use.as_json() for use in self.utilities],
             "doc": self.doc,
         }
 
@@ -145,6 +148,7 @@ def make_card(
     limits: tuple[Limit, ...] = (),
     arguments: tuple[Parameter, ...] = (),
     symbols: Mapping[str, str] | None = None,
+    utilities: tuple[Use, ...] = (),
 ) -> Card:
     """The card of a declared function or class.
 
@@ -171,4 +175,5 @@ def make_card(
         attribute=thing.__name__,
         limits=limits,
         arguments=arguments,
+        utilities=utilities,
     )

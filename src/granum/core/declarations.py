@@ -23,6 +23,8 @@ from granum.core.notices import describe
 from granum.core.parameters import REQUIRED, Parameter, outputs_of, parameter_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
+from granum.core.utilities import Use
+from granum.core.utilities import parameter as used
 
 T = TypeVar("T")
 
@@ -102,6 +104,7 @@ def _declare(
             title=title,
             limits=tuple(getattr(cls, "limits", {}).values()),
             symbols=symbols,
+            utilities=tuple(Use(used(n), u) for n, u in getattr(cls, "utilities", {}).items()),
         )
 
     original = cls.__init__

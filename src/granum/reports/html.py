@@ -31,6 +31,7 @@ from granum.reports.quantities import (
     value_text,
 )
 from granum.reports.streams import audit_text, stream_table
+from granum.reports.utilities import utility_table
 from granum.streams.stream import main_phase
 
 
@@ -197,6 +198,8 @@ def line_report(run: Any) -> str:
         for name in run.sheet.order
         for p in (run.units[name].model.card.source, *(c.source for c in run.units[name].checks))
     }
+    taken = utility_table(run)
+    keys |= {u.source for name in run.sheet.order for u in run.units[name].model.utilities.values()}
     keys |= {step.card.source for steps in run.notes.values() for step in steps}
     block = [
         (_("Project"), told.get("project", "")),
@@ -237,6 +240,7 @@ def line_report(run: Any) -> str:
         },
         diagram=run.drawing(),
         streams=stream_table(run),
+        utilities=taken,
         fits=_fit_sheets(run),
         symbols=nomenclature(step for steps in run.notes.values() for step in steps),
         charts=_charts(run),

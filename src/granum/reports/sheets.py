@@ -13,7 +13,7 @@ from granum.core.i18n import _
 
 
 def table_rows(run: Any) -> dict[str, list[list[Any]]]:
-    """The two tables of a solved line, SI units: streams and unit results."""
+    """The tables of a solved line, SI units: streams, unit results, utilities."""
     data = run.as_json()
     species = [
         (phase, name)
@@ -41,11 +41,18 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
     for unit, row in data["units"].items():
         for name, figure in row["results"].items():
             results.append([unit, row["model"], name, figure["value"], figure["unit"]])
-    return {"streams": streams, "results": results}
+    taken: list[list[Any]] = [["unit", "utility", "carrier", "value", "unit of value", "counted"]]
+    for unit, row in data["units"].items():
+        for name, use in row["utilities"].items():
+            taken.append([unit, name, use["carrier"], use["value"], use["unit"], use["counted"]])
+    for name, total in data["utilities"].items():
+        if isinstance(total, dict) and "value" in total:
+            taken.append(["", name, "", total["value"], total["unit"], ""])
+    return {"streams": streams, "results": results, "utilities": taken}
 
 
 def write_tables(run: Any, path: Path) -> None:
-    """Write ``.csv`` (both tables one under the other) or ``.xlsx`` (a sheet each)."""
+    """Write ``.csv`` (the tables one under the other) or ``.xlsx`` (a sheet each)."""
     tables = table_rows(run)
     if path.suffix == ".csv":
         text = io.StringIO()

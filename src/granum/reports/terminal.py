@@ -33,6 +33,7 @@ from granum.reports.quantities import (
     statistics_text,
     value_text,
 )
+from granum.reports.utilities import utility_rows
 
 CAUTION, OUT, OK = "dark_orange3", "red3", "green4"
 NOTEBOOK = 110  # characters across
@@ -203,6 +204,11 @@ def print_card(card: Card) -> None:
         table = _table((_("practical limit"), "left"), (_("allowed"), "left"), (_("source"), "left"))
         for row in limit_rows(card):
             table.add_row(*row)
+        console.print(table)
+    if card.utilities:
+        table = _table((_("utility"), "left"), (_("source"), "left"))
+        for cells in utility_rows(card):
+            table.add_row(*cells)
         console.print(table)
     if card.equation:
         console.print(Text(card.equation, style="cyan"))

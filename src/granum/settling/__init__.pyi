@@ -77,6 +77,9 @@ from granum.settling.formulas.lamella import (
     lamella_area as lamella_area,
     relative_length_transition_yao as relative_length_transition_yao,
 )
+from granum.settling.formulas.rakes import (
+    rake_torque as rake_torque,
+)
 from granum.settling.formulas.sludge_index import (
     Velocities as Velocities,
     sludge_volume_index as sludge_volume_index,

@@ -17,6 +17,7 @@ import {
 import { Plot } from './plot.js';
 import { caseAt, keepDraft, packed } from './drafts.js';
 import { Field } from './form.js';
+import { Utilities } from './utilities.js';
 
 const MOST_KEPT = 2;
 const NEW = 'computer:line.toml'; // the place of a text that is no file yet
@@ -330,6 +331,7 @@ function Outcome({ data, kept, form, typedIn, tools, clear }) {
     ${kept.length > 0 && html`<${Comparison} cases=${cases} clear=${clear} />`}
     <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
       <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
+    <${Utilities} table=${data.utility_table} />
     <h2>${t('Equipment')}</h2><div class="columns">${Object.entries(data.units).map(([name, unit]) => html`<div class="card"><${UnitPanel} name=${name} unit=${unit} cases=${cases} /></div>`)}</div></div>`;
 }
 

@@ -79,6 +79,12 @@ export const french = {
   'standard error': 'erreur type',
   '95 % interval': 'intervalle à 95 %',
   'unit': 'unité',
+  'Utilities': 'Utilités',
+  'utility': 'utilité',
+  'source': 'source',
+  'whole line': 'ligne entière',
+  'Product: {stream}. In brackets: given by another unit of the line, and not counted.':
+    'Produit : {stream}. Entre parenthèses : fourni par un autre appareil de la ligne, et non compté.',
   'Data and fit': 'Données et ajustement',
   'Download the result': 'Télécharger le résultat',
   'Open a case file': 'Ouvrir un fichier de cas',

@@ -39,7 +39,8 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.particles.formulas.terminal import terminal_velocity
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import DRIVE, driven
 
 HINDRANCE = 4.65  # Richardson and Zaki's exponent for slow settling
 Ends = tuple[float, float]
@@ -92,6 +93,8 @@ class SettlingCentrifuge(Unit):
     _: KW_ONLY
     sediment_solids_fraction: OpenFraction = 0.5
     sigma_efficiency: PositiveNumber = 0.6
+
+    utilities: ClassVar[Utilities] = DRIVE
 
     @abc.abstractmethod
     def sigma(self) -> Any:
@@ -162,6 +165,11 @@ class SettlingCentrifuge(Unit):
             "speed": self.rotation_speed,
             "pond": self.radius_inner / self.radius_outer,
         }
+
+    def drawn(
+        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return {"electric_power_drive": driven(figures.shaft_power)}
 
 
 @equipment(

@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 import jax.numpy as jnp
 
 from granum.core import equipment
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.errors import InputError
 from granum.core.i18n import _
 from granum.core.kinds import Area, Fraction, Law, Mass, Power, Temperature, VoidFraction, Within
@@ -30,9 +31,11 @@ from granum.fluidization.formulas.minimum import minimum_fluidization_velocity_w
 from granum.streams.cakes import solid_diameter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import AREA
 
 TABLE = NOTES.format(table="IV.16")
+DISTRIBUTOR = 0.3  # of the pressure drop of the bed
 AMBIENT = 298.15  # K, at which vapor diffuses between bubbles and their clouds
 
 
@@ -69,6 +72,8 @@ class FluidBedDryer(CellDryer):
         "time": Limit("residence time of the solid", 120.0, 3600.0, "s", TABLE),
         "capacity": Limit("water evaporated per area and hour", 30.0, 200.0, "kg/(hour*m^2)", TABLE),
     }
+
+    utilities: ClassVar[Utilities] = CellDryer.utilities | AREA
 
     def extent(self) -> Any:
         return self.area
@@ -181,6 +186,15 @@ class FluidBedDryer(CellDryer):
             "time": figures.residence_time,
             "capacity": self.hourly(figures),
         }
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Weight of the bed, and a third of it in the distributor."""
+        return (1.0 + DISTRIBUTOR) * self.mass * STANDARD_GRAVITY / self.area
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return super().drawn(inside, outlets, figures, feed, gas) | {"area_installed": self.area}
 
 
 @ready

@@ -24,6 +24,7 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.equipment.atomizers import Liquor
 from granum.drying.gas_solid.cells import Inlet, Network
 from granum.drying.gas_solid.conveyed import Path, convey, drop_ratio, liquid_density
@@ -33,7 +34,8 @@ from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits
+from granum.streams.units import Limits, Utilities
+from granum.streams.utilities import driven
 
 TABLE = NOTES.format(table="IV.2")
 GROWTH = 1.08  # of the cells from the atomizer on
@@ -69,6 +71,8 @@ class SprayDryer(Dryer):
         "capacity": Limit("water evaporated per volume and hour", 1.0, 30.0, "kg/(hour*m^3)", TABLE),
         "slender": Limit("height over diameter of the chamber", 0.6, 5.0, "dimensionless", "masters1991"),
     }
+
+    utilities: ClassVar[Utilities] = Dryer.utilities | {"electric_power_atomizer": Utility("masters1991")}
 
     def extent(self) -> Any:
         return 0.25 * pi * self.diameter**2 * self.length
@@ -144,6 +148,13 @@ class SprayDryer(Dryer):
             "time": self.extent() / outlets.exhaust.gas_volume_flow,
             "capacity": self.hourly(figures),
             "slender": jnp.asarray(self.length / self.diameter),
+        }
+
+    def drawn(
+        self, inside: Through, outlets: Dried, figures: DryerFigures, feed: Stream, gas: Stream
+    ) -> dict[str, Any]:
+        return super().drawn(inside, outlets, figures, feed, gas) | {
+            "electric_power_atomizer": driven(self.atomizer.shaft_power(self.liquor(feed, gas)))
         }
 
 

@@ -29,6 +29,7 @@ from granum.core.kinds import (
     Time,
 )
 from granum.core.limits import Limit
+from granum.core.utilities import Utility
 from granum.drying.gas_solid.cells import Contact, Inlet, Profile
 from granum.drying.gas_solid.kinetics import AbstractKinetics, Meeting
 from granum.drying.gas_solid.liquor import composition, counted, moistened
@@ -37,7 +38,8 @@ from granum.numerics import safe_divide
 from granum.streams.atmosphere import FLAMMABLE, flammable
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Operated, Unit
+from granum.streams.units import Limits, Operated, Unit, Utilities
+from granum.streams.utilities import DUCT, HOT_GAS, ducted, warmth
 
 WIDER = 3.0  # steps in which a size is sought
 NOTES = "houdon2017, notes D table {table}"
@@ -135,6 +137,8 @@ class Dryer(Unit):
         "hot": Limit("product temperature over its limit", -math.inf, 0.0, "delta_degC", "keey1978"),
     } | FLAMMABLE
 
+    utilities: ClassVar[Utilities] = HOT_GAS | {"electric_power_fan": Utility(DUCT)}
+
     @abstractmethod
     def through(self, *inlets: Any) -> Through:
         """The steady state."""
@@ -191,6 +195,21 @@ class Dryer(Unit):
         if self.temperature_limit is not None:
             found["hot"] = figures.temperature_product_highest - self.temperature_limit
         return found
+
+    def drawn(
+        self,
+        inside: Through,
+        outlets: Any,
+        figures: DryerFigures,
+        feed: Stream,
+        gas: Stream,
+        **_others: Any,
+    ) -> dict[str, Any]:
+        return warmth(gas) | {"electric_power_fan": ducted(gas, self.pressure_lost(feed, gas))}
+
+    def pressure_lost(self, feed: Stream, gas: Stream) -> Any:
+        """Pressure that the gas loses in the dryer itself, Pa; none worth counting unless a dryer says so."""
+        return 0.0
 
     def charts(self, made: Operated, inlets: Mapping[str, Stream]) -> dict[str, Any]:
         from granum.drying.profile_charts import drawn_profile

@@ -23,6 +23,7 @@ from granum.settling.equipment.gravity import (
     Settled,
     class_velocities,
 )
+from granum.settling.equipment.rakes import CLARIFIER, RAKED, raked, scraped
 from granum.settling.formulas.basins import removal_efficiency_camp, removal_efficiency_hazen
 from granum.settling.formulas.lamella import (
     critical_velocity_cocurrent,
@@ -32,7 +33,8 @@ from granum.settling.formulas.lamella import (
 from granum.streams.holdup import Held, at_rest, filled, mass, mixed
 from granum.streams.mixture import Mixture
 from granum.streams.stream import Stream
-from granum.streams.units import Dynamic, Limits
+from granum.streams.units import Dynamic, Limits, Utilities
+from granum.streams.utilities import AREA
 
 
 def grade_efficiency(velocity: Any, critical: Any, tank_number: Any) -> Any:
@@ -84,6 +86,8 @@ class Clarifier(AbstractBasin):
     drag: Drag = DRAG
     hindrance: Hindrance = HINDRANCE
 
+    utilities: ClassVar[Utilities] = RAKED | AREA
+
     def settling_area(self) -> Any:
         return self.area
 
@@ -95,6 +99,9 @@ class Clarifier(AbstractBasin):
         return cls(
             area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more
         )
+
+    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_rake": raked(self.area, CLARIFIER), "area_installed": self.area}
 
 
 class _Deep(AbstractBasin, Dynamic):
@@ -150,6 +157,8 @@ class CircularClarifier(_Deep):
         "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
     }
 
+    utilities: ClassVar[Utilities] = RAKED | AREA
+
     def settling_area(self) -> Any:
         return jnp.pi / 4.0 * self.diameter**2
 
@@ -160,6 +169,10 @@ class CircularClarifier(_Deep):
             "slope": self.bottom_slope,
             "time": self.volume / feed.slurry_volume_flow / HOUR,
         }
+
+    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        area = self.settling_area()
+        return {"electric_power_rake": raked(area, CLARIFIER), "area_installed": area}
 
 
 @equipment("rectangular_clarifier", source="degremont2007; camp1946", title="Rectangular clarifier")
@@ -185,6 +198,8 @@ class RectangularClarifier(_Deep):
         "time": Limit("residence time", 1.5, 4.0, "hour", "metcalf2003"),
     }
 
+    utilities: ClassVar[Utilities] = RAKED | AREA
+
     def settling_area(self) -> Any:
         return self.length * self.width
 
@@ -195,6 +210,12 @@ class RectangularClarifier(_Deep):
             "depth": self.height,
             "velocity": flow / (self.width * self.height),
             "time": self.volume / flow / HOUR,
+        }
+
+    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {
+            "electric_power_rake": scraped(self.length, self.width),
+            "area_installed": self.settling_area(),
         }
 
 
@@ -231,6 +252,8 @@ class Lamella(AbstractSettler):
         "reynolds": Limit("Reynolds number between the plates", 0.0, 800.0, "dimensionless", "degremont2007"),
     }
 
+    utilities: ClassVar[Utilities] = AREA
+
     def plate_velocity(self, feed: Stream) -> Any:
         """Mean velocity of the water between the plates, m/s."""
         across = self.plate_length if self.flow_direction == "crosscurrent" else self.plate_width
@@ -256,6 +279,9 @@ class Lamella(AbstractSettler):
             / feed.liquid_viscosity,
         }
 
+    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {"area_installed": self.plate_number * self.plate_length * self.plate_width}
+
 
 @equipment("grit_chamber", source="camp1946; metcalf2003", title="Grit chamber")
 class GritChamber(AbstractBasin):
@@ -277,6 +303,8 @@ class GritChamber(AbstractBasin):
         "time": Limit("residence time", 45.0, 90.0, "s", "metcalf2003"),
     }
 
+    utilities: ClassVar[Utilities] = RAKED | AREA
+
     def settling_area(self) -> Any:
         return self.length * self.width
 
@@ -285,4 +313,10 @@ class GritChamber(AbstractBasin):
         return super().measured(inside, outlets, figures, feed) | {
             "velocity": flow / (self.width * self.height),
             "time": self.settling_area() * self.height / flow,
+        }
+
+    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+        return {
+            "electric_power_rake": scraped(self.length, self.width),
+            "area_installed": self.settling_area(),
         }

@@ -11,9 +11,11 @@ from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Rati
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.equipment.gravity import Outlets, concentration, divide
+from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import limiting_flux_underflow
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import AREA
 
 Settling = Annotated[Any, Law("settling_velocity")]
 
@@ -50,6 +52,8 @@ class Thickener(Unit):
         "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
+
+    utilities: ClassVar[Utilities] = RAKED | AREA
 
     def inside(self, feed: Stream) -> Any:
         """Limiting flux and the layer that causes it."""
@@ -91,6 +95,9 @@ class Thickener(Unit):
             "clarification": figures.clarification_ratio,
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
+
+    def drawn(self, inside: Any, outlets: Outlets, figures: ThickenerFigures, feed: Stream) -> dict[str, Any]:
+        return {"electric_power_rake": raked(self.area, THICKENER), "area_installed": self.area}
 
     @classmethod
     def size(

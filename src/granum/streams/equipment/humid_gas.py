@@ -18,7 +18,8 @@ from granum.core.limits import Limit
 from granum.numerics import find_root
 from granum.streams.equilibrium import HumidMixture
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit
+from granum.streams.units import Limits, Unit, Utilities
+from granum.streams.utilities import COOLED, HEATED, cooled, heated
 
 COLDEST = 200.0
 UNSOLVED = (
@@ -128,6 +129,8 @@ class CondenserCooler(Unit):
 
     limits: ClassVar[Limits] = _above_freezing("ashrae2017")
 
+    utilities: ClassVar[Utilities] = HEATED | COOLED
+
     def outlets(self, inside: None, gas: Stream) -> Cooled:
         out = HumidMixture(gas.mixture).at_temperature(gas, self.temperature)
         return Cooled(*_drained(out), out.enthalpy_flow - gas.enthalpy_flow)
@@ -140,6 +143,9 @@ class CondenserCooler(Unit):
             "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
         }
 
+    def drawn(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return heated(outlets.heat_duty, self.temperature) | cooled(outlets.heat_duty, self.temperature)
+
 
 @equipment("dehumidifying_coil", source="ashrae2017, ch. 1; mcquiston2005", title="Dehumidifying coil")
 class DehumidifyingCoil(Unit):
@@ -151,6 +157,8 @@ class DehumidifyingCoil(Unit):
     coil_bypass_fraction: Fraction = 0.1
 
     limits: ClassVar[Limits] = _above_freezing("mcquiston2005")
+
+    utilities: ClassVar[Utilities] = COOLED
 
     def outlets(self, inside: None, gas: Stream) -> Cooled:
         share = 1.0 - self.coil_bypass_fraction
@@ -172,6 +180,9 @@ class DehumidifyingCoil(Unit):
             "liquid": outlets.condensate.temperature
             - HumidMixture(outlets.condensate.mixture).freezing_temperature
         }
+
+    def drawn(self, inside: None, outlets: Cooled, figures: CoolerFigures, gas: Stream) -> dict[str, Any]:
+        return cooled(outlets.heat_duty, self.coil_temperature)
 
 
 class Humidified(NamedTuple):

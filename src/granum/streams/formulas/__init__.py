@@ -1,0 +1,1 @@
+"""What fans, pumps, compressors and stirrers take."""
