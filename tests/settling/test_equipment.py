@@ -83,6 +83,33 @@ def test_clarifier_removes_each_class_in_the_ratio_of_its_velocity():
     np.testing.assert_allclose(removed, np.minimum(v / (0.1 / 100.0), 1.0), rtol=1e-4)
 
 
+def test_what_floats_is_skimmed_by_the_same_statement_and_never_sinks():
+    stream = feed(sand=0.0, oil=1e-6)
+    out = Clarifier(100.0, 100.0, skimmings_concentration=300.0)(stream)
+    skimmed = np.asarray(out.skimmings.solid[1] / stream.solid[1])
+    v = -np.asarray(terminal_velocity(MIXTURE.sizes, 880.0, 1000.0, 1e-3))
+    np.testing.assert_allclose(skimmed, np.minimum(v / (0.1 / 100.0), 1.0), rtol=1e-4)
+    assert float(out.underflow.mass_flow) == 0.0
+    assert float(out.skimmings.solid_flow / out.skimmings.slurry_volume_flow) == pytest.approx(300.0)
+    # side by side with sand, in either order of the species
+    both = CircularClarifier(12.0, 3.0, 100.0)(feed())
+    assert float(both.underflow.solid[1].sum()) == float(both.skimmings.solid[0].sum()) == 0.0
+    turned = Mixture(MIXTURE.solids[::-1], MIXTURE.liquids, (), EDGES, liquid_viscosity=lambda w, T: 1e-3)
+    other = empty(turned).replace(solid=feed().solid[::-1], liquid=feed().liquid)
+    again = CircularClarifier(12.0, 3.0, 100.0)(other)
+    np.testing.assert_allclose(again.skimmings.solid[::-1], both.skimmings.solid, rtol=1e-12)
+
+
+def test_a_machine_without_a_skimmer_says_that_oil_has_no_outlet():
+    stream, sludge = feed(sand=0.02, oil=0.01), Vesilind("5 m/hour", 0.2)
+    for unit in (Thickener(100.0, 30.0, sludge), UNITS[-1]):
+        made = unit.operate(feed=stream)
+        said = {check.name: check for check in made.checks}["floating matter, which has no outlet here"]
+        assert not said.ok
+        assert float(said.value) == pytest.approx(1 / 3)
+    assert float(Thickener(100.0, 30.0, sludge)(stream).underflow.solid[1].sum()) == 0.0
+
+
 def test_thickener_passes_the_limit_and_spills_the_rest():
     sludge = Vesilind("5 m/hour", 0.5)
     stream = empty(MIXTURE).replace(solid=jnp.zeros((2, 12)).at[0].set(0.05), liquid=jnp.array([240.0]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, exp, log
+from math import ceil, exp, inf, log, sqrt
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -25,7 +25,12 @@ from granum.core.units import format_number
 # Settling velocity, m/s, below which a machine of that effect cannot be made large enough: the flow over area
 # of common machines.
 LEAST_GRAVITY, LEAST_SPUN = 3e-5, 1e-4
+VOIDS = 0.45  # of the cake by which filters are judged
 DECADE_OUT = log(10.0)
+# What speaks against a machine that is within all its ranges, as natural logarithms: at the end of a range,
+# per decade of needless speed or pressure, for a product that is all liquid.
+AT_THE_END, NEEDLESS, WET = 0.5, 0.15 * DECADE_OUT, 0.4
+AMPLE = 100.0  # times faster than needed, from where a machine does more than it has to
 
 
 class Separators(NamedTuple):
@@ -38,11 +43,165 @@ class Separators(NamedTuple):
     speaks_against: Annotated[str, Series("machines")]
 
 
+class _Case(NamedTuple):
+    """What is asked: SI, the velocity of sinking (negative: rising) under gravity."""
+
+    size: float
+    falling: float
+    solids: float
+    flow: float
+    wanted: float
+    viscosity: float
+    washing: bool
+    drops: bool
+
+
+class _Judged:
+    """What speaks for and against one machine, and how much, as a natural logarithm."""
+
+    def __init__(self) -> None:
+        self.missing = 0.0
+        self.good: list[str] = []
+        self.why: list[str] = []
+
+    def against(self, much: float, reason: str) -> None:
+        self.missing += much
+        self.why.append(reason)
+
+    def ranged(self, value: float, ends: tuple[float, float], weight: float, told: tuple[str, ...]) -> None:
+        """A range of use: outside by the logarithm of how far, inside by how near its ends (``told``: inside,
+        near an end, outside).
+        """
+        low, high = max(ends[0], 1e-7), ends[1]
+        within, near, outside = told
+        off = _outside(value, low, high)
+        if off > 0.0:
+            self.against(off * weight, outside)
+            return
+        half = 0.5 * log(high / low)
+        edge = abs(log(max(value, low) / low) - half) / half
+        # A range that begins at nothing has no lower end to be near to.
+        edge = 0.0 if ends[0] == 0.0 and value < sqrt(low * high) else edge
+        self.missing += AT_THE_END * weight * edge**2
+        (self.why if edge > 0.85 else self.good).append(near if edge > 0.85 else within)
+
+
 def _outside(value: float, low: float, high: float) -> float:
     """By how much a value lies outside a range, as a natural logarithm."""
     if value < low:
         return log(low / max(value, 1e-12))
     return log(value / high) if value > high else 0.0
+
+
+def _judge_ranges(machine: dict[str, Any], case: _Case, found: _Judged) -> None:
+    # several machines side by side, or one at part load, are possible: flow counts a third
+    for value, span, scale, weight, words in (
+        (
+            case.size,
+            "size",
+            1e6,
+            1.0,
+            (
+                _("made for {low} to {high} µm"),
+                _("near the end of its {low} to {high} µm"),
+                _("particle size outside {low} to {high} µm"),
+            ),
+        ),
+        (
+            case.flow,
+            "flow",
+            3600.0,
+            1.0 / 3.0,
+            (
+                _("made for {low} to {high} m³/h"),
+                _("near the end of its {low} to {high} m³/h"),
+                _("flow outside {low} to {high} m³/h"),
+            ),
+        ),
+        (
+            case.solids,
+            "solids",
+            100.0,
+            1.0,
+            (
+                _("made for {low} to {high} % by volume"),
+                _("near the end of its {low} to {high} % by volume"),
+                _("solids outside {low} to {high} % by volume"),
+            ),
+        ),
+    ):
+        low, high = machine[f"{span}_low"], machine[f"{span}_high"]
+        ends = {
+            "low": format_number(low * scale, 3),
+            "high": format_number(high * scale, 3),
+        }
+        found.ranged(value, (low, high), weight, tuple(word.format(**ends) for word in words))
+
+
+def _judge_settling(machine: dict[str, Any], case: _Case, found: _Judged) -> None:
+    if not machine["settles"]:
+        return
+    spun = machine["effect"] != 1
+    least = LEAST_SPUN if spun else LEAST_GRAVITY
+    speed = abs(case.falling) * machine["effect"]
+    off = _outside(speed, least, inf)
+    if off > 0:
+        found.against(off, _("settles too slowly") if case.falling >= 0 else _("rises too slowly"))
+    else:
+        found.good.append(_("settles fast enough") if case.falling >= 0 else _("rises fast enough"))
+        spare = log(speed / (AMPLE * least))
+        if spun and spare > 0.0:
+            found.against(NEEDLESS * spare / DECADE_OUT, _("spins harder than such grains need"))
+    if case.falling < 0 and not machine["skims"]:
+        found.against(2.0 * DECADE_OUT, _("has no outlet for what floats"))
+    elif case.falling < 0:
+        found.good.append(_("takes off what floats"))
+
+
+def _judge_cake(machine: dict[str, Any], case: _Case, found: _Judged) -> None:
+    """Whether the cake that the machine can discharge forms in the time it gives, by Kozeny and Carman."""
+    if not machine["pressure"]:
+        return
+    resistance = 180.0 * (1.0 - VOIDS) ** 2 / (VOIDS**3 * case.size**2)
+    per_filtrate = case.solids / max(1.0 - VOIDS - case.solids, 0.01)
+    forming = (
+        case.viscosity
+        * resistance
+        * machine["cake_thickness"] ** 2
+        / (2.0 * max(per_filtrate, 1e-9) * machine["pressure"])
+    )
+    told = format_number(1e3 * machine["cake_thickness"], 2), format_number(forming / 60.0, 2)
+    spare = machine["form_time"] / forming
+    if spare < 1.0:
+        found.against(
+            -log(spare), _("{thick} mm of cake take {time} min to form").format(thick=told[0], time=told[1])
+        )
+    else:
+        found.good.append(_("{thick} mm of cake form in {time} min").format(thick=told[0], time=told[1]))
+        if spare > AMPLE:
+            found.against(
+                NEEDLESS * log(spare / AMPLE) / DECADE_OUT,
+                _("presses harder or longer than such a cake needs"),
+            )
+
+
+def _judge_product(machine: dict[str, Any], case: _Case, found: _Judged) -> None:
+    left = machine["liquid_left"]
+    told = format_number(100 * left, 2)
+    if left > case.wanted:
+        found.against(
+            2.0 * log(left / max(case.wanted, 0.01)),
+            _("leaves more liquid ({value} % by volume)").format(value=told),
+        )
+    else:
+        found.good.append(_("leaves {value} % of liquid by volume").format(value=told))
+    found.missing += WET * left
+    if case.drops and not machine["takes_drops"]:
+        found.against(2.0 * DECADE_OUT, _("cannot hold drops"))
+    if case.washing and not machine["washes"]:
+        found.against(DECADE_OUT, _("cannot wash"))
+    elif case.washing:
+        found.good.append(_("washes the cake"))
 
 
 def _size(machine: dict[str, Any], flow: float, falling: float) -> str:
@@ -51,8 +210,8 @@ def _size(machine: dict[str, Any], flow: float, falling: float) -> str:
     """
     count = max(ceil(flow / machine["flow_high"] - 1e-9), 1)
     told = [_("1 machine") if count == 1 else _("{count} machines").format(count=count)]
-    if machine["settles"] and falling > 0.0:
-        area = format_number(flow / falling, 2)
+    if machine["settles"] and falling != 0.0:
+        area = format_number(flow / abs(falling), 2)
         least = (
             _("settling area {area} m²") if machine["effect"] == 1 else _("like {area} m² of settling area")
         )
@@ -72,93 +231,51 @@ def separator_choice(
     liquid_left_wanted: Fraction = 1.0,
     dynamic_viscosity: DynamicViscosity = 1e-3,
     washing: bool = False,
+    drops: bool = False,
 ) -> Separators:
     """Settlers, centrifuges and filters ranked for a slurry by size, settling velocity, concentration, flow,
-    dryness and washing.
+    cake formation, dryness and washing.
 
-    The suitability is 1 where every figure lies in the range the machine is commonly used for, and falls by a
-    factor e for each decade outside. The ranges are orders of magnitude: use the list to decide what to test.
+    Light solids and light drops have a negative difference of density: they need an outlet for what floats;
+    drops smear through a cake. The
+    suitability falls by a factor e for each decade outside a range of use, settling too slow or cake forming
+    too slow, and less within: toward the ends of the ranges, with needless speed or pressure, with liquid
+    left in the solid. The ranges are orders of magnitude: use the list to decide what to test.
 
-    The size tells how many machines of the largest kind take the flow and, of those in which solids settle,
-    the area Q/v on which such grains settle out by Stokes' law: in plan, or as the Σ of what spins.
+    The cake is judged by Kozeny and Carman at 45 % voids: the time that the thinnest cake a machine
+    discharges well takes to form against the time that it commonly has. The size tells how many machines of
+    the largest kind take the flow and, of those in which solids settle, the area Q/v on which such grains
+    settle out by Stokes' law: in plan, or as the Σ of what spins.
 
     >>> separator_choice(
     ...     "300 um", 1100, 0.35, "20 m^3/hour", liquid_left_wanted=0.15, washing=True
     ... ).separator[0]
     'pusher centrifuge'
     """
-    falling = particle_diameter**2 * abs(density_difference) * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
+    falling = particle_diameter**2 * density_difference * STANDARD_GRAVITY / (18.0 * dynamic_viscosity)
+    case = _Case(
+        particle_diameter,
+        falling,
+        solids_volume_fraction,
+        volume_flow,
+        liquid_left_wanted,
+        dynamic_viscosity,
+        washing,
+        drops,
+    )
     rows = []
-    for number in dataset("filtration", "separators_svarovsky2001"):
-        missing, good, why = 0.0, [], []
-        # several machines side by side, or one at part load, are possible: flow counts a third
-        for value, span, scale, weight, within, outside in (
-            (
-                particle_diameter,
-                "size",
-                1e6,
-                1.0,
-                _("made for {low} to {high} µm"),
-                _("particle size outside {low} to {high} µm"),
-            ),
-            (
-                volume_flow,
-                "flow",
-                3600.0,
-                1.0 / 3.0,
-                _("made for {low} to {high} m³/h"),
-                _("flow outside {low} to {high} m³/h"),
-            ),
-            (
-                solids_volume_fraction,
-                "solids",
-                100.0,
-                1.0,
-                _("made for {low} to {high} % by volume"),
-                _("solids outside {low} to {high} % by volume"),
-            ),
-        ):
-            low, high = max(number[f"{span}_low"], 1e-7), number[f"{span}_high"]
-            off = _outside(value, low, high)
-            told = (outside if off > 0 else within).format(
-                low=format_number(low * scale, 3), high=format_number(high * scale, 3)
-            )
-            (why if off > 0 else good).append(told)
-            missing += max(off, 0.0) * weight
-        if number["settles"]:
-            least = LEAST_GRAVITY if number["effect"] == 1 else LEAST_SPUN
-            off = _outside(falling * number["effect"], least, np.inf)
-            if off > 0:
-                why.append(_("settles too slowly"))
-                missing += off
-            else:
-                good.append(_("settles fast enough"))
-        if number["liquid_left"] > liquid_left_wanted:
-            why.append(
-                _("leaves more liquid ({value} % by volume)").format(
-                    value=format_number(100 * number["liquid_left"], 2)
-                )
-            )
-            missing += 2.0 * log(number["liquid_left"] / max(liquid_left_wanted, 0.01))
-        elif liquid_left_wanted < 1.0:
-            good.append(
-                _("leaves {value} % of liquid by volume").format(
-                    value=format_number(100 * number["liquid_left"], 2)
-                )
-            )
-        if washing and not number["washes"]:
-            why.append(_("cannot wash"))
-            missing += DECADE_OUT
-        elif washing:
-            good.append(_("washes the cake"))
+    for machine in dataset("filtration", "separators_svarovsky2001"):
+        found = _Judged()
+        for judge in (_judge_ranges, _judge_settling, _judge_cake, _judge_product):
+            judge(machine, case, found)
         rows.append(
             (
-                exp(-missing / DECADE_OUT),
-                number["liquid_left"],
-                number["name"],
-                _size(number, volume_flow, falling),
-                "; ".join(good),
-                "; ".join(why),
+                exp(-found.missing / DECADE_OUT),
+                machine["liquid_left"],
+                machine["name"],
+                _size(machine, volume_flow, falling),
+                "; ".join(found.good),
+                "; ".join(found.why),
             )
         )
     rows.sort(key=lambda row: (-row[0], row[1]))

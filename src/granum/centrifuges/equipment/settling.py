@@ -20,7 +20,7 @@ from granum.centrifuges.formulas.clarifying import (
 )
 from granum.centrifuges.formulas.field import centrifugal_effect
 from granum.core import equipment
-from granum.core.constants import RPM, STANDARD_GRAVITY
+from granum.core.constants import RPM
 from granum.core.kinds import (
     Angle,
     Area,
@@ -37,12 +37,17 @@ from granum.core.kinds import (
     Within,
 )
 from granum.core.limits import Limit
-from granum.particles.formulas.terminal import terminal_velocity
+from granum.settling.equipment.gravity import (
+    DRAG,
+    HINDRANCE,
+    class_velocities,
+    floating_share,
+    over_axes,
+)
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Unit, Utilities
 from granum.streams.utilities import DRIVE, driven
 
-HINDRANCE = 4.65  # Richardson and Zaki's exponent for slow settling
 Ends = tuple[float, float]
 
 
@@ -71,7 +76,22 @@ def _machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> L
         "solids": Limit("solids in the feed by volume", *solids, "dimensionless", source),
         "flow": Limit("feed flow", *flow, "m^3/s", source),
         "effect": Limit("centrifugal effect", *effect, "dimensionless", source),
+        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source),
     }
+
+
+def excess_density(feed: Stream) -> Any:
+    """By how much the solids that sink are denser than the liquid, kg/m³; what floats is lighter where
+    nothing sinks.
+    """
+    densities = feed.mixture.densities("solids", feed.temperature)
+    apart = densities - feed.liquid_density
+    sinks = apart > 0
+    flows = jnp.where(jnp.any(sinks), jnp.where(sinks, feed.solid_by_species, 0.0), feed.solid_by_species)
+    alike = jnp.where(jnp.any(sinks), 1.0 * sinks, jnp.ones_like(apart))
+    flows = jnp.where(jnp.sum(flows) > 0, flows, alike)
+    volumes = flows / densities
+    return jnp.maximum(jnp.sum(volumes * jnp.abs(apart)) / jnp.sum(volumes), 1e-3)
 
 
 def _slender(low: float, high: float) -> Limits:
@@ -81,10 +101,10 @@ def _slender(low: float, high: float) -> Limits:
 class SettlingCentrifuge(Unit):
     """Abstract settling centrifuge.
 
-    Particles settle as in Stokes' range at the centrifugal effect of the mean radius (with the drag of their
-    true Reynolds number), hindered by one another. ``sediment_solids_fraction`` is the volume fraction of
-    solid in what is discharged: a property of the sediment, from a spin test. ``sigma_efficiency`` derates
-    the machine against its theory.
+    Particles of each species settle as in Stokes' range at the centrifugal effect of the mean radius (with
+    the drag of their true Reynolds number), hindered by one another; drops count as rigid spheres.
+    ``sediment_solids_fraction`` is the volume fraction of solid in what is discharged: a property of the
+    sediment, from a spin test. ``sigma_efficiency`` derates the machine against its theory.
     """
 
     radius_inner: Length
@@ -109,25 +129,23 @@ class SettlingCentrifuge(Unit):
         """Share of a size caught, from its settling velocity under gravity and the flow."""
         return grade_efficiency_thin_layer(velocity, flow, self.sigma())
 
-    def grade(self, feed: Stream) -> Any:
-        """Share of each size class caught."""
+    def velocities(self, feed: Stream) -> Any:
+        """Velocity of each species and size class under gravity, m/s, with the drag it has in the field;
+        negative for what rises.
+        """
         effect = centrifugal_effect(0.5 * (self.radius_inner + self.radius_outer), self.rotation_speed)
-        velocity = jnp.maximum(
-            terminal_velocity(
-                jnp.asarray(feed.mixture.sizes),
-                feed.solid_density,
-                feed.liquid_density,
-                feed.liquid_viscosity,
-                effect * STANDARD_GRAVITY,
-            ),
-            0.0,
-        )
-        hindered = velocity / effect * (1.0 - feed.solids_volume_fraction) ** HINDRANCE
-        return self.efficiency(self.sigma_efficiency * hindered, jnp.maximum(feed.slurry_volume_flow, 1e-300))
+        return class_velocities(feed, DRAG, HINDRANCE, effect)
+
+    def grade(self, feed: Stream) -> Any:
+        """Share of each species and size class caught at the wall."""
+        velocity = self.velocities(feed)
+        flow = jnp.maximum(feed.slurry_volume_flow, 1e-300)
+        share = self.efficiency(self.sigma_efficiency * jnp.maximum(velocity, 0.0), flow)
+        return jnp.where(velocity > 0, share, 0.0)
 
     def outlets(self, inside: None, feed: Stream) -> Clarified:
-        caught = feed.part(solid=feed.by_size(self.grade(feed)))
-        void = caught.solid_flow / feed.solid_density * (1.0 / self.sediment_solids_fraction - 1.0)
+        caught = feed.part(solid=over_axes(self.grade(feed), feed))
+        void = caught.solid_volume_flow * (1.0 / self.sediment_solids_fraction - 1.0)
         flow = feed.liquid_volume_flow
         share = jnp.minimum(void, flow) / jnp.where(flow > 0, flow, 1.0)
         sediment = caught.replace(liquid=share * feed.liquid)
@@ -141,7 +159,7 @@ class SettlingCentrifuge(Unit):
             cut_size_centrifuge=cut_size_centrifuge(
                 feed.slurry_volume_flow,
                 self.sigma(),
-                feed.solid_density,
+                feed.liquid_density + excess_density(feed),
                 feed.liquid_density,
                 feed.liquid_viscosity,
                 self.flow_multiple,
@@ -164,6 +182,7 @@ class SettlingCentrifuge(Unit):
             "effect": figures.centrifugal_effect,
             "speed": self.rotation_speed,
             "pond": self.radius_inner / self.radius_outer,
+            "floats": floating_share(feed),
         }
 
     def drawn(
@@ -214,8 +233,10 @@ class TubularBowl(SettlingCentrifuge):
     equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}",
 )
 class DiscStack(SettlingCentrifuge):
-    """Stack of conical discs with narrow gaps: much settling area in a small bowl; for fine solids and
-    emulsions.
+    """Stack of conical discs with narrow gaps: much settling area in a small bowl, for fine solids.
+
+    A clarifier: what is lighter than the liquid stays in it. Emulsions and light solids go to a disc
+    separator.
     """
 
     disc_number: PositiveNumber

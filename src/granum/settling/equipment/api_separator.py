@@ -23,7 +23,15 @@ from granum.core.kinds import (
     VolumeFlow,
 )
 from granum.core.limits import Limit
-from granum.settling.equipment.gravity import DRAG, HINDRANCE, Drag, Hindrance, class_velocities, over_axes
+from granum.settling.equipment.gravity import (
+    DRAG,
+    HINDRANCE,
+    Drag,
+    Hindrance,
+    class_velocities,
+    over_axes,
+    skim,
+)
 from granum.settling.equipment.rakes import RAKED, scraped
 from granum.settling.formulas.api import (
     HORIZONTAL_LIMIT,
@@ -109,20 +117,8 @@ class ApiSeparator(Unit):
         loading = factor * feed.slurry_volume_flow / (self.channel_number * self.length * self.width)
         share = jnp.minimum(jnp.abs(velocity) / loading, 1.0)
         up, down = (over_axes(jnp.where(side, share, 0.0), feed) for side in (velocity < 0, velocity > 0))
-        top, bottom = feed.part(solid=up), feed.part(solid=down)
-        available = jnp.maximum(feed.liquid_volume_flow, 1e-300)
-
-        def liquid(part: Stream, concentration: Any) -> Any:
-            return jnp.maximum(part.solid_flow / concentration - part.solid_volume_flow, 0.0) / available
-
-        over, under = liquid(top, self.skimmings_concentration), liquid(bottom, self.underflow_concentration)
-        scale = 1.0 / jnp.maximum(over + under, 1.0)
-        over, under = over * scale, under * scale
-        return Skimmed(
-            feed.part(solid=up, liquid=over),
-            feed.part(solid=down, liquid=under),
-            feed.part(solid=1.0 - up - down, liquid=1.0 - over - under, gas=1.0),
-        )
+        made = skim(feed, down, up, self.underflow_concentration, self.skimmings_concentration)
+        return Skimmed(made.skimmings, made.underflow, made.overflow)
 
     def figures(self, inside: tuple[Any, Any, Any], outlets: Skimmed, feed: Stream) -> SeparatorFigures:
         horizontal, rise, factor = inside

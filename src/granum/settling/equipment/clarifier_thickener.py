@@ -29,7 +29,7 @@ from granum.core.kinds import (
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
 from granum.settling.column import Cone, Operation, Simulation, Suspension, simulate
-from granum.settling.equipment.gravity import Outlets, concentration, divide
+from granum.settling.equipment.gravity import Outlets, concentration, divide, floating_share
 from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import passing_flux, steady_state
 from granum.streams.holdup import filled, trapezoid
@@ -101,6 +101,7 @@ class ClarifierThickener(Unit, Dynamic):
         "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
         "blanket": Limit("blanket over the depth below the feed", 0.0, 1.0, "dimensionless", "keinath1985"),
         "gathering": Limit("sludge still gathering, of what is fed", 0.0, 0.02, "dimensionless", "diehl2001"),
+        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
 
@@ -330,6 +331,7 @@ class ClarifierThickener(Unit, Dynamic):
             "clarification": figures.clarification_ratio,
             "blanket": figures.blanket_height / (self.height * (1.0 - self.feed_depth_share)),
             "gathering": jnp.abs(gained) / jnp.where(fed > 0, fed, 1.0),
+            "floats": floating_share(feed),
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
 

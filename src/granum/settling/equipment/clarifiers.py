@@ -19,8 +19,8 @@ from granum.settling.equipment.gravity import (
     Drag,
     Figures,
     Hindrance,
-    Outlets,
     Settled,
+    Skimmed,
     class_velocities,
 )
 from granum.settling.equipment.rakes import CLARIFIER, RAKED, raked, scraped
@@ -67,8 +67,11 @@ class AbstractBasin(AbstractSettler):
     def critical_velocity(self, feed: Stream) -> Any:
         return feed.slurry_volume_flow / self.settling_area()
 
-    def removed(self, feed: Stream, critical: Any) -> Any:
-        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), critical, self.tank_number)
+    def velocities(self, feed: Stream) -> Any:
+        return class_velocities(feed, self.drag, self.hindrance)
+
+    def removed(self, velocity: Any, critical: Any) -> Any:
+        return grade_efficiency(velocity, critical, self.tank_number)
 
 
 @equipment("clarifier", source="hazen1904; camp1946", title="Clarifier")
@@ -130,7 +133,7 @@ class _Deep(AbstractBasin, Dynamic):
 
     def advance(
         self, state: Held, before: Mapping[str, Stream], after: Mapping[str, Stream], step: Any, prepared: Any
-    ) -> tuple[Held, Outlets]:
+    ) -> tuple[Held, Skimmed]:
         state, evened = mixed(state, before["feed"], after["feed"], self.volume, step)
         return state, self(evened)
 
@@ -162,7 +165,7 @@ class CircularClarifier(_Deep):
     def settling_area(self) -> Any:
         return jnp.pi / 4.0 * self.diameter**2
 
-    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed) | {
             "diameter": self.diameter,
             "depth": self.height,
@@ -203,7 +206,7 @@ class RectangularClarifier(_Deep):
     def settling_area(self) -> Any:
         return self.length * self.width
 
-    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         flow = feed.slurry_volume_flow
         return super().measured(inside, outlets, figures, feed) | {
             "shape": self.length / self.width,
@@ -265,10 +268,13 @@ class Lamella(AbstractSettler):
             self.plate_velocity(feed), along, self.plate_spacing, self.plate_angle
         )
 
-    def removed(self, feed: Stream, critical: Any) -> Any:
-        return grade_efficiency(class_velocities(feed, self.drag, self.hindrance), critical, self.tank_number)
+    def velocities(self, feed: Stream) -> Any:
+        return class_velocities(feed, self.drag, self.hindrance)
 
-    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def removed(self, velocity: Any, critical: Any) -> Any:
+        return grade_efficiency(velocity, critical, self.tank_number)
+
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return super().measured(inside, outlets, figures, feed) | {
             "angle": jnp.rad2deg(self.plate_angle),
             "spacing": self.plate_spacing,
@@ -308,7 +314,7 @@ class GritChamber(AbstractBasin):
     def settling_area(self) -> Any:
         return self.length * self.width
 
-    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         flow = feed.slurry_volume_flow
         return super().measured(inside, outlets, figures, feed) | {
             "velocity": flow / (self.width * self.height),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import abc
+from dataclasses import KW_ONLY
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
+from granum.core.constants import STANDARD_GRAVITY
 from granum.core.kinds import Concentration, Fraction, Law, Speed, VolumeFlow
 from granum.core.limits import Limit
 from granum.particles.formulas.drag_modern import drag_coefficient_brown_lawler
@@ -28,6 +30,14 @@ class Outlets(NamedTuple):
     overflow: Stream
 
 
+class Skimmed(NamedTuple):
+    """Thick and clear stream, and what is skimmed off the surface."""
+
+    underflow: Stream
+    overflow: Stream
+    skimmings: Stream
+
+
 class Figures(NamedTuple):
     """Figures of a settler."""
 
@@ -39,24 +49,40 @@ class Figures(NamedTuple):
 
 
 class Settled(NamedTuple):
-    """Settling velocity that is removed completely, m/s, and the share removed of each species and size
-    class.
+    """Settling velocity that is removed completely, m/s; the shares that sink and that float out, of each
+    species and size class.
     """
 
     critical: Any
-    removed: Any
+    sunk: Any
+    floated: Any
 
 
-def class_velocities(feed: Stream, drag: Any, hindrance: Any) -> Any:
-    """Hindered settling velocity of each species and size class, m/s; negative for what rises."""
+def class_velocities(feed: Stream, drag: Any, hindrance: Any, effect: Any = 1.0) -> Any:
+    """Hindered settling velocity of each species and size class, m/s; negative for what rises.
+
+    In a field of so many times gravity (``effect``) the velocity is told per unit of it, with the drag of the
+    Reynolds number that the particle has there.
+    """
     m = feed.mixture
     density = m.densities("solids", feed.temperature)[:, None] + 0.0 * jnp.asarray(m.sizes)
     size = jnp.asarray(m.sizes) + 0.0 * density
     liquid = feed.liquid_density, feed.liquid_viscosity
-    alone = terminal_velocity(size, density, *liquid, drag=drag)
+    alone = terminal_velocity(size, density, *liquid, effect * STANDARD_GRAVITY, drag)
     reynolds = reynolds_number(size, jnp.abs(alone), *liquid)
     crowd = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
-    return alone * hindrance(crowd, reynolds)
+    return alone / effect * hindrance(crowd, reynolds)
+
+
+def floats(feed: Stream) -> Any:
+    """Which species of solid are lighter than the liquid: 1 or 0 of each."""
+    return 1.0 * (feed.mixture.densities("solids", feed.temperature) < feed.liquid_density)
+
+
+def floating_share(feed: Stream) -> Any:
+    """Share of the solid, by mass, that is lighter than the liquid."""
+    total = feed.solid_flow
+    return feed.solid_by_species @ floats(feed) / jnp.where(total > 0, total, 1.0)
 
 
 def over_axes(share: Any, feed: Stream) -> Any:
@@ -85,11 +111,39 @@ def divide(feed: Stream, removed: Any, underflow_concentration: Any) -> Outlets:
     )
 
 
+def skim(feed: Stream, sunk: Any, floated: Any, below: Any, above: Any) -> Skimmed:
+    """Underflow and skimmings with their shares of the solids, each thickened to its concentration; the rest
+    is overflow.
+
+    When the feed does not hold enough liquid for both, what there is is shared out.
+    """
+    bottom, top = feed.part(solid=sunk), feed.part(solid=floated)
+    available = feed.liquid_volume_flow
+
+    def liquid(part: Stream, concentration: Any) -> Any:
+        wanted = jnp.maximum(part.solid_flow / concentration - part.solid_volume_flow, 0.0)
+        return wanted / jnp.where(available > 0, available, 1.0)
+
+    under, over = liquid(bottom, below), liquid(top, above)
+    scale = 1.0 / jnp.maximum(under + over, 1.0)
+    under, over = under * scale, over * scale
+    return Skimmed(
+        feed.part(solid=sunk, liquid=under),
+        feed.part(solid=1.0 - sunk - floated, liquid=1.0 - under - over, gas=1.0),
+        feed.part(solid=floated, liquid=over),
+    )
+
+
 class AbstractSettler(Unit):
-    """A settler that removes each size class by its settling velocity against a velocity of the equipment."""
+    """A settler that removes each size class by its settling velocity against a velocity of the equipment:
+    what sinks with the underflow, what is lighter than the liquid by rising to a skimmer.
+    """
 
     if TYPE_CHECKING:  # a field of every subclass
         underflow_concentration: Any
+
+    _: KW_ONLY
+    skimmings_concentration: Concentration = 500.0
 
     limits: ClassVar[Limits] = {
         "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916")
@@ -100,25 +154,31 @@ class AbstractSettler(Unit):
         """Settling velocity that is removed completely, m/s."""
 
     @abc.abstractmethod
-    def removed(self, feed: Stream, critical: Any) -> Any:
-        """Share removed of each species and size class."""
+    def removed(self, velocity: Any, critical: Any) -> Any:
+        """Share removed at each speed of sinking or rising."""
+
+    @abc.abstractmethod
+    def velocities(self, feed: Stream) -> Any:
+        """Settling velocity of each species and size class, m/s; negative for what rises."""
 
     def inside(self, feed: Stream) -> Settled:
-        critical = self.critical_velocity(feed)
-        return Settled(critical, self.removed(feed, critical))
+        critical, velocity = self.critical_velocity(feed), self.velocities(feed)
+        share = self.removed(jnp.abs(velocity), critical)
+        return Settled(critical, jnp.where(velocity > 0, share, 0.0), jnp.where(velocity < 0, share, 0.0))
 
-    def outlets(self, inside: Settled, feed: Stream) -> Outlets:
-        return divide(feed, over_axes(inside.removed, feed), self.underflow_concentration)
+    def outlets(self, inside: Settled, feed: Stream) -> Skimmed:
+        shares = over_axes(inside.sunk, feed), over_axes(inside.floated, feed)
+        return skim(feed, *shares, self.underflow_concentration, self.skimmings_concentration)
 
-    def figures(self, inside: Settled, outlets: Outlets, feed: Stream) -> Figures:
+    def figures(self, inside: Settled, outlets: Skimmed, feed: Stream) -> Figures:
         some = jnp.where(feed.solid_flow > 0, feed.solid_flow, 1.0)
         return Figures(
             inside.critical,
-            outlets.underflow.solid_flow / some,
+            (outlets.underflow.solid_flow + outlets.skimmings.solid_flow) / some,
             outlets.underflow.slurry_volume_flow,
             concentration(outlets.underflow),
             concentration(outlets.overflow),
         )
 
-    def measured(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def measured(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {"thinner": concentration(feed) / self.underflow_concentration}

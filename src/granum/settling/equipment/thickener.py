@@ -10,7 +10,14 @@ from granum.core import equipment
 from granum.core.kinds import Area, Concentration, Law, MassFlow, MassFlux, Ratio, Speed, VolumeFlow
 from granum.core.limits import Limit
 from granum.numerics.smooth import safe_divide
-from granum.settling.equipment.gravity import Outlets, concentration, divide
+from granum.settling.equipment.gravity import (
+    Outlets,
+    concentration,
+    divide,
+    floating_share,
+    floats,
+    over_axes,
+)
 from granum.settling.equipment.rakes import RAKED, THICKENER, raked
 from granum.settling.flux import limiting_flux_underflow
 from granum.streams.stream import Stream
@@ -39,7 +46,8 @@ class Thickener(Unit):
     theory.
 
     Up to the limiting flux all solids leave with the underflow; what exceeds it leaves over the weir. All
-    sizes settle together (zone settling), so every class splits alike.
+    sizes settle together (zone settling), so every class splits alike. What is lighter than the liquid goes
+    over the weir.
     """
 
     area: Area
@@ -50,6 +58,7 @@ class Thickener(Unit):
         "thinner": Limit("feed thinner than the underflow", 0.0, 1.0, "dimensionless", "coe1916"),
         "thickening": Limit("loading of the thickening zone", 0.0, 1.0, "dimensionless", "yoshioka1957"),
         "clarification": Limit("loading of the clarification zone", 0.0, 1.0, "dimensionless", "coe1916"),
+        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", "coe1916"),
         "diameter": Limit("diameter", 0.0, 60.0, "m", "degremont2007"),
     }
 
@@ -63,7 +72,8 @@ class Thickener(Unit):
         load, limit = feed.solid_flow / self.area, inside.limiting_flux
         passes = jnp.where(load > 0, jnp.minimum(limit / jnp.where(load > 0, load, 1.0), 1.0), 1.0)
         # A feed as thick as the underflow has nothing to lose: it passes.
-        return divide(feed, jnp.where(jnp.isfinite(passes), passes, 1.0), self.underflow_concentration)
+        share = jnp.where(jnp.isfinite(passes), passes, 1.0) * (1.0 - floats(feed))[:, None]
+        return divide(feed, over_axes(share, feed), self.underflow_concentration)
 
     def figures(self, inside: Any, outlets: Outlets, feed: Stream) -> ThickenerFigures:
         applied = feed.solid_flow / self.area
@@ -93,6 +103,7 @@ class Thickener(Unit):
             "thinner": concentration(feed) / self.underflow_concentration,
             "thickening": figures.loading_ratio,
             "clarification": figures.clarification_ratio,
+            "floats": floating_share(feed),
             "diameter": jnp.sqrt(4.0 * self.area / jnp.pi),
         }
 
