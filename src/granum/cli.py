@@ -359,7 +359,11 @@ def chart(
 @one_message
 def list_cards(
     words: Annotated[
-        list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)
+        list[str] | None,
+        typer.Argument(
+            help="Show only cards that these words mean, in either language, the best first.",
+            show_default=False,
+        ),
     ] = None,
     as_json: Json = False,
     sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "",
@@ -367,9 +371,13 @@ def list_cards(
     """List the cards."""
     from granum.core.index import entries
 
-    needles = " ".join(words or ()).lower().split()
-    cards = [c for c in entries().values() if not sort or c.sort == sort]
-    found = [c for c in cards if c.answers(needles)] or _described(cards, needles)
+    wanted = " ".join(words or ())
+    cards = list(entries().values())
+    if wanted.strip():
+        from granum.core.search import search
+
+        cards = search(wanted) or _described(cards, wanted.lower().split())
+    found = [c for c in cards if not sort or c.sort == sort]
     if as_json:
         emit(
             {
