@@ -19,6 +19,7 @@ from starlette.exceptions import HTTPException
 
 import granum
 from granum.app import exercises
+from granum.app.alone_forms import alone_form
 from granum.app.case_forms import edited, line_form
 from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
@@ -161,6 +162,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         return _json(
             await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
         )
+
+    @app.post("/api/alone/{key}")
+    async def by_itself(request: Request, key: str, inputs: Inputs) -> Response:
+        """A piece of equipment alone: its form, and the case file of what stands in it."""
+        return Answer(await quick.run(lambda: alone_form(key, inputs), request))
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
