@@ -22,6 +22,8 @@ from granum import reports as reports
 from granum import settling as settling
 from granum import streams as streams
 from granum import studies as studies
+from granum.cases import alone as alone
 from granum.cases import read as read
+from granum.core.search import search as search
 
 __version__: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -61,14 +61,18 @@ def _options(
 @app.command()
 @one_message
 def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
-    """Evaluate a formula, a law or a procedure."""
+    """Evaluate a formula, a law or a procedure; solve a piece of equipment alone.
+
+    Equipment begins with an ordinary feed; what enters is said by port: feed.solid_flow=400kg/h, mixture.solids=quartz.
+    """
     from granum.core import registry
 
     thing = registry.find(key)
+    if thing.card.sort == "equipment":
+        _operate(key, pairs(inputs), as_json)
+        return
     if not hasattr(thing, "evaluate"):
-        hint = {"lab test": "granum fit {key} data.csv …", "equipment": "granum run case.toml"}.get(
-            thing.card.sort, "granum show {key}"
-        )
+        hint = {"lab test": "granum fit {key} data.csv …"}.get(thing.card.sort, "granum show {key}")
         raise InputError(
             _("'{key}' is a {sort}, which 'calc' cannot evaluate; use: {hint}").format(
                 key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
@@ -81,6 +85,19 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
         from granum.reports.terminal import print_result
 
         print_result(result)
+
+
+def _operate(key: str, inputs: Mapping[str, str], as_json: bool) -> None:
+    """A piece of equipment in a line of its own."""
+    from granum.cases.alone import case_text
+    from granum.cases.reading import read_text
+    from granum.reports.terminal_run import print_run
+
+    outcome = read_text(case_text(key, inputs), name=key).solve()
+    if as_json:
+        emit(outcome.as_json())
+    else:
+        print_run(outcome)
 
 
 @app.command()
@@ -359,7 +376,11 @@ def chart(
 @one_message
 def list_cards(
     words: Annotated[
-        list[str] | None, typer.Argument(help="Show only cards that contain these words.", show_default=False)
+        list[str] | None,
+        typer.Argument(
+            help="Show only cards that these words mean, in either language, the best first.",
+            show_default=False,
+        ),
     ] = None,
     as_json: Json = False,
     sort: Annotated[str, typer.Option(help="formula, law, procedure, chart, lab test or equipment.")] = "",
@@ -367,9 +388,13 @@ def list_cards(
     """List the cards."""
     from granum.core.index import entries
 
-    needles = " ".join(words or ()).lower().split()
-    cards = [c for c in entries().values() if not sort or c.sort == sort]
-    found = [c for c in cards if c.answers(needles)] or _described(cards, needles)
+    wanted = " ".join(words or ())
+    cards = list(entries().values())
+    if wanted.strip():
+        from granum.core.search import search
+
+        cards = search(wanted) or _described(cards, wanted.lower().split())
+    found = [c for c in cards if not sort or c.sort == sort]
     if as_json:
         emit(
             {

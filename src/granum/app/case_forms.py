@@ -90,7 +90,7 @@ def _unit(table: Mapping[str, Any]) -> dict[str, Any]:
         "summary": form["summary"],
         "parameters": form["parameters"],
         "limits": form["limits_shown"],
-        "values": {p.name: _text(table[p.name]) for p in card.parameters if p.name in table},
+        "values": {p.name: case_value(table[p.name]) for p in card.parameters if p.name in table},
     }
 
 
@@ -110,10 +110,13 @@ def _feed(table: Mapping[str, Any]) -> dict[str, Any]:
             }
             row["default_shown"] = None if default is None else entry(p, default)
             rows.append(row)
-    return {"parameters": rows, "values": {name: _text(table[name]) for name in FEED_KINDS if name in table}}
+    return {
+        "parameters": rows,
+        "values": {name: case_value(table[name]) for name in FEED_KINDS if name in table},
+    }
 
 
-def _text(value: Any) -> str:
+def case_value(value: Any) -> str:
     """A value of a case file as a form holds it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
@@ -121,7 +124,7 @@ def _text(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False, default=str)
     if isinstance(value, list):
         return (
-            "; ".join(map(_text, value))
+            "; ".join(map(case_value, value))
             if any(isinstance(x, str) for x in value)
             else " ".join(map(str, value))
         )

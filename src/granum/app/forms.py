@@ -55,6 +55,12 @@ def card_form(key: str) -> dict[str, Any]:
     return data
 
 
+def fields_of(p: Parameter) -> dict[str, Any]:
+    """A field for a parameter that no card declares."""
+    row = p.as_json() | _field(p) | {"options": options(p), "laws": laws_with_parameters(p)}
+    return row | {"several": False, "example": None}
+
+
 def fluid_field(card: Card) -> dict[str, Any] | None:
     """The field of a fluid said in words, and the inputs it stands for; None where the card asks for no
     property of one.

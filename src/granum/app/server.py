@@ -19,17 +19,23 @@ from starlette.exceptions import HTTPException
 
 import granum
 from granum.app import exercises
+from granum.app.alone_forms import alone_form
 from granum.app.case_forms import edited, line_form
+from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
+from granum.app.reading import as_html
+from granum.app.sending import Shorter, kept, lasting
+from granum.app.shipped import examples, examples_folder, title_of
 from granum.app.tasks import calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
 from granum.core.i18n import _, current_language
-from granum.core.index import entries, plain
+from granum.core.index import entries
+from granum.core.search import search
 from granum.core.units import unit_system
 
 STATIC = Path(str(files("granum") / "app" / "static"))
@@ -58,6 +64,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     token: when set, every request must carry it (as ``?token=`` once, then as a cookie).
     """
     app = FastAPI(title="Granum", version=granum.__version__, docs_url=None, redoc_url=None)
+    app.add_middleware(Shorter)
     app.add_middleware(Guard, token=token)
     quick = Workers(count=2, waiting=400, longest=60.0)
     _refusals(app)
@@ -65,7 +72,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     _long_work(app, workspace)
     _studies(app, workspace)
     _case_forms(app, quick)
-    _files(app, workspace)
+    _files(app, quick, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
 
@@ -109,26 +116,32 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
     """What is answered in a moment, in this process."""
 
     @app.get("/api/cards")
-    async def cards(word: str = "", sort: str = "") -> Response:
-        """All cards, short."""
+    async def cards(request: Request, word: str = "", sort: str = "") -> Response:
+        """All cards, short, or those that words mean, the best first."""
         if not word and not sort:
-            return _json(await quick.run(_cards_text))
-        found = [c for c in await quick.run(_cards) if not sort or c["sort"] == sort]
-        return Answer(
-            {
-                "cards": [
-                    c
-                    for c in found
-                    if all(plain(part) in plain(" ".join(c.values())) for part in word.split())
-                ]
-            }
-        )
+            return kept(await quick.run(_cards_text), request)
+        listed = await quick.run(_cards)
+        if word:
+            by_key = {c["card"]: c for c in listed}
+            listed = [by_key[card.key] for card in await quick.run(lambda: search(word[:200]))]
+        return Answer({"cards": [c for c in listed if not sort or c["sort"] == sort]})
+
+    @app.get("/api/search")
+    async def everything(q: str = "", limit: int = SHOWN) -> Response:
+        """Cards, lines, exercises and pages that words mean, the best first."""
+        return Answer({"hits": await quick.run(lambda: found(q, min(max(limit, 1), 200)))})
+
+    @app.get("/api/pages/{name:path}")
+    async def read_page(name: str) -> Response:
+        """A page of the documentation."""
+        return Answer(await quick.run(lambda: as_html(name)))
 
     @app.get("/api/cards/{key}")
-    async def card(key: str) -> Response:
+    async def card(request: Request, key: str) -> Response:
         """One card with everything a form needs."""
         place = (key, current_language(), unit_system())
-        return _json(_forms[place] if place in _forms else await quick.run(lambda: _form_text(*place)))
+        form = _forms[place] if place in _forms else await quick.run(lambda: _form_text(*place))
+        return kept(form, request)
 
     @app.post("/api/read")
     async def read(asked: Inputs) -> Response:
@@ -149,6 +162,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         return _json(
             await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
         )
+
+    @app.post("/api/alone/{key}")
+    async def by_itself(request: Request, key: str, inputs: Inputs) -> Response:
+        """A piece of equipment alone: its form, and the case file of what stands in it."""
+        return Answer(await quick.run(lambda: alone_form(key, inputs), request))
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
@@ -280,8 +298,8 @@ def _folder(workspace: Path | None, place: Any) -> dict[str, str]:
     from.
     """
     sort, _colon, name = str(place or "").partition(":")
-    if sort == "examples" and name in _examples():
-        return {"folder": str(_examples()[name].parent), "root": str(_examples()[name].parent)}
+    if sort == "examples" and name in examples():
+        return {"folder": str(examples()[name].parent), "root": str(examples()[name].parent)}
     if workspace is None:
         return {"folder": "", "root": ""}
     folder = _inside(workspace, name).parent if sort == "workspace" and name else workspace.resolve()
@@ -294,7 +312,7 @@ def _structure(case: str) -> str:
     return found.partition("=")[2].strip().strip("\"'")[:200]
 
 
-def _files(app: FastAPI, workspace: Path | None) -> None:
+def _files(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
     """Case files: the workspace and the shipped examples; Plotly."""
 
     @app.get("/api/workspace")
@@ -335,23 +353,21 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return Answer({"path": path})
 
     @app.get("/api/examples")
-    async def examples() -> Response:
+    async def shipped() -> Response:
         """Case files shipped with the package."""
         return Answer(
             {
-                "files": sorted(_examples()),
-                "titles": {
-                    name: _(_structure(p.read_text(encoding="utf-8"))) for name, p in _examples().items()
-                },
+                "files": sorted(examples()),
+                "titles": {name: title_of(name) for name in examples()},
             }
         )
 
     @app.get("/api/examples/{name:path}")
     async def example(name: str) -> Response:
         """The text of a shipped case file."""
-        if name not in _examples():
-            raise unknown_name(_("Example"), name, _examples())
-        return Answer({"path": name, "text": _examples()[name].read_text(encoding="utf-8")})
+        if name not in examples():
+            raise unknown_name(_("Example"), name, examples())
+        return Answer({"path": name, "text": examples()[name].read_text(encoding="utf-8")})
 
     @app.get("/favicon.ico")
     async def icon() -> FileResponse:
@@ -359,25 +375,10 @@ def _files(app: FastAPI, workspace: Path | None) -> None:
         return FileResponse(STATIC / "icon.svg", media_type="image/svg+xml")
 
     @app.get("/vendor/plotly.js")
-    async def plotly() -> FileResponse:
+    async def plotly(request: Request) -> Response:
         """Plotly, as the installed Python package ships it."""
         place = files("plotly") / "package_data" / "plotly.min.js"
-        return FileResponse(
-            str(place), media_type="text/javascript", headers={"cache-control": "max-age=86400"}
-        )
-
-
-def _examples_folder() -> Path:
-    root = Path(str(files("granum") / "examples"))
-    # installed, or in a source tree
-    return root if root.is_dir() else Path(granum.__file__).parents[2] / "examples"
-
-
-@cache
-def _examples() -> dict[str, Path]:
-    root = _examples_folder()
-    found = sorted(root.rglob("*.toml")) if root.is_dir() else []
-    return {str(p.relative_to(root)): p for p in found if "[units." in p.read_text(encoding="utf-8")}
+        return await quick.run(lambda: lasting(place.read_bytes(), "text/javascript", request))
 
 
 def _inside(workspace: Path | None, path: str) -> Path:
@@ -432,7 +433,7 @@ def _trial(key: str) -> dict[str, Any] | None:
     """Data and conditions to try a lab test with: those of the first ``granum fit`` of it in a README of the
     examples.
     """
-    for place in sorted(_examples_folder().glob("*/README.md")):
+    for place in sorted(examples_folder().glob("*/README.md")):
         for line in place.read_text(encoding="utf-8").splitlines():
             if line.startswith(f"granum fit {key} "):
                 data, *conditions = shlex.split(line)[3:]

@@ -98,7 +98,7 @@ def study_text(
         else {"title": thing.card.title, "card": key, "inputs": fixed}
     )
     tables = {**model, "uncertain": uncertain, "study": {kind: study}}
-    return "\n".join(f"{json.dumps(name)} = {_toml(value)}" for name, value in tables.items()) + "\n"
+    return "\n".join(f"{json.dumps(name)} = {as_toml(value)}" for name, value in tables.items()) + "\n"
 
 
 def _kind(ranges: int, spreads: int, best: bool, sobol: bool, samples: int | None) -> str:
@@ -182,9 +182,9 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
     for name, value in words.items():
         head, dot, rest = name.partition(".")
         if head in parameters:
-            _put(tables["units"][unit], name, value)
+            put(tables["units"][unit], name, value)
         elif head == "mixture" and dot:
-            _put(
+            put(
                 tables["mixture"],
                 rest,
                 [part.strip() for part in value.split(",")]
@@ -192,7 +192,7 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
                 else value,
             )
         elif dot and (ports is None or head in ports):
-            _put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
+            put(tables["feeds"].setdefault(head, {"to": f"{unit}.{head}"}), rest, value)
         else:
             raise unknown_name(
                 _("Input"),
@@ -212,7 +212,7 @@ def _line(thing: Any, unit: str, words: Mapping[str, str]) -> dict[str, Any]:
     return {"title": thing.card.title, **tables}
 
 
-def _put(table: dict[str, Any], name: str, value: Any) -> None:
+def put(table: dict[str, Any], name: str, value: Any) -> None:
     """Sets ``a.b`` inside nested tables; a law that has parameters as well is ``a = {law = …}``."""
     head, dot, rest = name.partition(".")
     if not dot:
@@ -223,18 +223,18 @@ def _put(table: dict[str, Any], name: str, value: Any) -> None:
         return
     inner = table.get(head, {})
     table[head] = inner if isinstance(inner, dict) else {"law": inner}
-    _put(table[head], rest, value)
+    put(table[head], rest, value)
 
 
-def _toml(value: Any) -> str:
+def as_toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return (
             "{ "
-            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v)}" for k, v in value.items())
+            + ", ".join(f"{json.dumps(str(k), ensure_ascii=False)} = {as_toml(v)}" for k, v in value.items())
             + " }"
             if value
             else "{}"
         )
     if isinstance(value, list):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(map(as_toml, value)) + "]"
     return json.dumps(value, ensure_ascii=False)

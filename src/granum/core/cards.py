@@ -60,6 +60,7 @@ class Card:
             gives=" ".join(p.name for p in self.outputs),
             module=self.module,
             attribute=self.attribute,
+            source=self.source,
         )
 
     @property

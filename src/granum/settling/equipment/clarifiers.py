@@ -103,7 +103,7 @@ class Clarifier(AbstractBasin):
             area=volume_flow / settling_velocity, underflow_concentration=underflow_concentration, **more
         )
 
-    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {"electric_power_rake": raked(self.area, CLARIFIER), "area_installed": self.area}
 
 
@@ -173,7 +173,7 @@ class CircularClarifier(_Deep):
             "time": self.volume / feed.slurry_volume_flow / HOUR,
         }
 
-    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         area = self.settling_area()
         return {"electric_power_rake": raked(area, CLARIFIER), "area_installed": area}
 
@@ -215,7 +215,7 @@ class RectangularClarifier(_Deep):
             "time": self.volume / flow / HOUR,
         }
 
-    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {
             "electric_power_rake": scraped(self.length, self.width),
             "area_installed": self.settling_area(),
@@ -285,7 +285,7 @@ class Lamella(AbstractSettler):
             / feed.liquid_viscosity,
         }
 
-    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {"area_installed": self.plate_number * self.plate_length * self.plate_width}
 
 
@@ -321,7 +321,7 @@ class GritChamber(AbstractBasin):
             "time": self.settling_area() * self.height / flow,
         }
 
-    def drawn(self, inside: Settled, outlets: Outlets, figures: Figures, feed: Stream) -> dict[str, Any]:
+    def drawn(self, inside: Settled, outlets: Skimmed, figures: Figures, feed: Stream) -> dict[str, Any]:
         return {
             "electric_power_rake": scraped(self.length, self.width),
             "area_installed": self.settling_area(),
