@@ -13,7 +13,8 @@ export const french = {
   'Curve': 'Courbe',
   'Save the chart as': 'Enregistrer le diagramme en',
   'Numbers of the chart': 'Valeurs du diagramme',
-  'The first {count} rows; the file has all of them.': 'Les {count} premières lignes ; le fichier les contient toutes.',
+  'The first {count} rows; the file has all of them.':
+    'Les {count} premières lignes ; le fichier les contient toutes.',
   'Zoom': 'Agrandir une zone',
   'Pan': 'Déplacer',
   'Zoom in': 'Agrandir',
@@ -157,7 +158,50 @@ export const french = {
   'Study of': 'Étude de',
   'Terminal velocity': 'Vitesse terminale de chute',
   'Study': 'Étudier',
-  'Kind of study': "Sorte d'étude",
+  'Kind of study': "Type d'étude",
+  'One input goes from one value to another; the figures follow as curves.':
+    'Une donnée va d’une valeur à une autre ; les grandeurs suivent en courbes.',
+  'Two inputs vary together; each figure becomes a map with contours.':
+    'Deux données varient ensemble ; chaque grandeur devient une carte à courbes de niveau.',
+  'Scenarios': 'Scénarios',
+  'A few named cases side by side.': 'Quelques cas nommés, côte à côte.',
+  'Inputs are uncertain; how far do the figures scatter, and how likely are limits kept?':
+    'Les données sont incertaines : de combien les grandeurs se dispersent-elles, et avec quelle probabilité les limites sont-elles tenues ?',
+  'Inputs are uncertain; which of them causes how much of the scatter?':
+    'Les données sont incertaines : laquelle cause quelle part de la dispersion ?',
+  'The inputs inside their limits that make one figure best.':
+    'Les données, dans leurs limites, qui rendent une grandeur la meilleure.',
+  'Best compromises': 'Meilleurs compromis',
+  'Two figures that pull apart: what the one costs in terms of the other.':
+    'Deux grandeurs qui s’opposent : ce que l’une coûte à l’autre.',
+  'and': 'et',
+  '{input} is {mean} ± {spread}': '{input} vaut {mean} ± {spread}',
+  '{input} lies between {low} and {high}': '{input} est entre {low} et {high}',
+  'the smallest {figure}': 'le plus petit possible : {figure}',
+  'the largest {figure}': 'le plus grand possible : {figure}',
+  '{figures} when {inputs}': '{figures} lorsque {inputs}',
+  '{figures} in {cases}': '{figures} dans {cases}',
+  '{count} cases': '{count} cas',
+  '{cases} cases for {asked} samples: the next power of two, {base}, for each of {inputs} inputs and twice more.':
+    '{cases} cas pour {asked} échantillons : la puissance de deux suivante, {base}, pour chacune des {inputs} données et deux fois de plus.',
+  'Past studies of this browser': 'Études passées de ce navigateur',
+  'stopped early': 'interrompue',
+  'The last {count} are kept, in this browser only.':
+    'Les {count} dernières sont gardées, dans ce navigateur seulement.',
+  'Remove all': 'Tout retirer',
+  'A study is running': 'Une étude est en cours',
+  'A study is ready': 'Une étude est prête',
+  'or of a card': 'ou d’une fiche',
+  'Type its title': 'Tapez son titre',
+  'A study runs on when you leave this page or close it; after an hour it is stopped, and what it has computed is kept.':
+    'Une étude continue quand vous quittez ou fermez cette page ; au bout d’une heure elle est arrêtée, et ce qu’elle a calculé est gardé.',
+  'This browser could not keep the result: download the cases before you leave.':
+    'Ce navigateur n’a pas pu garder le résultat : téléchargez les cas avant de partir.',
+  'How likely is it that': 'Quelle est la probabilité que',
+  'Limits to keep': 'Limites à tenir',
+  'Cases': 'Cas',
+  'Name of the case': 'Nom du cas',
+  'One more case': 'Ajouter un cas',
   'Sweep of one input': "Balayage d'une donnée",
   'Map of two inputs': 'Carte de deux données',
   'Monte Carlo': 'Monte-Carlo',
