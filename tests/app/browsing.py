@@ -66,8 +66,8 @@ class Page:
         self.browser.get(f"{self.address}/style.css")
         self.browser.execute_script(
             (
-                "localStorage.clear(); sessionStorage.clear(); localStorage.setItem('granum-theme', "
-                "arguments[0])"
+                "localStorage.clear(); sessionStorage.clear(); indexedDB.deleteDatabase('granum'); "
+                "localStorage.setItem('granum-theme', arguments[0])"
             ),
             theme,
         )

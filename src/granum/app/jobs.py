@@ -37,9 +37,8 @@ REST = 120.0  # seconds without a job after which a process that holds much memo
 GRACE = 1.5  # seconds in which a cancelled job may still finish and its process stay warm
 # seconds after which a job is one that somebody may cancel: a process for the next one is made ready
 LONG = 3.0
-# seconds without a question after which a study is taken to be forgotten; a hidden page asks once a minute
-PATIENCE = 900.0
 STUDY = 3600.0  # seconds after which a study is given up
+PATIENCE = STUDY  # seconds without a question after which it is taken to be forgotten: a tab may be closed
 
 
 class Refused(GranumError):

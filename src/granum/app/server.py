@@ -173,6 +173,23 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """Worked examples and quizzes of the course notes."""
         return Answer(await quick.run(exercises.listing))
 
+    @app.get("/api/exercises/{name}")
+    async def exercise(request: Request, name: str, seed: int | None = None) -> Response:
+        """One exercise with its numbers: those of the course, or fresh ones."""
+        return _json(await crew().run("exercise", {"name": name, "seed": seed}, name, request))
+
+    @app.post("/api/exercises/{name}")
+    async def mark(
+        request: Request,
+        name: str,
+        step: Annotated[int, Body()],
+        answer: Annotated[str, Body()],
+        seed: Annotated[int | None, Body()] = None,
+    ) -> Response:
+        """The verdict on an answer."""
+        payload = {"name": name, "step": step, "seed": seed, "answer": answer}
+        return _json(await crew().run("mark", payload, name, request))
+
 
 def _long_work(app: FastAPI, workspace: Path | None) -> None:
     """What may take long or much memory, in processes of its own."""

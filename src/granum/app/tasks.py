@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from granum.app import studies
+from granum.app import exercises, studies
 from granum.app.case_forms import read_line
+from granum.app.exercises.marking import marked
 from granum.app.spread import spread
 from granum.app.telling import Tell
 from granum.app.texts import described, plain_data
@@ -244,6 +245,16 @@ def study(payload: dict[str, Any], tell: Tell) -> bytes:
     return packed(studies.study(payload, tell))
 
 
+def exercise(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """An exercise with its numbers."""
+    return packed(exercises.worked(payload["name"], payload["seed"]))
+
+
+def mark(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The verdict on the answer to a step of an exercise."""
+    return packed(marked(payload["name"], payload["step"], payload["seed"], payload["answer"]))
+
+
 def rest(payload: dict[str, Any], tell: Tell) -> bytes:
     """Do nothing for a while, ready to be cancelled: shows that a worker process is there."""
     until = time.monotonic() + float(payload["seconds"])
@@ -260,5 +271,19 @@ def fill(payload: dict[str, Any], _tell: Tell) -> bytes:
 
 TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
     task.__name__: task
-    for task in (calculate, others, chart, fit, table, run, report, study_choices, study, rest, fill)
+    for task in (
+        calculate,
+        others,
+        chart,
+        fit,
+        table,
+        run,
+        report,
+        study_choices,
+        study,
+        exercise,
+        mark,
+        rest,
+        fill,
+    )
 }

@@ -143,8 +143,7 @@ function fitted({ layout, data }, width) {
   };
 }
 
-const axisText = (axis, fallback) =>
-  (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
+const axisText = (axis, fallback) => (axis?.title?.text ?? '').replace(/<[^>]*>/g, '').trim() || fallback;
 
 const TYPES = {
   f8: Float64Array,
@@ -166,7 +165,9 @@ function numbers({ data, layout }) {
   const y = axisText(layout.yaxis, 'y');
   const flat = (values) => Array.isArray(values) && values.every((v) => !Array.isArray(v));
   const rows = data
-    .filter((trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false)
+    .filter(
+      (trace) => trace.hoverinfo !== 'skip' && trace.visible !== 'legendonly' && trace.visible !== false,
+    )
     .map((trace) => ({ name: trace.name ?? '', x: decoded(trace.x), y: decoded(trace.y) }))
     .filter((trace) => flat(trace.x) && flat(trace.y))
     .flatMap((trace) => trace.x.map((at, i) => [trace.name, at, trace.y[i]]))
