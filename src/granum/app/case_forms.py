@@ -53,7 +53,11 @@ def _files_in(raw: Mapping[str, Any]) -> list[str]:
     mixture, fits = raw.get("mixture"), raw.get("fits")
     named = mixture.get("materials", []) if isinstance(mixture, dict) else []
     tables = fits.values() if isinstance(fits, dict) else []
-    data = [table.get("data") for table in tables if isinstance(table, dict)]
+    data = [
+        table.get("data")
+        for table in tables
+        if isinstance(table, dict) and "\n" not in str(table.get("data"))
+    ]
     return [
         str(name) for name in (*(named if isinstance(named, list) else [named]), *data) if name is not None
     ]
