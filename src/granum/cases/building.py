@@ -21,7 +21,9 @@ from granum.cases.sections import checked, with_table, with_value, without_table
 from granum.cases.starting import (
     GAS_PER_FEED,
     PAIR,
+    crystals_of,
     drying_gas,
+    first_feed,
     listed,
     starting_feed,
     starting_values,
@@ -38,6 +40,7 @@ __all__ = [
     "add_feed",
     "add_unit",
     "add_wash",
+    "begin",
     "bypass",
     "choose_substances",
     "connect",
@@ -80,6 +83,41 @@ def new_line(
     values = {name: names for name, names in species.items() if names}
     sizes = {"smallest": smallest, "largest": largest, "classes": classes}
     return with_table(f"title = {written(title.strip())}\n", ("mixture",), values | {"sizes": sizes})
+
+
+BEGINNINGS = ("solution", "suspension", "moist_solid", "dusty_gas")
+
+
+def begin(
+    title: str,
+    enters: str = "solution",
+    liquid: str = "water",
+    solute: str = "potassium nitrate",
+    solid: str = "quartz",
+    gas: str = "dry air",
+) -> str:
+    """A line with its first feed: a ``solution`` to crystallize from, a ``suspension``, a ``moist_solid`` to
+    dry or a ``dusty_gas``. What is not needed of the substances is left out.
+    """
+    if enters == "solution":
+        crystals = crystals_of(solute, liquid)
+        if not crystals:
+            raise InputError(
+                _("'{solute}' has no solubility in '{solvent}' in the library.").format(
+                    solute=solute, solvent=liquid
+                ),
+                name="solute",
+            )
+        text = new_line(title, [liquid, solute], crystals)
+    elif enters == "suspension":
+        text = new_line(title, [liquid], [solid])
+    elif enters == "moist_solid":
+        text = new_line(title, [liquid], [solid], [gas, liquid])
+    elif enters == "dusty_gas":
+        text = new_line(title, [], [solid], [gas])
+    else:
+        raise unknown_name(_("Beginning"), enters, BEGINNINGS)
+    return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
 
 
 def _require_mixture(species: Mapping[str, Sequence[str]]) -> None:

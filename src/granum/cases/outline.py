@@ -7,7 +7,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from granum.cases.reading import parsed
@@ -50,7 +49,7 @@ class Outline:
     missing: tuple[str, ...]
     raw: dict[str, Any] = field(repr=False)
 
-    @cached_property
+    @property
     def blocks(self) -> tuple[Block, ...]:
         """Units in order of calculation, loops with their torn streams."""
         return plan(self.order, self.links)

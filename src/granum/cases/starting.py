@@ -72,13 +72,16 @@ def crystals_of(solute: str, solvent: str) -> list[str]:
     """The crystals that a dissolved substance can form from a solvent, by name; none where it is no solute in
     it.
     """
-    known = session()
-    for candidate in (solute, f"{solute} in {solvent}"):
-        if candidate in known.names("solute"):
-            system = known.solute(candidate)
-            if system.solvent.name == solvent:
-                return [branch.crystal.name for branch in system.branches]
-    return []
+    known = session().entries("solute")
+    found = next(
+        (
+            entry
+            for name in (solute, f"{solute} in {solvent}")
+            if (entry := known.get(name)) is not None and entry.solvent == solvent
+        ),
+        None,
+    )
+    return [] if found is None else [branch.crystal for branch in found.branches]
 
 
 def starting_feed(mixture: Mapping[str, Any]) -> dict[str, Any]:
@@ -94,6 +97,27 @@ def starting_feed(mixture: Mapping[str, Any]) -> dict[str, Any]:
     if not liquids and (gases or not inert):
         made |= {"gas_flow": GAS, "gas": _shares(gases, gases[0] if gases else "")}
     return made
+
+
+def first_feed(mixture: Mapping[str, Any], enters: str) -> dict[str, Any]:
+    """The first feed of a line: what it is made of in proportions ordinary for a solution, a suspension, a
+    moist solid or a dusty gas.
+    """
+    made = starting_feed(mixture)
+    if enters == "moist_solid":
+        made |= {"solid_flow": "1000 kg/h", "liquid_flow": "200 kg/h"}
+    if enters == "dusty_gas":
+        gases = listed(mixture, "gases")
+        made |= {
+            "solid_flow": "20 kg/h",
+            "sizes": DUST,
+            "gas_flow": "2000 kg/h",
+            "gas": _shares(gases, gases[0]),
+        }
+    return made
+
+
+DUST = {"law": "rosin_rammler", "size_modulus": "20 um", "distribution_exponent": 1.2}
 
 
 def _dissolved(liquids: list[str]) -> dict[str, str]:
