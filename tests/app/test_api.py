@@ -355,7 +355,8 @@ def test_a_line_is_solved_and_reported(client: httpx.Client) -> None:
     case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
     data = client.post("/api/run", json={"case": case}).json()
     product = dict(data["stream_table"]["rows"])["product"]
-    assert (data["stream_table"]["heads"][0], product[0]) == ("solid t/h", "20")  # what goes in comes out
+    head = data["stream_table"]["heads"][1]
+    assert (head["label"], head["unit"], product[1]) == ("solid", "t/h", "20")  # what goes in comes out
     assert data["audit"]["mass_closure"] < 1e-9
     assert data["diagram"].lstrip().startswith("<svg")
     assert data["units"]["mill"]["title"]

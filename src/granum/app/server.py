@@ -20,6 +20,7 @@ from starlette.exceptions import HTTPException
 import granum
 from granum.app import exercises
 from granum.app.alone_forms import alone_form
+from granum.app.building import built, palette, substances
 from granum.app.case_forms import edited, line_form
 from granum.app.finding import SHOWN, found
 from granum.app.forms import card_form, read_entry
@@ -42,6 +43,11 @@ STATIC = Path(str(files("granum") / "app" / "static"))
 Inputs = Annotated[dict[str, Any], Body()]
 Case = Annotated[str, Body(embed=True)]
 Place = Annotated[str, Body(embed=True)]
+
+TABLES = {
+    "csv": "text/csv",
+    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+}
 
 
 class Answer(JSONResponse):
@@ -71,7 +77,7 @@ def create_app(workspace: Path | None = None, token: str = "") -> FastAPI:
     _cards_and_formulas(app, quick)
     _long_work(app, workspace)
     _studies(app, workspace)
-    _case_forms(app, quick)
+    _case_forms(app, quick, workspace)
     _files(app, quick, workspace)
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="static")
     return app
@@ -296,13 +302,45 @@ def _studies(app: FastAPI, workspace: Path | None) -> None:
         return Answer({"state": "cancelled"})
 
 
-def _case_forms(app: FastAPI, quick: Workers) -> None:
+def _case_forms(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
     """Case files as forms."""
 
     @app.post("/api/case/form")
-    async def form(request: Request, case: Case) -> Response:
-        """Feeds and units of a case file as forms."""
-        return Answer(await quick.run(lambda: line_form(case), request))
+    async def form(
+        request: Request, case: Case, across: Annotated[int, Body(embed=True, ge=1, le=40)] = 5
+    ) -> Response:
+        """A case file as forms, with what it still needs and its diagram, ``across`` units side by side."""
+        return Answer(await quick.run(lambda: line_form(case, across), request))
+
+    @app.post("/api/case/build")
+    async def build(
+        request: Request,
+        operation: Case,
+        arguments: Annotated[dict[str, Any], Body(embed=True)],
+        case: Case = "",
+    ) -> Response:
+        """The case file after an operation of ``granum.cases.building``."""
+        return Answer({"case": await quick.run(lambda: built(operation, case, arguments), request)})
+
+    @app.get("/api/palette")
+    async def equipment() -> Response:
+        """Every piece of equipment, with its symbol."""
+        return Answer({"equipment": await quick.run(palette)})
+
+    @app.get("/api/substances")
+    async def materials() -> Response:
+        """What a line can be made of."""
+        return Answer(await quick.run(substances))
+
+    @app.post("/api/case/tables")
+    async def tables(request: Request, case: Case, form: Case, place: Place = "") -> Response:
+        """Streams and results of a case as a file, ``csv`` or ``xlsx``."""
+        if form not in TABLES:
+            raise unknown_name(_("Form"), form, TABLES)
+        payload = {"case": case, "form": form} | _folder(workspace, place)
+        return Response(
+            await crew().run("tables", payload, _structure(case), request), media_type=TABLES[form]
+        )
 
     @app.post("/api/case/edit")
     async def edit(request: Request, case: Case, table: Case, name: Case, key: Case, text: Case) -> Response:

@@ -28,12 +28,14 @@ from granum.reports.quantities import (
     check_row,
     defaults_text,
     estimate_rows,
+    found_rows,
+    is_finding,
     origins_text,
     ranges_text,
     statistics_text,
     value_text,
 )
-from granum.reports.streams import audit_text, stream_figures, stream_table
+from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
 from granum.reports.utilities import utility_table
 
 LONGEST = 900.0  # s that a line may take
@@ -208,20 +210,25 @@ def run(payload: dict[str, Any], tell: Tell) -> bytes:
     for name, report in outcome.units.items():
         data["units"][name]["title"] = report.model.card.title
         for p, value in report.figures():
-            data["units"][name]["results"][p.name] |= {"label": p.label, "text": value_text(value, p)}
+            data["units"][name]["results"][p.name] |= {
+                "label": p.label,
+                "text": value_text(value, p),
+                "finding": is_finding(p),
+            }
         data["units"][name]["checks"] = [
-            row | check_row(c)._asdict()
+            row | check_row(c, report.figures())._asdict()
             for row, c in zip(data["units"][name]["checks"], report.checks, strict=True)
         ]
     for name, stream in outcome.streams.items():
-        data["streams"][name]["shown"] = stream_figures(stream)
+        data["streams"][name] |= {"shown": stream_figures(stream), **stream_look(stream)}
     return packed(
         data
         | {
             "flags": noticed(data["flags"]),
             "diagram": outcome.drawing(),
-            "stream_table": stream_table(outcome),
+            "stream_table": stream_sheet(outcome),
             "utility_table": utility_table(outcome),
+            "found": found_rows(outcome),
         }
     )
 
@@ -233,6 +240,13 @@ def report(payload: dict[str, Any], tell: Tell) -> bytes:
     outcome = _outcome(payload, tell)
     tell(0.5, _("writing the report"))
     return line_report(outcome).encode()
+
+
+def tables(payload: dict[str, Any], tell: Tell) -> bytes:
+    """Streams and results of the text of a case file, as a table file."""
+    from granum.reports.sheets import table_file
+
+    return table_file(_outcome(payload, tell), payload["form"])
 
 
 def study_choices(payload: dict[str, Any], _tell: Tell) -> bytes:
@@ -279,6 +293,7 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
         table,
         run,
         report,
+        tables,
         study_choices,
         study,
         exercise,

@@ -23,7 +23,7 @@ from typing import Any
 
 from granum.core.documents import read_toml
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.materials.building import fluid_of, salt_of, solid_of, solute_of
 from granum.materials.fluids import Fluid
 from granum.materials.salts import Salt
@@ -146,6 +146,10 @@ class Library:
             {key for s in ([sort] if sort else _SORTS) for key, _entry in self._entries[s].values()}
         )
 
+    def entries(self, sort: str) -> dict[str, Any]:
+        """The materials of a sort as their files declare them, by name: nothing is calculated."""
+        return dict(self._entries[sort].values())
+
     def fluid(self, name: str) -> Fluid:
         """A pure fluid by name, chemical formula or French name."""
         return self._find("fluid", name, fluid_of)
@@ -239,6 +243,15 @@ def names(sort: str = "") -> list[str]:
     (True, True, True)
     """
     return session().names(sort)
+
+
+def label_of(name: str) -> str:
+    """The name of a material in the current language; as it is where the library does not know it."""
+    if current_language() != "fr":
+        return name
+    known = session()
+    found = (known.entries(sort).get(name) for sort in ("fluid", "solid", "solute"))
+    return next((entry.fr for entry in found if entry is not None and entry.fr), name)
 
 
 def fluid(name: str) -> Fluid:

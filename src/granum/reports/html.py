@@ -90,7 +90,9 @@ def _unit_sheet(run: Any, name: str) -> dict[str, Any]:
             _row(p, value) for p, value in report.parameters() if value is not None and str(value)
         ],
         "figures": [_row(p, value) for p, value in report.figures()],
-        "checks": [check_row(c)._asdict() | {"source": cite(c.source)} for c in report.checks],
+        "checks": [
+            check_row(c, report.figures())._asdict() | {"source": cite(c.source)} for c in report.checks
+        ],
         "steps": note_steps(run.notes[name]),
     }
 

@@ -5,6 +5,7 @@ table.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 from typing import Any, NamedTuple
@@ -219,13 +220,26 @@ class CheckRow(NamedTuple):
     allowed: str
 
 
-def check_row(check: Any) -> CheckRow:
-    """A check as people read it."""
+def check_row(check: Any, figures: Iterable[tuple[Parameter, Any]] = ()) -> CheckRow:
+    """A check as people read it; in the unit of the figure it looks at, where it is one of ``figures``."""
     value, low, high = float(check.value), float(check.low), float(check.high)
-    tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
+    looked_at = next(((p, x) for p, x in figures if _same_quantity(p, x, check)), None)
+    if looked_at is None or looked_at[0].kind is None:
+        tail, (value, low, high) = _shown(check.unit, value or _end(low, high), value, low, high)
+    else:
+        kind, unit = looked_at[0].kind, looked_at[0].display_unit(np.asarray(looked_at[1], dtype=float))
+        value, low, high = (float(from_si(number, unit, kind)) for number in (value, low, high))
+        tail = f" {pretty_unit(unit)}".rstrip()
     far = 1e3 * max(abs(value), 1.0)  # a limit that only says that there is none
     low, high = -math.inf if low <= -far else low, math.inf if high >= far else high
     return CheckRow(_(check.name), check.ok, format_number(value) + tail, _between(low, high) + tail)
+
+
+def _same_quantity(p: Parameter, value: Any, check: Any) -> bool:
+    """Whether a figure is what a check measured."""
+    if p.kind is None or np.ndim(value) or value is None or p.kind.unit != check.unit:
+        return False
+    return math.isclose(float(value), float(check.value), rel_tol=1e-9)
 
 
 class LimitRow(NamedTuple):
@@ -276,3 +290,22 @@ def _between(low: float, high: float) -> str:
     if math.isfinite(low) and math.isfinite(high):
         return f"{format_number(low)} … {format_number(high)}"
     return f"≤ {format_number(high)}" if math.isfinite(high) else f"≥ {format_number(low)}"
+
+
+FINDINGS = ("area", "volume", "power", "diameter")
+"""Quantities that say how large a machine is and what it takes."""
+
+
+def is_finding(p: Parameter) -> bool:
+    """Whether a figure of a unit is what one looks for first: a size or a duty."""
+    return p.kind is not None and not p.series and p.kind.name in FINDINGS
+
+
+def found_rows(run: Any) -> list[dict[str, str]]:
+    """What design specifications found: the input and its value."""
+    rows = []
+    for path, value in run.found.items():
+        unit, _dot, name = path.partition(".")
+        p = type(run.sheet.units[unit]).card.parameter(name)
+        rows.append({"unit": unit, "name": name, "label": p.label, "text": value_text(value, p)})
+    return rows

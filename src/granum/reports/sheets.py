@@ -53,27 +53,33 @@ def table_rows(run: Any) -> dict[str, list[list[Any]]]:
 
 def write_tables(run: Any, path: Path) -> None:
     """Write ``.csv`` (the tables one under the other) or ``.xlsx`` (a sheet each)."""
-    tables = table_rows(run)
-    if path.suffix == ".csv":
-        text = io.StringIO()
-        writer = csv.writer(text)
-        for rows in tables.values():
-            writer.writerows(rows)
-            writer.writerow([])
-        write_atomic(path, text.getvalue())
-    elif path.suffix == ".xlsx":
-        from openpyxl import Workbook
-
-        book = Workbook()
-        for title, rows in tables.items():
-            sheet = book.create_sheet(title)
-            for row in rows:
-                sheet.append(row)
-        del book["Sheet"]  # the empty one a new book starts with
-        data = io.BytesIO()
-        book.save(data)
-        write_atomic(path, data.getvalue())
-    else:
+    form = path.suffix.removeprefix(".")
+    if form not in ("csv", "xlsx"):
         raise InputError(
             _("'{path}': tables are written as .csv or .xlsx.").format(path=path), path=str(path)
         )
+    write_atomic(path, table_file(run, form))
+
+
+def table_file(run: Any, form: str) -> bytes:
+    """The content of a ``csv`` or ``xlsx`` file of the tables."""
+    found = table_rows(run)
+    if form == "csv":
+        text = io.StringIO()
+        writer = csv.writer(text)
+        for rows in found.values():
+            writer.writerows(rows)
+            writer.writerow([])
+        return text.getvalue().encode()
+    from openpyxl import Workbook
+
+    book = Workbook()
+    for title, rows in found.items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+        sheet.freeze_panes = "B2"
+    del book["Sheet"]  # the empty one a new book starts with
+    data = io.BytesIO()
+    book.save(data)
+    return data.getvalue()

@@ -33,7 +33,7 @@ def print_run(outcome: Any, saved: Sequence[Path] = (), partial: bool = False) -
         for i, (p, value) in enumerate(report.figures()):
             table.add_row(Text(unit, style="bold") if i == 0 else "", p.label, value_text(value, p))
         for check in report.checks:
-            row = check_row(check)
+            row = check_row(check, report.figures())
             mark = Text("✓ ", style=OK) if row.ok else Text("✗ ", style=OUT)
             table.add_row("", mark + Text(row.name), f"{row.text} ({row.allowed})")
     console.print(table)
