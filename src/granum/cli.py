@@ -21,6 +21,7 @@ from granum.shell import (
     one_message,
     pairs,
     tell_version,
+    to_the_end,
 )
 
 if TYPE_CHECKING:
@@ -452,7 +453,7 @@ def main() -> None:
     """Entry point of the ``granum`` command."""
     collect_seldom()
     keep_compiled_code()
-    app()
+    to_the_end(app)
 
 
 if __name__ == "__main__":

@@ -239,7 +239,10 @@ class Formula(Generic[P, R]):
         found = self._compiled.get((key, sort))
         if found is None:
             body = {"bare": self._bare, "masked": self._masked, "checked": self._checked}[sort]
-            found = self._compiled[(key, sort)] = begun(lambda *dynamic: body(self._merged(key, dynamic)))
+            found = self._compiled[(key, sort)] = begun(
+                lambda *dynamic: body(self._merged(key, dynamic)),
+                (self, sort, tuple("" if item is _DYNAMIC else (item,) for item in key)),
+            )
         return found
 
     def _bare(self, values: list[Any]) -> Any:
