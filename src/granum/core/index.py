@@ -62,7 +62,8 @@ class Entry:
             return _(self.given_title)
         word = quantity_in(self.name)
         if word is None:
-            return self.name.replace("_", " ").capitalize()
+            title = ending(self.name)
+            return title[:1].upper() + title[1:]
         label = term(word).label
         rest = self.name[len(word) :].strip("_")
         label = label[0].upper() + label[1:]
@@ -100,6 +101,6 @@ def entries() -> dict[str, Entry]:
 
 
 def plain(text: str) -> str:
-    """Small letters without accents, by which texts are compared in a search."""
-    apart = unicodedata.normalize("NFD", text.lower())
+    """Small letters without accents, apostrophes straight, by which texts are compared in a search."""
+    apart = unicodedata.normalize("NFD", text.lower().replace("’", "'"))
     return "".join(letter for letter in apart if not unicodedata.combining(letter))
