@@ -256,7 +256,7 @@ def test_errors_come_in_french_too(client: httpx.Client) -> None:
     answer = client.post(
         "/api/calc/particles.terminal_velocity_stokes", json=given, headers={"x-language": "fr"}
     )
-    assert "n'est pas possible" in message(answer)
+    assert "n’est pas possible" in message(answer)
 
 
 def test_an_unknown_card_is_422_with_a_suggestion(client: httpx.Client) -> None:

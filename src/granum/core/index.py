@@ -64,7 +64,8 @@ class Entry:
             return _(self.given_title)
         word = quantity_in(self.name)
         if word is None:
-            return self.name.replace("_", " ").capitalize()
+            title = ending(self.name)
+            return title[:1].upper() + title[1:]
         label = term(word).label
         rest = self.name[len(word) :].strip("_")
         label = label[0].upper() + label[1:]

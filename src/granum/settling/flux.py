@@ -60,7 +60,7 @@ class StatePoint(NamedTuple):
     limiting_concentration: Concentration
 
 
-@formula(source="kynch1952", equation=r"G = C\,v(C)", typical=_SLUDGE)
+@formula(source="kynch1952", title="Solids flux by settling", equation=r"G = C\,v(C)", typical=_SLUDGE)
 def solids_flux_settling(solids_concentration: Concentration, settling: Settling = "takacs") -> MassFlux:
     """Flux of solids by settling alone: concentration times settling velocity.
 

@@ -267,6 +267,7 @@ def cut_size_centrifuge(
 
 @formula(
     source="ambler1959; richardson2002, ch. 9",
+    title="Volume flow that a centrifuge clarifies",
     fitted={"reynolds": (0.0, 2.0)},
     equation=r"Q = j\,E\,\Sigma\,\frac{d_p^2 (\rho_p - \rho_f)\,g}{18\,\eta}",
     typical={**_MUD, "particle_diameter": (1e-6, 1e-5)},
@@ -334,6 +335,7 @@ def volume_flow_other_centrifuge(
 
 @formula(
     source="svarovsky2001",
+    title="Grade efficiency of a tubular bowl",
     equation=(
         r"E = \min\left(1,\;\frac{1 - \exp(-2 v_t\omega^2\tau/g)}{1 - (r_i/r_o)^2}\right),\quad \tau = "
         r"\frac{\pi L (r_o^2 - r_i^2)}{Q}"
@@ -363,6 +365,7 @@ def grade_efficiency_tubular(
 
 @formula(
     source="svarovsky2001",
+    title="Grade efficiency of a thin layer",
     equation=r"E = \min(1,\; v_t\,\Sigma/Q)",
     typical={"terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2), "sigma_factor": (500.0, 5000.0)},
     output="grade_efficiency",

@@ -22,6 +22,7 @@ _CONE = {
 
 @formula(
     source="records2001",
+    title="Stay of the solid in a scroll centrifuge",
     equation=r"t = \frac{2\pi L}{P\,\Delta\omega}",
     output="stay_time",
     typical={"basket_length": (0.2, 0.6), "scroll_pitch": (0.05, 0.15), "differential_speed": (1.0, 10.0)},
@@ -50,6 +51,7 @@ def sliding_ratio(cone_angle: QuarterTurn, friction_angle: QuarterTurn) -> Posit
 
 @formula(
     source="leung1998; records2001",
+    title="Least axial acceleration of the vibration",
     equation=r"a = \omega^2 r\,\tan(\varphi - \gamma)",
     output="vibration_acceleration",
     typical=_CONE,
@@ -73,7 +75,13 @@ def vibration_acceleration_least(
     return rotation_speed**2 * radius * jnp.tan(jnp.maximum(friction_angle - cone_angle, 0.0))
 
 
-@formula(source="leung1998", equation=r"\delta = \varphi - \gamma", output="tumbling_angle", typical=_CONE)
+@formula(
+    source="leung1998",
+    title="Least tilt of the tumbling axis",
+    equation=r"\delta = \varphi - \gamma",
+    output="tumbling_angle",
+    typical=_CONE,
+)
 def tumbling_angle_least(cone_angle: QuarterTurn, friction_angle: QuarterTurn) -> Angle:
     """Least tilt of the tumbling axis that brings each side of the cone, once a turn, above the friction of
     the cake.

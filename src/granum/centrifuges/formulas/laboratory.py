@@ -67,6 +67,7 @@ def sedimentation_coefficient_stokes(
 
 @formula(
     source="svedberg1940",
+    title="Sedimentation coefficient in water at 20 °C",
     equation=r"s_{20,w} = s\,\frac{\eta}{\eta_{20,w}}\,\frac{1 - \bar v\rho_{20,w}}{1 - \bar v\rho_f}",
     typical={
         "sedimentation_coefficient": (1e-13, 1e-11),
@@ -115,6 +116,7 @@ def sedimentation_coefficient_standard(
 
 @formula(
     source="svedberg1940",
+    title="Molar mass by sedimentation (Svedberg)",
     equation=r"M = \frac{s\,R\,T}{D\,(1 - \bar v\,\rho_f)}",
     output="molar_mass",
     typical={

@@ -54,6 +54,7 @@ def _conductance(
 
 @formula(
     source="grace1953; mccabe2005, ch. 29",
+    title="Filtrate flow of a basket",
     equation=r"q = \frac{\pi h\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}{\eta\,[\ln(r_o/r_c)/B + R_s/r_o]}",
     typical=_BASKET,
 )
@@ -119,6 +120,7 @@ def filtrate_flow_critical(
 
 @formula(
     source="richardson2002, ch. 9",
+    title="Loading time of a basket",
     equation=(
         r"t_1 = \frac{\eta}{2\,v\,B\,\rho_l\,\omega^2\,(r_o^2 - r_i^2)}\left[(r_o^2 - r_c^2)\left(1 + "
         r"\frac{2 R_s B}{r_o}\right) + 2 r_c^2\ln\frac{r_c}{r_o}\right]"
@@ -182,6 +184,7 @@ def spin_off_time(
 
 @formula(
     source="wakeman2005",
+    title="Irreducible saturation of a spun cake",
     equation=r"N_{cap} = \frac{\varepsilon^3 d_p^2\,\rho_l\,\omega^2 r}{(1-\varepsilon)^2\sigma},\quad"
     r" S_\infty = 0.0524\,N_{cap}^{-0.19}\;(N_{cap} \le 0.14),\; 0.0139\,N_{cap}^{-0.86}\;(N_{cap} > 0.14)",
     fitted={"capillary_number": (1e-5, 10.0)},
@@ -221,6 +224,7 @@ def irreducible_saturation_spinning(
 
 @formula(
     source="perry2008, § 18",
+    title="Saturation of a spun cake",
     equation=r"S = S_\infty + (1 - S_\infty)\min\left(1, \frac{4}{3\sqrt{t_d}}\right),\quad t_d = \frac{\rho_l\,\omega^2 r\,d_h^2\,t}{\eta\,Z},\; d_h = \frac{2\,\varepsilon\,d_p}{3\,(1-\varepsilon)}",  # noqa: E501
     output="cake_saturation",
     typical={

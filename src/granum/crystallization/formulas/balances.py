@@ -145,6 +145,7 @@ def crystallizer_balance(
 
 @formula(
     source="geankoplis2003, sec. 12.11; mullin2001, ch. 8",
+    title="Heat duty of a crystallizer",
     equation=r"\dot Q = \dot m c_{p} (T - T_1) - C q_c + \dot m_v L_v",
     output="heat_duty",
     typical={
@@ -411,6 +412,7 @@ def log_mean_temperature_difference(
 
 @formula(
     source="mullin2001, ch. 8; kern1950, ch. 20",
+    title="Cooling surface of a jacket",
     equation=(
         r"A = \frac{|\dot Q|}{h\,\Delta T_{lm}},\quad \Delta T_{lm} = \frac{\Delta T_1 - \Delta "
         r"T_2}{\ln(\Delta T_1/\Delta T_2)}"
@@ -445,6 +447,7 @@ def area_jacket(
 
 @formula(
     source="mullin2001, ch. 8",
+    title="Yield of an anhydrous crystal",
     equation=r"R = 1 - \frac{C^* (W - V)}{C W}",
     output="yield_fraction",
     typical={"solute_per_solvent": (0.4, 0.6), "solubility_per_solvent": (0.2, 0.3)},

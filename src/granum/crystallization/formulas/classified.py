@@ -23,6 +23,7 @@ from granum.crystallization.kinds import ForwardGrowthRate, ProductionRate
 
 @formula(
     source="randolph1988, ch. 8",
+    title="Population density with classified removal",
     equation=(
         r"n = n_0 \exp\left(-\frac{R\min(L,L_f) + \max(0,\min(L,L_p)-L_f) + " r"z\max(0,L-L_p)}{G\tau}\right)"
     ),
@@ -79,6 +80,7 @@ def population_density_classified(
 
 @formula(
     source="randolph1988, ch. 4",
+    title="Population density in a second stage",
     equation=r"n_2 = n_0\,\frac{a}{a-b}\left(e^{-L/a} - e^{-L/b}\right),\; a = G_1\tau_1,\; b = G_2\tau_2",
     output="population_density",
     typical={

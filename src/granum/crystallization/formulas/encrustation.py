@@ -12,6 +12,7 @@ OVERALL = "All resistances together pass less heat than the film on one side alo
 
 @formula(
     source="kern1950, ch. 20",
+    title="Wall temperature in a jacket",
     equation=r"T_w = T - \frac{U}{h_i}(T - T_j)",
     output="wall_temperature",
     typical={
@@ -50,6 +51,7 @@ def wall_temperature_jacket(
 
 @formula(
     source="mullin2001, ch. 9; kern1950, ch. 20",
+    title="Temperature difference without encrustation",
     equation=r"(T - T_j)_{max} = \frac{h_i}{U}(\Delta T_{max} - \Delta T)",
     output="temperature_difference",
     typical={

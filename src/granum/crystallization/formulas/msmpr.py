@@ -52,7 +52,12 @@ def population_density(
     return nuclei_population_density * jnp.exp(-crystal_size / (growth_rate * residence_time))
 
 
-@formula(source="randolph1988, ch. 4", equation=r"B_0 = n_0 G", family="nucleation_formula")
+@formula(
+    source="randolph1988, ch. 4",
+    title="Nucleation rate of an MSMPR crystallizer",
+    equation=r"B_0 = n_0 G",
+    family="nucleation_formula",
+)
 def nucleation_rate_msmpr(
     nuclei_population_density: PopulationDensity, growth_rate: ForwardGrowthRate
 ) -> NucleationRate:
@@ -64,7 +69,12 @@ def nucleation_rate_msmpr(
     return nuclei_population_density * growth_rate
 
 
-@formula(source="randolph1988, ch. 4", equation=r"M_T = 6 k_v \rho_c n_0 (G\tau)^4", typical=_GROWTH)
+@formula(
+    source="randolph1988, ch. 4",
+    title="Magma density",
+    equation=r"M_T = 6 k_v \rho_c n_0 (G\tau)^4",
+    typical=_GROWTH,
+)
 def magma_density(
     nuclei_population_density: PopulationDensity,
     growth_rate: ForwardGrowthRate,
@@ -194,6 +204,7 @@ def size_factor(crystal_size: Distance, size_parameter: SizeParameter, size_expo
 
 @formula(
     source="abegg1968",
+    title="Population density with size-dependent growth",
     fitted={"size_exponent": (0.0, 1.0)},
     equation=r"n = n_0 (1+\gamma L)^{-b} \exp\left(\frac{1-(1+\gamma L)^{1-b}}{\gamma G_0\tau(1-b)}\right)",
     typical={"size_exponent": (0.1, 0.8), "crystal_size": (1e-5, 5e-4), **_GROWTH},
@@ -248,6 +259,7 @@ def relative_nucleation_order(
 
 @formula(
     source="randolph1988, ch. 4",
+    title="Dominant size after a change of operation",
     equation=(
         r"\frac{L_{D,2}}{L_{D,1}} = \left(\frac{\tau_2}{\tau_1}\right)^{\frac{i-1}{i+3}} "
         r"\left(\frac{M_{T,2}}{M_{T,1}}\right)^{\frac{1-j}{i+3}}"
@@ -291,6 +303,7 @@ def dominant_size_changed(
 
 @formula(
     source="randolph1988, ch. 4",
+    title="Crystal size at a given undersize",
     equation=r"L = x\,G\,\tau,\quad 1 - e^{-x}\left(1 + x + \frac{x^2}{2} + \frac{x^3}{6}\right) = W",
     output="crystal_size",
     typical={"undersize_mass_fraction": (0.05, 0.95), **_GROWTH},

@@ -130,6 +130,7 @@ def nucleation_barrier(
 
 @formula(
     source="mullin2001, ch. 5; volmer1939",
+    title="Nucleation rate by the classical theory",
     fitted={"heterogeneous_factor": (0.0, 1.0)},
     equation=(
         r"B_0 = A \exp\left(-\frac{16\pi\gamma^3 v_m^2 \phi}{3 (kT)^3 (\nu\ln\beta)^2}\right),\quad v_m "
@@ -266,6 +267,7 @@ def interfacial_energy_mersmann(
 
 @formula(
     source="garside1985; mullin2001, ch. 5",
+    title="Secondary nucleation rate",
     equation=r"B_0 = k_b\,e^{-E_b/RT}\,\sigma^b\,M_T^j\,(N/N_0)^p",
     family="nucleation_formula",
 )

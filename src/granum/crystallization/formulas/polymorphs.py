@@ -25,6 +25,7 @@ NO_TRANSITION = (
 
 @formula(
     source="behme1991; mullin2001, ch. 7",
+    title="Solubility ratio of two polymorphs",
     equation=(
         r"\ln\beta = \ln\frac{x}{x'} = \frac{\Delta H_f}{R}\left(\frac{1}{T_m} - \frac1T\right) - "
         r"\frac{\Delta H_f'}{R}\left(\frac{1}{T_m'} - \frac1T\right)"
@@ -56,6 +57,7 @@ def supersaturation_ratio_polymorphs(
 
 @formula(
     source="behme1991",
+    title="Transition temperature of two polymorphs",
     equation=r"T_t = \frac{\Delta H_f' - \Delta H_f}{\Delta H_f'/T_m' - \Delta H_f/T_m}",
     output="temperature",
     typical=_TYPICAL,

@@ -65,6 +65,7 @@ def supersaturation_ratio_gibbs_thomson(
 
 @formula(
     source="lifshitz1961",
+    title="Crystal size after ripening",
     equation=(
         r"\left(\frac{L}{2}\right)^3 - \left(\frac{L_0}{2}\right)^3 = \frac{8\,\gamma D\,C^* M}{9\,R T "
         r"\rho_c^2}\,t"

@@ -28,6 +28,7 @@ from granum.particles.formulas.means import Shares, shares
 
 @formula(
     source="mullin2001, ch. 9",
+    title="Product size from the seed",
     equation=r"L_p = L_s\left(\frac{M_p}{M_s}\right)^{1/3}",
     output="product_size",
     typical={"seed_mass": (0.1, 1.0), "product_mass": (10.0, 100.0)},
@@ -45,6 +46,7 @@ def product_size_from_seed(seed_size: Length, seed_mass: Mass, product_mass: Mas
 
 @formula(
     source="mullin2001, ch. 9",
+    title="Seed for a product size",
     equation=r"M_s = M_p \left(\frac{L_s}{L_p}\right)^3",
     output="seed_mass",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "product_mass": (10.0, 100.0)},
@@ -62,6 +64,7 @@ def seed_mass_for_product(seed_size: Length, product_size: Length, product_mass:
 
 @formula(
     source="kubota2001",
+    title="Critical seed loading",
     equation=r"C_s^* = 2.17\times10^{-6}\,L_s^2\ (L_s\text{ in }\mathrm{\mu m})",
     output="seed_loading",
     typical={"seed_size": (3e-5, 5e-4)},
@@ -118,6 +121,7 @@ def seed_chart(
 
 @formula(
     source="mullin2001, ch. 9; jones1974",
+    title="Time to grow to a size",
     equation=r"t_f = \frac{L_p - L_s}{G}",
     output="duration",
     typical={"seed_size": (5e-5, 1e-4), "product_size": (3e-4, 8e-4), "growth_rate": (1e-8, 2e-7)},

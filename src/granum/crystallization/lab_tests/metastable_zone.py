@@ -28,6 +28,7 @@ from granum.estimation.lines import straight_line
 
 @formula(
     source="nyvlt1968; kubota2008",
+    title="Metastable undercooling",
     equation=r"\Delta T_{max} = (R/K)^{1/m}",
     output="undercooling",
     typical={"cooling_rate": (1e-4, 1e-2), "nyvlt_constant": (1e-6, 1e-4), "nyvlt_order": (2.0, 5.0)},

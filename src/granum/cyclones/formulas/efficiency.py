@@ -100,6 +100,7 @@ def turn_number_lapple(inlet_height: Length, cylinder_height: Length, height: Le
 
 @formula(
     source="rosin1932; lapple1951",
+    title="Cut size from the number of turns",
     equation=r"d_{50} = \sqrt{\frac{9\,\eta\,(R_2 - R_1)}{\pi N v\,(\rho_p - \rho_f)}},\quad R_2 = \frac D2",
     output="cut_size",
     typical={**TYPICAL, "velocity": (1.0, 20.0)},

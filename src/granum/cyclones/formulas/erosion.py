@@ -70,6 +70,7 @@ def wear_velocity_finnie(
 
 @formula(
     source="finnie1960; hoffmann2008, ch. 12; hutchings1992",
+    title="Wear at the inlet of a cyclone",
     output="wear_velocity",
     equation=(
         r"w = w_F(v, G\sin\alpha, \alpha, p),\quad \tan\alpha = \frac{2\tau v}{D},\ \cos\alpha \ge 1 - "

@@ -19,6 +19,7 @@ BODY = {**TYPICAL, "area_inlet": (0.08, 0.12)}
 
 @formula(
     source="richardson2002, ch. 1",
+    title="Removal efficiency from the grades",
     equation=r"E = \sum_i x_i E_i",
     output="removal_efficiency",
     symbols={"class_fractions": "x_i"},
@@ -44,6 +45,7 @@ def removal_efficiency_grades(
 
 @formula(
     source="richardson2002, ch. 1",
+    title="Settling velocity of the grains retained (Stairmand)",
     equation=r"v_0 = \frac{0.2\,A_i^2 D_e\,g}{\pi H D Q}",
     output="terminal_velocity",
     typical=BODY,

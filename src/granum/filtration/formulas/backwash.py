@@ -95,6 +95,7 @@ def backwash_velocity(
 
 @formula(
     source="fair1933",
+    title="Head loss in backwash",
     equation=r"H = L\,(1-\varepsilon_0)\frac{\rho_p - \rho_f}{\rho_f}",
     output="head_loss",
     typical=_SAND,

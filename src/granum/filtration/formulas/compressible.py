@@ -72,6 +72,7 @@ def cake_resistance_tiller(
 
 @formula(
     source="tiller1953",
+    title="Mean cake resistance from a local power law",
     equation=r"\alpha_z = \alpha_1\left(\frac{p_g}{p_0}\right)^n \Rightarrow \bar\alpha = (1-n)\,\alpha_1\left(\frac{\Delta p}{p_0}\right)^n",  # noqa: E501
     typical={"compressibility": (0.05, 0.9)},
     symbols={"cake_resistance": r"\bar\alpha", "cake_resistance_local": r"\alpha_1"},
@@ -97,6 +98,7 @@ def cake_resistance_local_power(
 
 @formula(
     source="tiller1987",
+    title="Mean void fraction of a cake (Tiller)",
     equation=(
         r"1 - \bar\varepsilon = \frac{\int_0^{\Delta p} dp_g/\alpha_z}{\int_0^{\Delta p} "
         r"dp_g/[\alpha_z(1-\varepsilon_z)]},\quad \alpha_z \propto \left(1 + \frac{p_g}{p_a}\right)^n,\ "

@@ -27,6 +27,7 @@ _SMALL = {"area": (0.1, 2.0), "filtrate_volume": (0.01, 0.2), "cake_resistance":
 
 @formula(
     source="ruth1935; geankoplis2003, § 14.2",
+    title="Filtration time at constant pressure",
     equation=r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}V^2 + \frac{\eta\,R_s}{\Delta p\,A}V",
     typical=_SMALL,
 )
@@ -69,6 +70,7 @@ def filtration_time_constant_pressure(
 
 @formula(
     source="ruth1935",
+    title="Filtrate volume at constant pressure",
     equation=(
         r"V = A\left(\sqrt{\left(\frac{R_s}{\alpha W}\right)^2 + \frac{2\,\Delta "
         r"p\,t}{\eta\,\alpha\,W}} - \frac{R_s}{\alpha W}\right)"
@@ -190,6 +192,7 @@ def filtrate_flux(
 
 @formula(
     source="geankoplis2003, § 14.2",
+    title="Flow of wash liquid",
     equation=r"q = \frac{f\,A\,\Delta p}{\eta\,(\alpha W V/A + R_s)}",
     typical=_SMALL,
 )

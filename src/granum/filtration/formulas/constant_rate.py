@@ -34,6 +34,7 @@ _SMALL = {
 
 @formula(
     source="carman1938; mccabe2005, ch. 29",
+    title="Pressure drop at constant rate",
     equation=r"\Delta p = \frac{\eta\,\alpha\,W\,q^2}{A^2}\,t + \frac{\eta\,R_s}{A}\,q",
     typical=_SMALL,
 )
@@ -68,6 +69,7 @@ def pressure_drop_constant_rate(
 
 @formula(
     source="tiller1955",
+    title="Pressure drop at constant rate, compressible cake",
     equation=(
         r"\Delta p - \frac{\eta R_s q}{A} = "
         r"\left(\frac{\eta\,\alpha_0\,W\,q^2\,t}{A^2\,p_0^{\,n}}\right)^{\frac{1}{1-n}}"
@@ -112,6 +114,7 @@ def pressure_drop_constant_rate_compressible(
 
 @formula(
     source="carman1938",
+    title="Cake thickness at constant rate",
     equation=r"Z = \frac{1}{(1-\varepsilon)\rho_s}\left(\sqrt{\left(\frac{R_s}{2\alpha}\right)^2 + \frac{\Delta p\,W\,t}{\eta\,\alpha}} - \frac{R_s}{2\alpha}\right)",  # noqa: E501
     typical=_SMALL,
 )
@@ -138,6 +141,7 @@ def cake_thickness_constant_rate(
 
 @formula(
     source="geankoplis2003, § 14.2",
+    title="Filtration time, constant rate then constant pressure",
     equation=(
         r"t = \frac{\eta\,\alpha\,W}{2\,\Delta p\,A^2}(V^2 + V_r^2) + \frac{\eta\,R_s}{\Delta "
         r"p\,A}V,\quad V_r = \frac{A}{\alpha W}\left(\frac{\Delta p\,A}{\eta\,q} - R_s\right)"

@@ -147,6 +147,7 @@ def filtration_time_pump(
 
 @formula(
     source="geankoplis2003, § 14.2; mccabe2005, ch. 29",
+    title="Filtrate flow of a drum",
     equation=(
         r"q = \frac{V(f\,t_c)}{t_c} \rightarrow A\sqrt{\frac{2\,f\,\Delta p}{t_c\,\eta\,\alpha\,W}}\ "
         r"(R_s = 0)"

@@ -80,6 +80,7 @@ def specific_deposit_iwasaki(
 
 @formula(
     source="ives1970",
+    title="Head loss of a clogging deep bed",
     equation=r"H = H_0 + K\,U\,c_0\,t\,(1 - e^{-\lambda L})",
     typical=_BED,
     output="head_loss",
@@ -105,6 +106,7 @@ def head_loss_deep_bed(
 
 @formula(
     source="ives1970",
+    title="Run time of a deep bed",
     equation=r"t = \frac{H_{max} - H_0}{K\,U\,c_0\,(1 - e^{-\lambda L})}",
     typical={**_BED, "head_loss_clean": (0.2, 0.5), "head_loss_allowed": (1.5, 3.0)},
     output="run_time",
@@ -213,6 +215,7 @@ def collector_efficiency_tufenkji(
 
 @formula(
     source="carman1938; carman1937",
+    title="Head loss of the clean bed",
     fitted={"reynolds_bed": (0.0, 10.0)},
     equation=(
         r"\frac{H}{L} = \frac{36\,h_K\,\eta\,U\,(1-\varepsilon)^2}{\rho_l\,g\,\psi^2 "

@@ -39,6 +39,7 @@ def _driving(pressure_drop: Any, osmotic_pressure: Any) -> Any:
 
 @formula(
     source="cheryan1998",
+    title="Flux of a membrane, resistances in series",
     equation=r"J = \frac{\Delta p - \Delta\pi}{\eta\,(R_m + R_c + R_f)}",
     typical=_MEMBRANE,
     output="filtrate_flux",
@@ -66,6 +67,7 @@ def filtrate_flux_membrane(
 
 @formula(
     source="wijmans1995",
+    title="Flux of a membrane from its permeance",
     equation=r"J = A\,(\Delta p - \Delta\pi)",
     output="filtrate_flux",
     typical={"pressure_drop": (1e6, 6e6)},
@@ -108,6 +110,7 @@ def osmotic_pressure(
 
 @formula(
     source="wijmans1995",
+    title="Rejection by solution and diffusion",
     equation=r"R = \frac{J}{J + B}",
     output="rejection",
     typical={"filtrate_flux": (2e-6, 3e-5)},
@@ -126,6 +129,7 @@ def rejection_solution_diffusion(filtrate_flux: Speed, solute_permeability: Spee
 
 @formula(
     source="cheryan1998",
+    title="Limiting flux of a membrane",
     equation=r"J = k\,\ln\frac{c_g - c_p}{c_b - c_p}",
     output="filtrate_flux",
     typical={
@@ -168,6 +172,7 @@ def filtrate_flux_limiting(
 
 @formula(
     source="cheryan1998",
+    title="Concentration of a retentate, batch",
     equation=r"c = c_0\,\mathrm{VCF}^{R}",
     output="concentration",
     typical={
@@ -195,6 +200,7 @@ def concentration_retentate_batch(
 
 @formula(
     source="cheryan1998",
+    title="Membrane area",
     equation=r"A = \frac{q}{J}",
     typical={"filtrate_flux": (5e-6, 5e-5)},
     output="filtration_area",

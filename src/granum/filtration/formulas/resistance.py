@@ -62,6 +62,7 @@ def cake_permeability(
 
 @formula(
     source="mccabe2005, ch. 29",
+    title="Cake resistance by a power law",
     fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\left(\frac{\Delta p}{p_0}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},
@@ -94,6 +95,7 @@ def cake_resistance_power_law(
 
 @formula(
     source="tiller1953; mccabe2005, ch. 29",
+    title="Cake resistance with a threshold pressure",
     fitted={"compressibility": (0.0, 1.0)},
     equation=r"\bar\alpha = \alpha_0\,\max\left(1, \frac{\Delta p}{p_s}\right)^n",
     typical={"compressibility": (0.0, 0.9), "cake_resistance_reference": (1e9, 1e12)},

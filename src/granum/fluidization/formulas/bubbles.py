@@ -41,6 +41,7 @@ def surplus(U: Any, U_mf: Any) -> Any:
 
 @formula(
     source="davidson1963; davies1950",
+    title="Rise velocity of a single bubble",
     equation=r"u_{b\infty} = 0.711\sqrt{g d_b}",
     symbols={"bubble_rise_velocity": r"u_{b\infty}"},
 )
@@ -175,6 +176,7 @@ def bubble_diameter_werther(
 
 @formula(
     source="davidson1963; geldart1986",
+    title="Largest stable bubble",
     equation=r"d_{b,\max} = \frac{2 v_t^2}{g}",
     typical={"terminal_velocity": (0.1, 1.5)},
     symbols={"bubble_diameter": r"d_{b,\max}"},
@@ -217,6 +219,7 @@ def bubble_fraction_davidson_harrison(
 
 @formula(
     source="davidson1963; kunii1991, ch. 10",
+    title="Exchange between bubble and cloud",
     equation=r"K_{bc} = 4.5\frac{U_{mf}}{d_b} + 5.85\frac{D^{1/2} g^{1/4}}{d_b^{5/4}}",
     typical={"diffusivity": (1e-5, 1e-4), "bubble_diameter": (0.02, 0.2)},
     symbols={"bubble_exchange_rate": "K_{bc}"},
@@ -243,6 +246,7 @@ def bubble_exchange_rate_cloud(
 
 @formula(
     source="kunii1991, ch. 10",
+    title="Exchange between cloud and emulsion",
     equation=r"K_{ce} = 6.77\left(\frac{\varepsilon_{mf} D\, u_{br}}{d_b^3}\right)^{1/2}",
     typical={"diffusivity": (1e-5, 1e-4), "bubble_diameter": (0.02, 0.2)},
     symbols={"bubble_exchange_rate": "K_{ce}", "void_fraction": r"\varepsilon_{mf}"},

@@ -164,6 +164,7 @@ def bed_void_fraction_wen_yu(
 
 @formula(
     source="kunii1991, ch. 3",
+    title="Height of an expanded bed",
     equation=r"H = H_0\,\frac{1-\varepsilon_0}{1-\varepsilon}",
     output="height",
     typical={"void_fraction": (0.5, 0.8), "void_fraction_settled": (0.38, 0.45)},
@@ -182,6 +183,7 @@ def height_expanded(
 
 @formula(
     source="kunii1991, ch. 3, eq. 17",
+    title="Pressure drop of a fluidized bed",
     equation=r"\Delta p = \frac{m\,g}{A}\left(1 - \frac{\rho_f}{\rho_p}\right)",
     output="pressure_drop",
     typical=BED,
@@ -206,6 +208,7 @@ def pressure_drop_fluidized_bed(
 
 @formula(
     source="kunii1991, ch. 3, eq. 17",
+    title="Void fraction of the bed from the pressure drop",
     equation=r"\varepsilon = 1 - \frac{\Delta p}{H g (\rho_p - \rho_f)}",
     output="bed_void_fraction",
     typical={"pressure_drop": (5e3, 8e3), "height": (0.8, 1.2), "fluid_density": (0.5, 5.0)},

@@ -294,6 +294,7 @@ def elutriation_flux_colakyan_levenspiel(superficial_velocity: Speed, terminal_v
 
 @formula(
     source="kunii1991, ch. 7",
+    title="Entrained solids flux along the freeboard",
     equation=r"G_s = G_s^* + (G_{s,0} - G_s^*)\,e^{-a z}",
     typical={
         "entrainment_flux_carried": (0.1, 2.0),

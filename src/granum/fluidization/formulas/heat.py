@@ -56,6 +56,7 @@ def heat_transfer_coefficient_zabrodsky(
 
 @formula(
     source="todes1965",
+    title="Superficial velocity of best heat transfer",
     equation=r"\mathrm{Re}_{opt} = \frac{\mathrm{Ar}}{18 + 5.22\sqrt{\mathrm{Ar}}}"
     + velocity_of("U_{opt}", "opt")
     + ARCHIMEDES,
@@ -84,6 +85,7 @@ def superficial_velocity_best_heat_transfer(
 
 @formula(
     source="mickley1955",
+    title="Heat transfer coefficient by packets",
     equation=r"\bar h = 2\sqrt{\frac{\lambda_e \rho_p (1-\varepsilon) c_p}{\pi\,t_R}}",
     output="heat_transfer_coefficient",
     typical={

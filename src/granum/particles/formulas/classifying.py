@@ -64,6 +64,7 @@ def settling_ratio(
 
 @formula(
     source="richardson2002, ch. 1",
+    title="Fluid density for equal settling",
     equation=r"\rho_f = \frac{r\rho_l - \rho_h}{r - 1},\quad r = (d_l/d_h)^{1/n}",
     typical=TYPICAL | {"settling_ratio": (3.0, 6.0)},
     symbols={"particle_density_heavy": r"\rho_h", "particle_density_light": r"\rho_l"},

@@ -36,6 +36,7 @@ def cumulative_fraction_rosin_rammler(
 
 @formula(
     source="hatch1929",
+    title="Cumulative fraction of a log-normal law",
     equation=r"Q = \Phi\left(\frac{\ln(x/d_{50})}{\ln \sigma_g}\right)",
     typical={"particle_diameter": (1e-5, 1e-3)},
     symbols={"particle_diameter": "x"},
@@ -53,6 +54,7 @@ def cumulative_fraction_log_normal(
 
 @formula(
     source="iso9276-3",
+    title="Cumulative fraction of a normal law",
     equation=r"Q = \Phi\left(\frac{x - \bar x}{\sigma}\right)\ \text{cut at } 0",
     typical={
         "particle_diameter": (1e-4, 3e-4),
@@ -108,6 +110,7 @@ def cumulative_fraction_gaudin_meloy(
 
 @formula(
     source="lynch1977; tromp1937",
+    title="Partition number of a logistic curve",
     equation=r"G = \frac{1}{1 + (d_{50}/x)^n}",
     symbols={"particle_diameter": "x"},
 )

@@ -110,6 +110,7 @@ def drag_coefficient_holzer_sommerfeld(
     "drag_coefficient",
     name="ganser_shape",
     source="ganser1993",
+    title="Ganser, shape and wall known",
     equation=r"K_1 = \left(\frac13\frac{d_n}{d_v} + \frac23\psi^{-1/2}\right)^{-1} - 2.25\frac{d_v}{D}",
     fitted={"wall_ratio": (0.0, 0.1)},
 )

@@ -184,6 +184,7 @@ def suspension_viscosity(
 
 @formula(
     source="mooney1951; wallis1969",
+    title="Hindrance by the apparent medium",
     equation=(
         r"\frac{v}{v_t} = "
         r"\left[\frac{1-\varphi}{(\rho_a/\rho_f)^{1-n}\,(\eta_a/\eta)^{n}}\right]^{1/(2-n)},\quad C_D = "
@@ -218,6 +219,7 @@ def hindrance_apparent_medium(
 
 @formula(
     source="mooney1951; wallis1969",
+    title="Terminal velocity of a grain in a suspension",
     equation=(
         r"v_t = v_t(d_p, \rho_p, \rho_a, \eta_a),\quad \rho_a = (1 - \varphi)\,\rho_f + "
         r"\varphi\,\rho_p,\quad \eta_a = \eta\,\eta_r(\varphi)"

@@ -148,6 +148,7 @@ def wall_factor_kehlenbeck_di_felice(wall_ratio: WallRatio, reynolds: PositiveNu
 
 @formula(
     source="difelice1996; clift1978, chapter 9",
+    title="Terminal velocity between walls",
     equation=r"v = v_t\,k(\lambda, \mathrm{Re})",
     symbols={"=terminal_velocity": "v"},
 )

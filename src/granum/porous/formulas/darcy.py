@@ -112,6 +112,7 @@ def hydraulic_conductivity(
 
 @formula(
     source="darcy1856; bear1972",
+    title="Permeability from the hydraulic conductivity",
     equation=r"B = \frac{K\eta}{\rho_f g}",
     typical={"hydraulic_conductivity": (1e-6, 1e-2)},
 )
@@ -251,6 +252,7 @@ def pressure_drop_poiseuille(
 
 @formula(
     source="shah1978, eq. 341",
+    title="Non-circularity of a rectangular channel",
     equation=r"\gamma = \tfrac32\left(1 - 1.3553a + 1.9467a^2 - 1.7012a^3 + 0.9564a^4 - 0.2537a^5\right)",
     typical={"side_ratio": (0.0, 1.0)},
 )

@@ -29,6 +29,7 @@ CHOKED = "The gas chokes: its pressure falls to zero before the end of the bed."
 
 @formula(
     source="darcy1856; muskat1937",
+    title="Permeability measured with a gas",
     equation=r"B = \frac{2\eta L U_2 p_2}{p_1^2 - p_2^2}",
     typical={
         "pressure_inlet": (1.2e5, 5e5),
@@ -79,6 +80,7 @@ def _resistance(G: Any, d: Any, e: Any, eta: Any, psi: Any, law: Any) -> Any:
 
 @formula(
     source="ergun1952; bird2002, section 6.4",
+    title="Outlet pressure of gas through a bed",
     equation=r"p_2^2 = p_1^2 - \frac{2RTL}{M}\,\rho\frac{\mathrm dp}{\mathrm dz}(G, d_p, \varepsilon, \eta)",
     typical={
         "mass_flux": (0.01, 0.5),
@@ -130,6 +132,7 @@ def pressure_outlet_gas_bed(
 
 @formula(
     source="ergun1952; bird2002, section 6.4",
+    title="Mass flux of gas through a bed",
     equation=r"\rho\frac{\mathrm dp}{\mathrm dz}(G, d_p, \varepsilon, \eta) = \frac{(p_1^2 - p_2^2)M}{2RTL}",
     typical={
         "pressure_inlet": (1.5e5, 5e5),

@@ -30,6 +30,7 @@ LOGIT = 16.0  # porosities searched: 1e-7 to 1 − 1e-7
 
 @formula(
     source="ergun1952; macdonald1979",
+    title="Pressure drop of a packed bed",
     equation=r"\Delta p = L\,\frac{\mathrm dp}{\mathrm dz}(U, d_p, \varepsilon, \rho_f, \eta)",
 )
 def pressure_drop_packed_bed(
@@ -65,6 +66,7 @@ def pressure_drop_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
+    title="Superficial velocity in a packed bed",
     equation=r"\frac{\mathrm dp}{\mathrm dz}(U; d_p, \varepsilon, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"length": (0.1, 2.0)},
 )
@@ -113,6 +115,7 @@ def superficial_velocity_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
+    title="Particle diameter from a packed bed",
     equation=r"\frac{\mathrm dp}{\mathrm dz}(d_p; U, \varepsilon, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"length": (0.1, 2.0)},
 )
@@ -163,6 +166,7 @@ def particle_diameter_packed_bed(
 
 @formula(
     source="ergun1952; macdonald1979",
+    title="Void fraction from a packed bed",
     equation=r"\frac{\mathrm dp}{\mathrm dz}(\varepsilon; U, d_p, \rho_f, \eta) = \frac{\Delta p}{L}",
     typical={"pressure_drop": (1e3, 1e5)},
 )

@@ -323,6 +323,7 @@ def pressure_gradient_leva(
 
 @formula(
     source="stokes1851; happel1958",
+    title="Pressure gradient of sparse obstacles",
     equation=r"\frac{\Delta p}{L} = 18\,\frac{\eta U(1-\varepsilon)}{d_p^2}" + BED_REYNOLDS,
     fitted={"void_fraction": (0.99, 1.0), "reynolds": (0.0, 0.2)},
     typical={"void_fraction": (0.99, 0.999)},

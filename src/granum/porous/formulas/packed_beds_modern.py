@@ -144,6 +144,7 @@ def pressure_gradient_brauer(
 
 @formula(
     source="kta1981",
+    title="Pressure gradient of a pebble bed (KTA)",
     equation=(
         r"\frac{\Delta p}{L} = f\,\frac{\rho_f\,U^2(1-\varepsilon)}{\varepsilon^3\psi\,d_p},\quad f = "
         r"\frac{160}{\mathrm{Re}_1} + \frac{3}{\mathrm{Re}_1^{0.1}}"

@@ -14,6 +14,7 @@ WallRatio = Annotated[Ratio, Within(0.0, 1.0)]
 
 @formula(
     source="carman1937",
+    title="Void fraction from the mass of a bed",
     equation=r"\varepsilon = 1 - \frac{m}{\rho_s A L}",
     typical={"mass": (10.0, 100.0), "area": (0.05, 0.1), "length": (0.5, 1.0)},
 )

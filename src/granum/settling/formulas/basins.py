@@ -22,7 +22,12 @@ from granum.core.kinds import (
 from granum.particles.formulas.means import Shares, shares
 
 
-@formula(source="hazen1904; camp1946", equation=r"v_0 = \frac{Q}{A}", family="overflow_rate")
+@formula(
+    source="hazen1904; camp1946",
+    title="Overflow rate of a basin",
+    equation=r"v_0 = \frac{Q}{A}",
+    family="overflow_rate",
+)
 def overflow_rate_basin(volume_flow: VolumeFlow, area: Area) -> Speed:
     """Overflow rate of a basin: the velocity of the slowest particle that an ideal basin removes completely.
 
@@ -43,7 +48,7 @@ def basin_area(volume_flow: VolumeFlow, settling_velocity: Speed) -> Area:
     return volume_flow / settling_velocity
 
 
-@formula(source="camp1946", equation=r"U_x = \frac{Q}{l\,H}")
+@formula(source="camp1946", title="Horizontal velocity in a basin", equation=r"U_x = \frac{Q}{l\,H}")
 def horizontal_velocity_basin(volume_flow: VolumeFlow, width: Length, height: Length) -> Speed:
     """Mean horizontal velocity in a rectangular basin.
 
@@ -91,6 +96,7 @@ def removal_efficiency_hazen(
 
 @formula(
     source="camp1946",
+    title="Removal efficiency of a basin by classes",
     equation=r"E = \sum_i w_i \min\left(1, \frac{v_i}{v_0}\right)",
     symbols={"class_fractions": "w_i", "class_velocities": "v_i", "overflow_rate": "v_0"},
 )

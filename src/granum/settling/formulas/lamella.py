@@ -47,6 +47,7 @@ def lamella_area(plate_number: PositiveNumber, area: Area, plate_angle: Angle) -
 
 @formula(
     source="yao1970, eq. 9",
+    title="Settling velocity wholly removed, countercurrent plates",
     equation=r"v_c = \frac{S_c\,v_0}{\sin\alpha + (L/b)\cos\alpha}",
     typical=_ANGLES,
     symbols={"velocity": "v_0"},
@@ -73,6 +74,7 @@ def critical_velocity_countercurrent(
 
 @formula(
     source="yao1970",
+    title="Settling velocity wholly removed, cocurrent plates",
     equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha - \sin\alpha}",
     typical=_ANGLES,
     symbols={"velocity": "v_0"},
@@ -102,6 +104,7 @@ def critical_velocity_cocurrent(
 
 @formula(
     source="yao1970",
+    title="Settling velocity wholly removed, crosscurrent plates",
     equation=r"v_c = \frac{S_c\,v_0}{(L/b)\cos\alpha}",
     typical=_ANGLES,
     symbols={"velocity": "v_0"},

@@ -42,6 +42,7 @@ def sludge_volume_index(
 
 @formula(
     source="white1975; apha2005",
+    title="Diluted sludge volume index",
     equation=r"\mathrm{DSVI} = \frac{V_{30}}{V\,d\,X}",
     fitted={"settled_fraction": (0.0, 0.25)},
     symbols={"solids_concentration": "X", "sludge_volume_index": r"\mathrm{DSVI}"},
@@ -128,7 +129,11 @@ def vesilind_velocity_hartel_popel(sludge_volume_index: VolumePerMass) -> Veloci
     )
 
 
-@formula(source="apha2005", equation=r"C_u = \frac{1}{\mathrm{SVI}}")
+@formula(
+    source="apha2005",
+    title="Underflow concentration from the sludge index",
+    equation=r"C_u = \frac{1}{\mathrm{SVI}}",
+)
 def underflow_concentration_index(
     sludge_volume_index: VolumePerMass, thickening_factor: PositiveNumber = 1.0
 ) -> Concentration:

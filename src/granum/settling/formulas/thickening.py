@@ -146,6 +146,7 @@ def thickener_area_coe_clevenger(
 
 @formula(
     source="coe1916; richardson2002, eq. 5.36",
+    title="Thickener area from liquid ratios",
     equation=r"A = \dot m_s \max_i \frac{U_i - W}{v_i\,\rho_l}",
     symbols={"mass_flow": r"\dot m_s"},
 )
@@ -173,6 +174,7 @@ def thickener_area_liquid_ratio(
 
 @formula(
     source="talmage1955",
+    title="Interface height at the underflow concentration",
     equation=r"h_u = \frac{C_0 h_0}{C_u}",
     symbols={"interface_height": "h_u"},
 )
@@ -212,7 +214,12 @@ def unit_area_talmage_fitch(
     return underflow_time / (initial_concentration * initial_height)
 
 
-@formula(source="yoshioka1957", equation=r"G = \frac{v_s}{1/C - 1/C_u}", typical=_BETWEEN)
+@formula(
+    source="yoshioka1957",
+    title="Solids flux that a layer lets pass",
+    equation=r"G = \frac{v_s}{1/C - 1/C_u}",
+    typical=_BETWEEN,
+)
 def solids_flux_layer(
     solids_concentration: Concentration, settling_velocity: Speed, underflow_concentration: Concentration
 ) -> MassFlux:
