@@ -34,6 +34,7 @@ _SUBPACKAGES = (
     "centrifuges",
     "crystallization",
     "drying",
+    "dust",
     "flowsheet",
     "studies",
     "costs",
