@@ -6,7 +6,6 @@ from typing import Annotated, Any
 
 from granum.core.kinds import Kind
 
-ElectricField = Annotated[Any, Kind("electric field", "V/m", lower=0.0, display=("kV/cm", "kV/m"))]
 Voltage = Annotated[Any, Kind("voltage", "V", lower=0.0, display=("kV",))]
 CurrentDensity = Annotated[Any, Kind("current density", "A/m^2", lower=0.0, display=("mA/m^2", "uA/m^2"))]
 ElementaryCharges = Annotated[Any, Kind("number of elementary charges", "dimensionless", lower=0.0)]

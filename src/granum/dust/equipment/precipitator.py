@@ -19,6 +19,7 @@ from granum.core.kinds import (
 )
 from granum.core.limits import Limit
 from granum.core.utilities import Utility
+from granum.drying.kinds import ElectricField
 from granum.dust.equipment.collector import EMISSION, Cleaned, Collector, seen, slip
 from granum.dust.formulas.precipitation import (
     elementary_charges_diffusion,
@@ -26,7 +27,7 @@ from granum.dust.formulas.precipitation import (
     grade_efficiency_deutsch,
     migration_velocity,
 )
-from granum.dust.kinds import CurrentDensity, ElectricField, IonDose, Voltage
+from granum.dust.kinds import CurrentDensity, IonDose, Voltage
 from granum.numerics.smooth import safe_divide
 from granum.streams.stream import Stream
 from granum.streams.units import Limits, Utilities

@@ -20,7 +20,8 @@ from granum.core.kinds import (
     VolumeFlow,
     Within,
 )
-from granum.dust.kinds import ElectricField, ElementaryCharges, IonDose, IonMobility
+from granum.drying.kinds import ElectricField
+from granum.dust.kinds import ElementaryCharges, IonDose, IonMobility
 
 _TYPICAL = {
     "particle_diameter": (2e-7, 2e-5),
