@@ -36,6 +36,7 @@ _SUBPACKAGES = (
     "centrifuges",
     "crystallization",
     "drying",
+    "dust",
     "flowsheet",
     "studies",
     "costs",

@@ -31,6 +31,7 @@ DOMAINS = (
     "centrifuges",
     "crystallization",
     "drying",
+    "dust",
     "studies",
     "costs",
 )

@@ -274,6 +274,7 @@ export const french = {
   'centrifuges': 'Centrifugation',
   'crystallization': 'Cristallisation',
   'drying': 'Séchage',
+  'dust': 'Dépoussiérage',
   'studies': 'Études',
   'costs': 'Coûts',
 };
@@ -292,6 +293,7 @@ export const english = {
   centrifuges: 'Centrifuges',
   crystallization: 'Crystallization',
   drying: 'Drying',
+  dust: 'Dust collection',
   studies: 'Studies',
   costs: 'Costs',
 };

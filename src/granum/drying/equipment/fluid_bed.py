@@ -21,6 +21,7 @@ from granum.drying.gas_solid.kinetics import AbstractKinetics
 from granum.drying.gas_solid.liquor import composition, counted
 from granum.drying.gas_solid.matter import Matter
 from granum.drying.gas_solid.mixed import Bed, Gas, Solid, steady_bed, steady_tanks
+from granum.fluidization.equipment.bed import FluidizedBed
 from granum.fluidization.formulas.bubbles import (
     bubble_diameter_darton,
     bubble_exchange_rate_cloud,
@@ -51,7 +52,8 @@ class FluidBedDryer(CellDryer):
     With one cell the bed is well mixed: its gas is one, and particles stay for exponentially distributed
     times, so that some leave as they came. With more cells solid flows along the bed through that many tanks
     in series, each with fresh gas. The bypass is the bubble gas that has not been exchanged on its way up,
-    unless it is given.
+    unless it is given. With ``entrainment`` the exhaust takes fines along by their elutriation constant, as
+    ``fluidization.fluidized_bed`` does; else all solid overflows.
     """
 
     area: Area
@@ -62,6 +64,7 @@ class FluidBedDryer(CellDryer):
     void_fraction: VoidFraction = 0.45
     heat_loss: Power = 0.0
     temperature_limit: Temperature | None = None
+    entrainment: bool = False
 
     limits: ClassVar[Limits] = CellDryer.limits | {
         "fluidized": Limit(
@@ -81,6 +84,12 @@ class FluidBedDryer(CellDryer):
     def height(self, feed: Stream) -> Any:
         """Of the settled bed."""
         return self.mass / (self.area * feed.solid_density * (1.0 - self.void_fraction))
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        if not self.entrainment:
+            return None
+        bed = product.replace(gas=exhaust.gas, temperature=exhaust.temperature, pressure=exhaust.pressure)
+        return FluidizedBed(self.area, self.mass, self.void_fraction).inside(bed).carried
 
     def minimum_velocity(self, feed: Stream, gas: Stream) -> Any:
         """Of fluidization, with the gas of the inlet."""

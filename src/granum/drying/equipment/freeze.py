@@ -215,8 +215,9 @@ class FreezeDryer(Unit):
     ) -> dict[str, Any]:
         frozen = self.temperature_shelf_start - COLD_APPROACH
         shelves = figures.vial_count * self.area_vial
+        rest = jnp.maximum(outlets.heat_duty, 0.0)  # that leaves with the product
         return (
-            heated(figures.heat_duty_shelf, self.temperature_shelf_secondary)
-            | cooled(figures.heat_duty_condenser, frozen)
+            heated(figures.heat_duty_shelf + rest, self.temperature_shelf_secondary)
+            | cooled(figures.heat_duty_condenser + jnp.minimum(outlets.heat_duty, 0.0), frozen)
             | {"area_installed": shelves}
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from granum.core import formula, watch
-from granum.core.constants import HOUR, STEFAN_BOLTZMANN
+from granum.core.constants import HOUR, STEFAN_BOLTZMANN, VACUUM_PERMITTIVITY
 from granum.core.kinds import (
     Area,
     Fraction,
@@ -296,7 +296,7 @@ def dielectric_power_density(
     >>> round(dielectric_power_density(1e9, 1.0, 1e4) / (0.556e-10 * 1e9 * 1e8), 2)
     1.0
     """
-    return 2.0 * jnp.pi * frequency * 8.8541878128e-12 * loss_factor * electric_field**2
+    return 2.0 * jnp.pi * frequency * VACUUM_PERMITTIVITY * loss_factor * electric_field**2
 
 
 @formula(

@@ -162,7 +162,26 @@ class Dryer(Unit):
         return found
 
     def outlets(self, inside: Through, feed: Stream, gas: Stream) -> Dried:
-        return dried(feed, gas, inside.profile)
+        return self.dusted(dried(feed, gas, inside.profile))
+
+    def entrained(self, product: Stream, exhaust: Stream) -> Any:
+        """Share of each species and size class of the product that the exhaust takes along; None unless a
+        dryer says how much.
+        """
+        return None
+
+    def dusted(self, made: Dried) -> Dried:
+        """The outlets with the dust where it goes, its moisture with it."""
+        share = self.entrained(made.product, made.exhaust)
+        if share is None:
+            return made
+        product = made.product
+        share = share.reshape(share.shape + (1,) * len(product.mixture.axes))
+        dust = product.part(
+            solid=share, liquid=safe_divide(jnp.sum(product.solid * share), product.solid_flow)
+        )
+        rest = product.replace(solid=product.solid - dust.solid, liquid=product.liquid - dust.liquid)
+        return Dried(rest, made.exhaust + dust, made.heat_duty)
 
     def figures(
         self, inside: Through, outlets: Any, feed: Stream, gas: Stream, **_others: Any
@@ -170,7 +189,7 @@ class Dryer(Unit):
         feed, exhaust = counted(feed), outlets.exhaust
         found, humid = inside.profile, HumidMixture(feed.mixture)
         some = found.shares > 1e-9
-        evaporated = feed.liquid[0] - outlets.product.liquid[0]
+        evaporated = feed.liquid[0] - outlets.product.liquid[0] - (exhaust.liquid[0] - gas.liquid[0])
         return DryerFigures(
             evaporation_rate=evaporated,
             moisture_dry_basis=outlets.product.moisture_dry_basis,

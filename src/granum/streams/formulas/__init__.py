@@ -1,1 +1,0 @@
-"""What fans, pumps, compressors and stirrers take."""
