@@ -9,6 +9,7 @@ from scipy.integrate import quad, solve_ivp
 from granum.centrifuges.formulas import clarifying as cl
 from granum.centrifuges.formulas import field as fi
 from granum.centrifuges.formulas import laboratory as la
+from granum.centrifuges.formulas import mechanics
 from granum.centrifuges.formulas import spinning as sp
 from granum.core.constants import STANDARD_GRAVITY as g
 from granum.particles.formulas.drag import (
@@ -211,7 +212,7 @@ def test_drainage_by_hand_and_limits():
     assert S[0] == 1.0
     assert np.all(np.diff(S) <= 0)
     assert S[-1] == pytest.approx(0.1, abs=0.01)
-    assert cl.hoop_stress_bowl(0.3, 0.01, 300.0, 0.0) == pytest.approx(7850 * 90**2)
+    assert mechanics.hoop_stress_bowl(0.3, 0.01, 300.0, 0.0) == pytest.approx(7850 * 90**2)
     assert cl.sigma_factor_bottle(1e-4, 0.08, 0.12, 300.0) == pytest.approx(
         1e-4 * 9e4 / (2 * g * np.log(1.2))
     )

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from granum.centrifuges.equipment.decanters import ScrollDecanter
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
 from granum.centrifuges.equipment.screens import (
     ScrollScreen,
@@ -16,7 +17,7 @@ from granum.centrifuges.equipment.screens import (
     TumblingScreen,
     VibratingScreen,
 )
-from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
+from granum.centrifuges.equipment.settling import DiscStack, SolidBasket, TubularBowl
 from granum.centrifuges.formulas import conveying
 from granum.core.constants import ZERO_CELSIUS
 from granum.streams.audit import closure
@@ -154,6 +155,44 @@ def test_cycle_of_a_peeler_by_hand():
     assert float(spin.spin_off_time) == pytest.approx(fall, rel=1e-10)
     volume = np.pi * (ro**2 - rc**2) * 0.6
     assert float(spin.capacity_use) == pytest.approx(cake * (load + fall + 120) / volume, rel=1e-10)
+
+
+def test_a_heel_blinds_and_a_siphon_helps():
+    feed, plain = stream(0.5, 0.6, 0.2), FILTERING["peeler"]
+    shape = {
+        "radius_outer": 0.6,
+        "cake_radius": 0.5,
+        "radius_inner": 0.47,
+        "rotation_speed": "1000 rpm",
+        "basket_height": 0.6,
+        **COMMON,
+    }
+    before = plain.operate(feed=feed).figures
+    uses = [
+        float(
+            Peeler(**shape, heel_thickness=0.005, heel_blinding=0.2, heel_cycles=n)
+            .operate(feed=feed)
+            .figures.capacity_use
+        )
+        for n in (1.0, 20.0, 50.0)
+    ]
+    assert float(before.capacity_use) < uses[0] < uses[1] < uses[2]
+    # a fresh heel is cake that stays: the loading of a bowl of cake from there, its liquid pressing on
+    k = 1 / (3e8 * 0.58 * 2100)
+    unit = Peeler(**shape, heel_thickness=0.005)
+    assert float(unit.medium(feed)) == pytest.approx(0.005 / k, rel=1e-9)
+    siphon = Peeler(**shape, siphon_radius=0.605).operate(feed=feed)
+    assert float(siphon.figures.loading_time) == pytest.approx(
+        float(before.loading_time) * (0.6**2 - 0.47**2) / (0.605**2 - 0.47**2), rel=1e-9
+    )
+    # ½ ρ ω² (r_s² − r_o²) is 0.3 bar and more here; three centimeters farther out no air pressure would hold
+    suction = {c.name: c for c in siphon.checks}["suction of the siphon"]
+    density = float(feed.liquid_density)
+    by_hand = 0.5 * density * (1000 * np.pi / 30) ** 2 * (0.605**2 - 0.6**2) / 1e5
+    assert float(suction.value) == pytest.approx(by_hand, rel=1e-9)
+    assert suction.ok
+    far = Peeler(**shape, siphon_radius=0.63).operate(feed=feed)
+    assert not {c.name: c.ok for c in far.checks}["suction of the siphon"]
 
 
 def test_gradient_of_moisture_with_speed():

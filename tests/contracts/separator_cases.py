@@ -1,4 +1,6 @@
-"""Settlers, fluidized beds and cyclones, each from a random stream and three numbers."""
+"""Settlers, fluidized beds, cyclones and separators of two liquids, each from a random stream and three
+numbers.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,9 @@ import jax.numpy as jnp
 import numpy as np
 from tests.contracts.unit_search import Case
 
+from granum.centrifuges.equipment.decanters import ScrollDecanter, ThreePhaseDecanter
+from granum.centrifuges.equipment.liquids import DiscSeparator, NozzleSeparator, TubularSeparator
+from granum.centrifuges.equipment.purifiers import DiscPurifier
 from granum.cyclones.equipment.gas import GasCyclone
 from granum.cyclones.equipment.liquid import Hydrocyclone
 from granum.dust.equipment.bag_filter import BagFilter
@@ -36,6 +41,13 @@ SLURRY = Mixture(
     size_edges=tuple(np.geomspace(2e-6, 5e-4, CLASSES + 1)),
     liquid_viscosity=lambda w, T: 1e-3,
 )
+MILK = Mixture(  # fine, the light species first
+    solids=SLURRY.solids[::-1],
+    liquids=SLURRY.liquids,
+    gases=(),
+    size_edges=tuple(np.geomspace(2e-7, 1e-4, CLASSES + 1)),
+    liquid_viscosity=lambda w, T: 1e-3,
+)
 DUST = Mixture(
     solids=(SAND,),
     liquids=(),
@@ -55,6 +67,23 @@ def slurry(x, mean, spread) -> Stream:
     )
 
 
+def emulsion(x, mean, spread) -> Stream:
+    """1 kg/h to 100 t/h of water with 1 mg/kg to 1 kg/kg of drops and of sand, fine or wide."""
+    water, oil = 10.0 ** (-3.5 + 5.0 * x[0]), 10.0 ** (-6.0 + 6.0 * x[1])
+    parts = jnp.exp(-0.5 * ((jnp.linspace(0.0, 1.0, CLASSES) - mean) / (0.02 + spread)) ** 2) + 1e-12
+    parts = parts / jnp.sum(parts)
+    sand = 10.0 ** (-6.0 + 5.5 * x[3])
+    return empty(MILK, 280.0 + 60.0 * x[2]).replace(
+        solid=water * jnp.stack([oil * parts, sand * parts[::-1]]), liquid=jnp.stack([water])
+    )
+
+
+def oily(x, mean, spread) -> Stream:
+    """The same with far more oil than water."""
+    made = emulsion(x, mean, spread)
+    return made.replace(liquid=0.02 * (0.1 + x[1]) * made.liquid)
+
+
 def dusty(x, mean, spread) -> Stream:
     """0.1 to 30 kg/s of gas with 1 g/kg to 3 kg/kg of dust."""
     gas, dust = 10.0 ** (-1.0 + 2.5 * x[0]), 10.0 ** (-3.0 + 3.5 * x[1])
@@ -64,6 +93,18 @@ def dusty(x, mean, spread) -> Stream:
         gas=jnp.stack([gas]),
         pressure=jnp.asarray(1.0e5) + 2e5 * x[3],
     )
+
+
+def bowl(a, b) -> tuple:
+    """Inner and outer radius and speed of a bowl."""
+    radius = 0.05 + 0.3 * a
+    return (0.3 + 0.4 * b) * radius, radius, jnp.sqrt(10.0 ** (3.0 + 1.2 * b) * 9.81 / radius)
+
+
+def dams(a, b, c) -> dict:
+    """Weirs, the heavy one from too far in to too far out."""
+    inner = bowl(a, b)[0]
+    return {"radius_light": 0.95 * inner, "radius_heavy": inner * (0.85 + 0.35 * c)}
 
 
 # each from a random stream and three numbers from 0 to 1; the section follows the flow over two or three
@@ -129,6 +170,59 @@ UNITS = {
             jnp.maximum(f.slurry_volume_flow / (0.05 + 0.4 * a) ** 2 / (1.0 + 2.0 * c), 1.0),
         ),
     ),
+    "disc separator": (
+        emulsion,
+        lambda f, a, b, c: DiscSeparator(
+            *bowl(a, b), disc_number=20.0 + 150.0 * c, light_solids_fraction=0.2 + 0.75 * b, **dams(a, b, c)
+        ),
+    ),
+    "nozzle separator": (
+        emulsion,
+        lambda f, a, b, c: NozzleSeparator(
+            *bowl(a, b),
+            disc_number=50.0,
+            nozzle_number=4.0 + 20.0 * a,
+            nozzle_diameter=5e-4 + 2e-3 * b,
+            **dams(a, b, c),
+        ),
+    ),
+    "tubular separator": (
+        emulsion,
+        lambda f, a, b, c: TubularSeparator(*bowl(a, b), bowl_length=0.3 + c, **dams(a, b, c)),
+    ),
+    "purifier": (
+        oily,
+        lambda f, a, b, c: DiscPurifier(
+            *bowl(a, b),
+            disc_number=20.0 + 150.0 * c,
+            light_viscosity=10.0 ** (-3.0 + 2.0 * a),
+            droplet_diameter=10.0 ** (-6.0 + 2.0 * b),
+            **dams(a, b, c),
+        ),
+    ),
+    "scroll decanter": (
+        emulsion,
+        lambda f, a, b, c: ScrollDecanter(
+            *bowl(a, b),
+            bowl_length=0.5 + c,
+            beach_length=0.3 * a,
+            dry_beach_length=0.3 * c,
+            beach_angle=0.4 * b,
+            differential_speed=0.2 + 5.0 * c,
+        ),
+    ),
+    "three-phase decanter": (
+        emulsion,
+        lambda f, a, b, c: ThreePhaseDecanter(
+            *bowl(a, b),
+            bowl_length=0.5 + c,
+            beach_length=0.3 * a,
+            dry_beach_length=0.3 * c,
+            beach_angle=0.4 * b,
+            differential_speed=0.2 + 5.0 * c,
+            radius_heavy=bowl(a, b)[0] * (0.9 + 0.2 * c),
+        ),
+    ),
     "gas cyclone": (dusty, lambda f, a, b, c: GasCyclone(jnp.sqrt(f.gas_volume_flow / (0.5 + 2.0 * a)))),
     "bag filter": (
         dusty,
@@ -174,7 +268,7 @@ def case_of(name: str) -> Case:
     """One of them as a case for ``unit_search``."""
     stream_of, build = UNITS[name]
     return Case(
-        DUST if stream_of is dusty else SLURRY,
+        {dusty: DUST, slurry: SLURRY}.get(stream_of, MILK),
         lambda mixture, x: {"feed": stream_of(x[:4], x[4], x[5])},
         lambda feeds, u: build(feeds["feed"], u[0], u[1], u[2]),
     )

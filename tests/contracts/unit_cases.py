@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from tests.contracts.unit_search import Case, shares
 
+from granum.centrifuges.equipment.decanters import ScrollDecanter
 from granum.centrifuges.equipment.filtering import Peeler, Pusher
 from granum.centrifuges.equipment.screens import (
     ScrollScreen,
@@ -17,7 +18,7 @@ from granum.centrifuges.equipment.screens import (
     TumblingScreen,
     VibratingScreen,
 )
-from granum.centrifuges.equipment.settling import DiscStack, ScrollDecanter, SolidBasket, TubularBowl
+from granum.centrifuges.equipment.settling import DiscStack, SolidBasket, TubularBowl
 from granum.comminution.breakage import AustinBreakage, AustinSelection, BroadbentCallcottBreakage
 from granum.comminution.equipment.mills import BallMill, BondMill, ConeCrusher
 from granum.comminution.equipment.screens import DoubleDeckScreen, Screen, TripleDeckScreen

@@ -12,7 +12,8 @@ from typing import Any
 from granum.cases import building
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _, current_language
-from granum.core.index import entries, plain
+from granum.core.index import entries
+from granum.core.words import plain
 from granum.flowsheet.symbols import symbol_of
 from granum.materials.library import session
 

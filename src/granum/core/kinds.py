@@ -153,6 +153,7 @@ PressureDifference = Annotated[Any, _any("pressure difference", "Pa", "bar", "kP
 PressureDrop = Annotated[Any, _positive("pressure drop", "Pa", "bar", "kPa", "mbar", "psi")]
 PressureGradient = Annotated[Any, _any("pressure gradient", "Pa/m", "bar/m", "kPa/m", "mbar/m")]
 Force = Annotated[Any, _any("force", "N", "N", "mN", "kN")]
+Torque = Annotated[Any, _nonnegative("torque", "N*m", "N*m", "kN*m")]
 Stress = Annotated[Any, _any("stress", "Pa", "MPa", "N/mm^2")]
 SurfaceTension = Annotated[Any, _positive("surface tension", "N/m", "mN/m", "dyn/cm")]
 Permeability = Annotated[Any, _positive("permeability", "m^2", "darcy", "um^2")]

@@ -40,9 +40,12 @@ se ses son sont sur un une vous
 STOP = frozenset(_SMALL_WORDS.split())
 
 
+ALIKE = str.maketrans({"œ": "oe", "æ": "ae", "’": "'"})
+
+
 def plain(text: str) -> str:
-    """Small letters without accents, by which texts are compared in a search."""
-    apart = unicodedata.normalize("NFD", text.lower().replace("œ", "oe").replace("æ", "ae"))
+    """Small letters without accents, apostrophes straight, by which texts are compared in a search."""
+    apart = unicodedata.normalize("NFD", text.lower().translate(ALIKE))
     return "".join(letter for letter in apart if not unicodedata.combining(letter))
 
 

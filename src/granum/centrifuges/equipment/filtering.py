@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import abc
+from dataclasses import KW_ONLY
 from typing import Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
+from granum.centrifuges.formulas.conveying import QuarterTurn as FrictionAngle
+from granum.centrifuges.formulas.conveying import power_pushing
 from granum.centrifuges.formulas.field import centrifugal_effect
+from granum.centrifuges.formulas.mechanics import power_acceleration, power_windage
 from granum.centrifuges.formulas.spinning import (
     cake_saturation_spinning,
     filtrate_flow_basket,
@@ -71,6 +75,9 @@ class SpinFigures(NamedTuple):
     moisture_dry_basis: MoistureDryBasis
     dissolved_share: Fraction
     shaft_power: Power
+    power_acceleration: Power
+    power_windage: Power
+    power_conveying: Power
 
 
 class Spun(NamedTuple):
@@ -124,9 +131,22 @@ class FilteringCentrifuge(CakeMaker):
     def inner_radius(self, feed: Stream) -> Any:
         """Inner radius of the cake."""
 
+    @property
+    def cake_outer(self) -> Any:
+        """Outer radius of the cake."""
+        return self.radius_outer
+
+    def medium(self, feed: Stream) -> Any:
+        """Resistance of what lies under the cake, 1/m."""
+        return self.medium_resistance
+
     def thickness(self, feed: Stream) -> Any:
         """Cake thickness."""
-        return self.radius_outer - self.inner_radius(feed)
+        return self.cake_outer - self.inner_radius(feed)
+
+    def pushing(self, cake: Stream) -> Any:
+        """Power that moves the cake through the basket, W; none where it is cut, or slides, by itself."""
+        return 0.0
 
     def permeability(self, feed: Stream) -> Any:
         """Permeability of the cake from its specific resistance."""
@@ -135,13 +155,13 @@ class FilteringCentrifuge(CakeMaker):
     def case(self, feed: Stream) -> dict[str, Any]:
         """What the spinning formulas need."""
         return {
-            "radius_outer": self.radius_outer,
+            "radius_outer": self.cake_outer,
             "cake_radius": self.inner_radius(feed),
             "rotation_speed": self.rotation_speed,
             "liquid_density": feed.liquid_density,
             "dynamic_viscosity": feed.liquid_viscosity,
             "cake_permeability": self.permeability(feed),
-            "medium_resistance": self.medium_resistance,
+            "medium_resistance": self.medium(feed),
         }
 
     def solute_left(self, feed: Stream, wash: Stream | None) -> Any:
@@ -190,6 +210,11 @@ class FilteringCentrifuge(CakeMaker):
         self, inside: Spun, outlets: Filtered, feed: Stream, wash: Stream | None = None
     ) -> SpinFigures:
         spin = inside.spin
+        accelerated = power_acceleration(
+            feed.solid_flow + feed.liquid_flow, self.radius_outer, self.rotation_speed
+        )
+        windage = power_windage(self.radius_outer, self.height, self.rotation_speed)
+        pushed = jnp.asarray(self.pushing(outlets.cake), dtype=float)
         return SpinFigures(
             capacity_use=spin.capacity_use,
             cake_thickness=inside.thickness,
@@ -204,7 +229,10 @@ class FilteringCentrifuge(CakeMaker):
             cake_saturation=inside.saturation,
             moisture_dry_basis=outlets.cake.moisture_dry_basis,
             dissolved_share=self.dissolved(feed, outlets.cake),
-            shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
+            shaft_power=accelerated + windage + pushed,
+            power_acceleration=accelerated,
+            power_windage=windage,
+            power_conveying=pushed,
         )
 
     def measured(
@@ -236,7 +264,7 @@ class SetCake(FilteringCentrifuge):
     @property
     def cake_volume(self) -> Any:
         """Volume of the cake ring."""
-        return jnp.pi * (self.radius_outer**2 - self.cake_radius**2) * self.height
+        return jnp.pi * (self.cake_outer**2 - self.cake_radius**2) * self.height
 
 
 @equipment(
@@ -250,6 +278,10 @@ class Peeler(SetCake):
     off, drained, plowed.
 
     ``radius_inner`` is the free surface while loading and washing. Several baskets share the feed in turn.
+    The plow leaves a heel under the cake, as permeable as the cake when fresh, whose resistance grows with
+    each cycle (``heel_blinding``, as a share); all is told for the last of the ``heel_cycles`` between two
+    cleanings. A rotating siphon, whose mouth stands at ``siphon_radius`` beyond the basket wall, adds its
+    suction.
     """
 
     basket_height: Length
@@ -257,15 +289,34 @@ class Peeler(SetCake):
     drainage_time: Time = 60.0
     dead_time: Time = 60.0
     basket_number: PositiveNumber = 1.0
+    _: KW_ONLY
+    heel_thickness: Distance = 0.0
+    heel_blinding: Ratio = 0.0
+    heel_cycles: PositiveNumber = 1.0
+    siphon_radius: Length | None = None
 
     limits: ClassVar[Limits] = {
         "use": Limit("share of the capacity in use", 0.0, 1.0, "dimensionless", "grace1953"),
         **machine_limits(diameter=5e-6, solids=(0.03, 0.5), effect=(300.0, 2000.0), layer=(0.02, 0.2)),
+        "siphon": Limit("suction of the siphon", 0.0, 0.9, "bar", "perry2008, § 18"),
     }
 
     @property
     def height(self) -> Any:
         return self.basket_height
+
+    @property
+    def cake_outer(self) -> Any:
+        return self.radius_outer - self.heel_thickness
+
+    @property
+    def mouth(self) -> Any:
+        """Radius down to which liquid drives: that of the siphon, or of the basket."""
+        return self.radius_outer if self.siphon_radius is None else self.siphon_radius
+
+    def medium(self, feed: Stream) -> Any:
+        grown = 1.0 + self.heel_blinding * jnp.maximum(self.heel_cycles - 1.0, 0.0)
+        return self.medium_resistance + self.heel_thickness / self.permeability(feed) * grown
 
     def spin(self, feed: Stream, wash: Stream | None = None) -> Spin:
         case = self.case(feed)
@@ -280,13 +331,28 @@ class Peeler(SetCake):
         washing_flow = filtrate_flow_basket(
             basket_height=self.basket_height, radius_inner=self.radius_inner, **case
         )
+        outer, mouth = self.cake_outer**2, self.mouth**2
+        surface, cake = self.radius_inner**2, self.cake_radius**2
+        # what drives is the liquid down to the mouth of the siphon, or through the heel to the wall
+        drive = (mouth - surface) / (outer - surface)
+        loading, washing_flow = loading / drive, washing_flow * drive
         washing = self.wash_ratio(feed, wash) * self.void_fraction * self.cake_volume / washing_flow
-        falling = spin_off_time(radius_inner=self.radius_inner, **case)
+        falling = (
+            spin_off_time(radius_inner=self.radius_inner, **case)
+            * jnp.log((mouth - surface) / (mouth - cake))
+            / jnp.log((outer - surface) / (outer - cake))
+        )
         cycle = loading + washing + falling + self.drainage_time + self.dead_time
         use = cake_flow * cycle / (self.cake_volume * self.basket_number)
         return Spin(
             loading, washing, falling, jnp.asarray(self.drainage_time, dtype=float), cycle, use, jnp.zeros(())
         )
+
+    def measured(
+        self, inside: Spun, outlets: Filtered, figures: SpinFigures, feed: Stream, wash: Stream | None = None
+    ) -> dict[str, Any]:
+        suction = self.rotation_speed**2 * (self.mouth**2 - self.radius_outer**2) * feed.liquid_density / 2.0
+        return super().measured(inside, outlets, figures, feed, wash) | {"siphon": suction / 1e5}
 
 
 @equipment("pusher", source="storrow1957; perry2008, § 18", title="Pusher centrifuge")
@@ -301,6 +367,8 @@ class Pusher(SetCake):
     basket_length: Length
     feed_share: Fraction = 0.25
     wash_share: Fraction = 0.25
+    _: KW_ONLY
+    friction_angle: FrictionAngle = 0.5
 
     limits: ClassVar[Limits] = FLOODING | machine_limits(
         diameter=1e-4, solids=(0.15, 0.6), effect=(200.0, 2500.0), layer=(0.01, 0.08)
@@ -321,3 +389,12 @@ class Pusher(SetCake):
         flooding = jnp.maximum(forming, washing)
         wash_time = jnp.zeros(()) if wash is None else self.wash_share * stay
         return Spin(self.feed_share * stay, wash_time, jnp.zeros(()), drain, stay, flooding, flooding)
+
+    def pushing(self, cake: Stream) -> Any:
+        return power_pushing(
+            cake.solid_flow + cake.liquid_flow,
+            self.basket_length,
+            self.radius_outer,
+            self.rotation_speed,
+            self.friction_angle,
+        )

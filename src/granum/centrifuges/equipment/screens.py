@@ -20,14 +20,26 @@ from granum.centrifuges.equipment.filtering import (
     machine_limits,
 )
 from granum.centrifuges.formulas.conveying import (
+    power_pushing,
+    slide_length_cycle,
     sliding_ratio,
     stay_time_scroll,
+    stay_time_sliding,
     tumbling_angle_least,
     vibration_acceleration_least,
 )
 from granum.centrifuges.formulas.spinning import filtrate_flow_critical
 from granum.core import equipment
-from granum.core.kinds import Acceleration, Angle, Fraction, Length, RotationSpeed, Time, Within
+from granum.core.kinds import (
+    Acceleration,
+    Angle,
+    Fraction,
+    Frequency,
+    Length,
+    RotationSpeed,
+    Time,
+    Within,
+)
 from granum.core.limits import Limit
 from granum.streams.cakes import Filtered
 from granum.streams.stream import Stream
@@ -93,6 +105,8 @@ class ScrollScreen(ConicalScreen):
 
     scroll_pitch: Length
     differential_speed: RotationSpeed
+    _: KW_ONLY
+    friction_angle: ConeAngle = 0.5
 
     limits: ClassVar[Limits] = _screen_limits(6e-5, (300.0, 3000.0))
 
@@ -100,18 +114,45 @@ class ScrollScreen(ConicalScreen):
     def stay(self) -> Any:
         return stay_time_scroll(self.basket_length, self.scroll_pitch, self.differential_speed)
 
+    def pushing(self, cake: Stream) -> Any:
+        return power_pushing(
+            cake.solid_flow + cake.liquid_flow,
+            self.basket_length,
+            self.radius_outer,
+            self.rotation_speed,
+            self.friction_angle,
+        )
+
 
 class SlidingScreen(ConicalScreen):
-    """Abstract conical screen over which the cake slides; its stay comes from a test."""
+    """Abstract conical screen over which the cake slides. Its stay follows from dry friction unless a test
+    gives it; ``radius_outer`` is taken as that of the small end, from which the cake slides.
+    """
 
     cone_angle: ConeAngle
     friction_angle: ConeAngle
     _: KW_ONLY
-    stay_time: Time = 3.0
+    stay_time: Time | None = None
 
     @property
     def stay(self) -> Any:
-        return self.stay_time
+        return self.sliding() if self.stay_time is None else self.stay_time
+
+    @abc.abstractmethod
+    def sliding(self) -> Any:
+        """Stay by dry friction, s."""
+
+    def by_itself(self) -> Any:
+        """Stay of a cake that slides by its own weight in the field, s."""
+        return stay_time_sliding(
+            self.basket_length, self.radius_outer, self.rotation_speed, self.cone_angle, self.friction_angle
+        )
+
+    def by_steps(self, drive: Any, resistance: Any, frequency: Any) -> Any:
+        """Stay of a cake that each cycle moves on by a step, s."""
+        step = slide_length_cycle(jnp.maximum(drive, LEAST), jnp.maximum(resistance, LEAST), frequency)
+        stay = jnp.minimum(self.basket_length / jnp.maximum(step * frequency, LEAST), 3600.0)
+        return jnp.where(self.cone_angle < self.friction_angle, stay, self.by_itself())
 
     @abc.abstractmethod
     def mobility(self) -> Any:
@@ -136,6 +177,9 @@ class SlidingCakeScreen(SlidingScreen):
     def mobility(self) -> Any:
         return sliding_ratio(self.cone_angle, self.friction_angle)
 
+    def sliding(self) -> Any:
+        return self.by_itself()
+
 
 @equipment("vibrating_screen", source="leung1998; perry2008, § 18", title="Vibrating-screen centrifuge")
 class VibratingScreen(SlidingScreen):
@@ -144,6 +188,8 @@ class VibratingScreen(SlidingScreen):
     """
 
     vibration_acceleration: Acceleration
+    _: KW_ONLY
+    vibration_frequency: Frequency = 30.0
 
     limits: ClassVar[Limits] = _screen_limits(3e-4, (30.0, 200.0)) | {
         "moves": Limit(
@@ -157,6 +203,13 @@ class VibratingScreen(SlidingScreen):
         )
         return self.vibration_acceleration / jnp.maximum(least, LEAST)
 
+    def sliding(self) -> Any:
+        wall, friction = self.cone_angle, jnp.tan(self.friction_angle)
+        drive = self.vibration_acceleration * (jnp.cos(wall) + friction * jnp.sin(wall))
+        field = self.rotation_speed**2 * self.radius_outer
+        held = field * (friction * jnp.cos(wall) - jnp.sin(wall))
+        return self.by_steps(drive, held, self.vibration_frequency)
+
 
 @equipment("tumbling_screen", source="leung1998; perry2008, § 18", title="Tumbling centrifuge")
 class TumblingScreen(SlidingScreen):
@@ -165,6 +218,8 @@ class TumblingScreen(SlidingScreen):
     """
 
     tumbling_angle: ConeAngle
+    _: KW_ONLY
+    tumbling_frequency: Frequency = 5.0
 
     limits: ClassVar[Limits] = _screen_limits(5e-4, (30.0, 400.0)) | {
         "moves": Limit(
@@ -176,3 +231,9 @@ class TumblingScreen(SlidingScreen):
         return self.tumbling_angle / jnp.maximum(
             tumbling_angle_least(self.cone_angle, self.friction_angle), LEAST
         )
+
+    def sliding(self) -> Any:
+        # small angles: g (sin(γ + δ) − tan φ cos(γ + δ)) = g sin(γ + δ − φ)/cos φ
+        field = self.rotation_speed**2 * self.radius_outer / jnp.cos(self.friction_angle)
+        held = field * (self.friction_angle - self.cone_angle)
+        return self.by_steps(field * self.tumbling_angle, held, self.tumbling_frequency)

@@ -1,24 +1,31 @@
-"""Settling centrifuges in a line: tubular bowl, disc stack, scroll decanter, solid basket. Each size class by
+"""Clarifying centrifuges in a line: tubular bowl, disc stack, solid basket. Each species and size class by
 its own grade efficiency.
 """
 
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import KW_ONLY
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import jax.numpy as jnp
 
+from granum.centrifuges.equipment.bowls import (
+    CRITICAL,
+    Bowl,
+    held_liquid,
+    machine_limits,
+    no_floats,
+    slender,
+)
 from granum.centrifuges.formulas.clarifying import (
-    cut_size_centrifuge,
-    grade_efficiency_thin_layer,
     grade_efficiency_tubular,
     sigma_factor_disc,
-    sigma_factor_scroll,
     sigma_factor_tubular_half_area,
 )
 from granum.centrifuges.formulas.field import centrifugal_effect
+from granum.centrifuges.formulas.mechanics import critical_speed_bowl, discharge_interval
 from granum.core import equipment
 from granum.core.constants import RPM
 from granum.core.kinds import (
@@ -29,26 +36,19 @@ from granum.core.kinds import (
     Length,
     MassFlow,
     MoistureDryBasis,
-    OpenFraction,
     PositiveNumber,
     Power,
     Ratio,
     RotationSpeed,
+    Stress,
+    Time,
+    Volume,
     Within,
 )
 from granum.core.limits import Limit
-from granum.settling.equipment.gravity import (
-    DRAG,
-    HINDRANCE,
-    class_velocities,
-    floating_share,
-    over_axes,
-)
+from granum.settling.equipment.gravity import over_axes
 from granum.streams.stream import Stream
-from granum.streams.units import Limits, Unit, Utilities
-from granum.streams.utilities import DRIVE, driven
-
-Ends = tuple[float, float]
+from granum.streams.units import Limits
 
 
 class Clarified(NamedTuple):
@@ -66,154 +66,95 @@ class ClarifierFigures(NamedTuple):
     sigma_factor: Area
     centrifugal_effect: Ratio
     shaft_power: Power
+    power_acceleration: Power
+    power_windage: Power
+    hoop_stress_bowl: Stress
     moisture_dry_basis: MoistureDryBasis
     mass_flow_sediment: MassFlow
 
 
-def _machine_limits(*, solids: Ends, flow: Ends, effect: Ends, source: str) -> Limits:
-    """Limits that every machine has, with its own ends."""
+class EmptiedFigures(NamedTuple):
+    """Figures of a settling centrifuge that is emptied from time to time."""
+
+    solids_recovery: Fraction
+    cut_size_centrifuge: Distance
+    sigma_factor: Area
+    centrifugal_effect: Ratio
+    shaft_power: Power
+    power_acceleration: Power
+    power_windage: Power
+    hoop_stress_bowl: Stress
+    moisture_dry_basis: MoistureDryBasis
+    mass_flow_sediment: MassFlow
+    discharge_interval: Time
+
+
+class TubularFigures(NamedTuple):
+    """Figures of a tubular bowl."""
+
+    solids_recovery: Fraction
+    cut_size_centrifuge: Distance
+    sigma_factor: Area
+    centrifugal_effect: Ratio
+    shaft_power: Power
+    power_acceleration: Power
+    power_windage: Power
+    hoop_stress_bowl: Stress
+    moisture_dry_basis: MoistureDryBasis
+    mass_flow_sediment: MassFlow
+    discharge_interval: Time
+    critical_speed: RotationSpeed
+
+
+def clarified(unit: Bowl, feed: Stream, grade: Any, solids_fraction: Any) -> Clarified:
+    """Feed parted into sediment, with its voids full, and the rest."""
+    caught = feed.part(solid=over_axes(grade, feed))
+    share = held_liquid(caught, feed.liquid_volume_flow, solids_fraction)
+    sediment = caught.replace(liquid=share * feed.liquid, gas=0.0 * feed.gas)
+    overflow = feed.replace(solid=feed.solid - sediment.solid, liquid=feed.liquid - sediment.liquid)
+    return Clarified(sediment, overflow)
+
+
+def clarifier_figures(unit: Bowl, feed: Stream, outlets: Clarified, conveying: Any = 0.0) -> dict[str, Any]:
+    """Figures that clarifying machines share, by name."""
+    total = feed.solid_flow
+    accelerated, windage = unit.acceleration(outlets.sediment, outlets.overflow), unit.windage()
     return {
-        "solids": Limit("solids in the feed by volume", *solids, "dimensionless", source),
-        "flow": Limit("feed flow", *flow, "m^3/s", source),
-        "effect": Limit("centrifugal effect", *effect, "dimensionless", source),
-        "floats": Limit("floating matter, which has no outlet here", 0.0, 0.01, "dimensionless", source),
+        "solids_recovery": outlets.sediment.solid_flow / jnp.where(total > 0, total, 1.0),
+        "cut_size_centrifuge": unit.cut_size(feed, unit.sigma()),
+        "sigma_factor": jnp.asarray(unit.sigma(), dtype=float),
+        "centrifugal_effect": centrifugal_effect(unit.radius_outer, unit.rotation_speed),
+        "shaft_power": accelerated + windage + conveying,
+        "power_acceleration": accelerated,
+        "power_windage": windage,
+        "hoop_stress_bowl": unit.stress(feed),
+        "moisture_dry_basis": outlets.sediment.moisture_dry_basis,
+        "mass_flow_sediment": outlets.sediment.mass_flow,
     }
 
 
-def excess_density(feed: Stream) -> Any:
-    """By how much the solids that sink are denser than the liquid, kg/m³; what floats is lighter where
-    nothing sinks.
-    """
-    densities = feed.mixture.densities("solids", feed.temperature)
-    apart = densities - feed.liquid_density
-    sinks = apart > 0
-    flows = jnp.where(jnp.any(sinks), jnp.where(sinks, feed.solid_by_species, 0.0), feed.solid_by_species)
-    alike = jnp.where(jnp.any(sinks), 1.0 * sinks, jnp.ones_like(apart))
-    flows = jnp.where(jnp.sum(flows) > 0, flows, alike)
-    volumes = flows / densities
-    return jnp.maximum(jnp.sum(volumes * jnp.abs(apart)) / jnp.sum(volumes), 1e-3)
-
-
-def _slender(low: float, high: float) -> Limits:
-    return {"slender": Limit("bowl length over radius", low, high, "dimensionless", "robatel1989")}
-
-
-class SettlingCentrifuge(Unit):
-    """Abstract settling centrifuge.
-
-    Particles of each species settle as in Stokes' range at the centrifugal effect of the mean radius (with
-    the drag of their true Reynolds number), hindered by one another; drops count as rigid spheres.
-    ``sediment_solids_fraction`` is the volume fraction of solid in what is discharged: a property of the
-    sediment, from a spin test. ``sigma_efficiency`` derates the machine against its theory.
-    """
-
-    radius_inner: Length
-    radius_outer: Length
-    rotation_speed: RotationSpeed
-    _: KW_ONLY
-    sediment_solids_fraction: OpenFraction = 0.5
-    sigma_efficiency: PositiveNumber = 0.6
-
-    utilities: ClassVar[Utilities] = DRIVE
-
-    @abc.abstractmethod
-    def sigma(self) -> Any:
-        """Equivalent settling area; Q = ``flow_multiple`` · v_g Σ at the size that is caught by half."""
-
-    @property
-    def flow_multiple(self) -> Any:
-        """Convention of Sigma."""
-        return 2.0
-
-    def efficiency(self, velocity: Any, flow: Any) -> Any:
-        """Share of a size caught, from its settling velocity under gravity and the flow."""
-        return grade_efficiency_thin_layer(velocity, flow, self.sigma())
-
-    def velocities(self, feed: Stream) -> Any:
-        """Velocity of each species and size class under gravity, m/s, with the drag it has in the field;
-        negative for what rises.
-        """
-        effect = centrifugal_effect(0.5 * (self.radius_inner + self.radius_outer), self.rotation_speed)
-        return class_velocities(feed, DRAG, HINDRANCE, effect)
-
-    def grade(self, feed: Stream) -> Any:
-        """Share of each species and size class caught at the wall."""
-        velocity = self.velocities(feed)
-        flow = jnp.maximum(feed.slurry_volume_flow, 1e-300)
-        share = self.efficiency(self.sigma_efficiency * jnp.maximum(velocity, 0.0), flow)
-        return jnp.where(velocity > 0, share, 0.0)
+class SettlingCentrifuge(Bowl):
+    """Abstract clarifier with one liquid outlet, through which whatever floats leaves too."""
 
     def outlets(self, inside: None, feed: Stream) -> Clarified:
-        caught = feed.part(solid=over_axes(self.grade(feed), feed))
-        void = caught.solid_volume_flow * (1.0 / self.sediment_solids_fraction - 1.0)
-        flow = feed.liquid_volume_flow
-        share = jnp.minimum(void, flow) / jnp.where(flow > 0, flow, 1.0)
-        sediment = caught.replace(liquid=share * feed.liquid)
-        overflow = feed.replace(solid=feed.solid - sediment.solid, liquid=feed.liquid - sediment.liquid)
-        return Clarified(sediment, overflow)
+        return clarified(self, feed, self.grade(feed), self.sediment_solids_fraction)
 
-    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> ClarifierFigures:
-        total = feed.solid_flow
-        return ClarifierFigures(
-            solids_recovery=outlets.sediment.solid_flow / jnp.where(total > 0, total, 1.0),
-            cut_size_centrifuge=cut_size_centrifuge(
-                feed.slurry_volume_flow,
-                self.sigma(),
-                feed.liquid_density + excess_density(feed),
-                feed.liquid_density,
-                feed.liquid_viscosity,
-                self.flow_multiple,
-                self.sigma_efficiency,
-            ),
-            sigma_factor=jnp.asarray(self.sigma(), dtype=float),
-            centrifugal_effect=centrifugal_effect(self.radius_outer, self.rotation_speed),
-            # what it takes to bring the feed to the speed of the bowl wall and let it go there
-            shaft_power=(feed.solid_flow + feed.liquid_flow) * (self.rotation_speed * self.radius_outer) ** 2,
-            moisture_dry_basis=outlets.sediment.moisture_dry_basis,
-            mass_flow_sediment=outlets.sediment.mass_flow,
-        )
+    @abc.abstractmethod
+    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> Any:
+        """Figures of the data sheet."""
 
-    def measured(
-        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
-    ) -> dict[str, Any]:
-        return {
-            "solids": feed.solids_volume_fraction,
-            "flow": feed.slurry_volume_flow,
-            "effect": figures.centrifugal_effect,
-            "speed": self.rotation_speed,
-            "pond": self.radius_inner / self.radius_outer,
-            "floats": floating_share(feed),
-        }
-
-    def drawn(
-        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
-    ) -> dict[str, Any]:
-        return {"electric_power_drive": driven(figures.shaft_power)}
+    def measured(self, inside: None, outlets: Clarified, figures: Any, feed: Stream) -> dict[str, Any]:
+        return self.measured_bowl(feed, figures)
 
 
-@equipment(
-    "tubular_bowl",
-    source="ambler1959; svarovsky2001",
-    title="Tubular bowl centrifuge",
-    equation=r"\Sigma = \frac{\pi L\,\omega^2 (r_2^2 - r_1^2)}{g \ln[2r_2^2/(r_1^2 + r_2^2)]}",
-)
-class TubularBowl(SettlingCentrifuge):
-    """Slender bowl at very high speed: fine particles at low concentration, cleaned by hand when full."""
+class Tube(Bowl):
+    """Abstract slender bowl with plug flow."""
 
     bowl_length: Length
-    _: KW_ONLY
-    sigma_efficiency: PositiveNumber = 0.9
 
-    limits: ClassVar[Limits] = _machine_limits(
-        solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"
-    ) | _slender(8.0, 16.0)
-
-    def measured(
-        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
-    ) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed) | {
-            "slender": self.bowl_length / self.radius_outer
-        }
+    @property
+    def outside_length(self) -> Any:
+        return self.bowl_length
 
     def sigma(self) -> Any:
         return sigma_factor_tubular_half_area(
@@ -225,18 +166,68 @@ class TubularBowl(SettlingCentrifuge):
             velocity, flow, self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed
         )
 
+    def critical(self, feed: Stream) -> Any:
+        """First critical speed, rad/s."""
+        return critical_speed_bowl(
+            self.bowl_length, self.wall, self.radius_inner, self.thickness, feed.liquid_density
+        )
+
+    def space(self, given: Any) -> Any:
+        """Room for sediment: half of the bowl unless given, m³."""
+        whole = jnp.pi * (self.radius_outer**2 - self.radius_inner**2) * self.bowl_length
+        return 0.5 * whole if given is None else given
+
+
+TUBE_LIMITS: Limits = (
+    machine_limits(
+        solids=(0.0, 0.01), flow=(0.1 / 3600, 5.0 / 3600), effect=(1000.0, 60000.0), source="robatel1989"
+    )
+    | slender(8.0, 16.0)
+    | CRITICAL
+    | {"emptied": Limit("interval between cleanings", 0.5, math.inf, "hour", "robatel1989")}
+)
+
 
 @equipment(
-    "disc_stack",
+    "tubular_bowl",
     source="ambler1959; svarovsky2001",
-    title="Disc stack centrifuge",
-    equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}",
+    title="Tubular bowl centrifuge",
+    equation=r"\Sigma = \frac{\pi L\,\omega^2 (r_2^2 - r_1^2)}{g \ln[2r_2^2/(r_1^2 + r_2^2)]}",
 )
-class DiscStack(SettlingCentrifuge):
-    """Stack of conical discs with narrow gaps: much settling area in a small bowl, for fine solids.
+class TubularBowl(Tube, SettlingCentrifuge):
+    """Slender bowl at very high speed: fine particles at low concentration, cleaned by hand when full.
 
-    A clarifier: what is lighter than the liquid stays in it. Emulsions and light solids go to a disc
-    separator.
+    ``sludge_volume`` is the room for sediment, half of the bowl unless given.
+    """
+
+    _: KW_ONLY
+    sigma_efficiency: PositiveNumber = 0.9
+    sludge_volume: Volume | None = None
+
+    limits: ClassVar[Limits] = TUBE_LIMITS | no_floats("robatel1989")
+
+    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> TubularFigures:
+        return TubularFigures(
+            **clarifier_figures(self, feed, outlets),
+            discharge_interval=discharge_interval(
+                self.space(self.sludge_volume), outlets.sediment.slurry_volume_flow
+            ),
+            critical_speed=self.critical(feed),
+        )
+
+    def measured(
+        self, inside: None, outlets: Clarified, figures: TubularFigures, feed: Stream
+    ) -> dict[str, Any]:
+        return self.measured_bowl(feed, figures) | {
+            "slender": self.bowl_length / self.radius_outer,
+            "critical": self.rotation_speed / figures.critical_speed,
+            "emptied": figures.discharge_interval / 3600.0,
+        }
+
+
+class Discs(Bowl):
+    """Abstract bowl with a stack of conical discs between ``radius_inner`` and ``radius_outer``. Its wall
+    stands 1.3 times as far out as the discs unless given, and it is as high as wide.
     """
 
     disc_number: PositiveNumber
@@ -244,45 +235,61 @@ class DiscStack(SettlingCentrifuge):
     _: KW_ONLY
     sigma_efficiency: PositiveNumber = 0.55
 
-    limits: ClassVar[Limits] = _machine_limits(
-        solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"
-    ) | {"speed": Limit("rotation speed", 0.0, 12000 * RPM, "radian/s", "robatel1989")}
+    @property
+    def wall(self) -> Any:
+        return 1.3 * self.radius_outer if self.bowl_radius is None else self.bowl_radius
+
+    @property
+    def outside_length(self) -> Any:
+        return 2.0 * self.wall
+
+    def sigma_between(self, inner: Any, outer: Any) -> Any:
+        """Equivalent settling area of the discs between two radii, m²."""
+        return sigma_factor_disc(self.disc_number, inner, outer, self.rotation_speed, self.disc_angle)
 
     def sigma(self) -> Any:
-        return sigma_factor_disc(
-            self.disc_number, self.radius_inner, self.radius_outer, self.rotation_speed, self.disc_angle
-        )
+        return self.sigma_between(self.radius_inner, self.radius_outer)
+
+
+DISC_SPEED: Limits = {"speed": Limit("rotation speed", 0.0, 12000 * RPM, "radian/s", "robatel1989")}
+EJECTED: Limits = {"emptied": Limit("interval between discharges", 1.0, math.inf, "min", "leung1998")}
+DISC_LIMITS: Limits = (
+    machine_limits(
+        solids=(0.0, 0.15), flow=(0.0, 100.0 / 3600), effect=(3000.0, 20000.0), source="robatel1989"
+    )
+    | DISC_SPEED
+)
 
 
 @equipment(
-    "scroll_decanter",
-    source="ambler1959; records2001",
-    title="Scroll decanter",
-    equation=r"\Sigma = \frac{2\pi L\,\omega^2}{g}\left(\tfrac34 r_2^2 + \tfrac14 r_1^2\right)",
+    "disc_stack",
+    source="ambler1959; svarovsky2001",
+    title="Disc stack centrifuge",
+    equation=r"\Sigma = \frac{2\pi n\,\omega^2 (r_2^3 - r_1^3)}{3 g\tan\theta}",
 )
-class ScrollDecanter(SettlingCentrifuge):
-    """Horizontal bowl from which a screw conveys the sediment up a beach: continuous, for concentrated
-    slurries.
+class DiscStack(Discs, SettlingCentrifuge):
+    """Stack of conical discs with narrow gaps: much settling area in a small bowl, for fine solids; the bowl
+    opens when its sludge space is full.
+
+    A clarifier: what is lighter than the liquid stays in it. Emulsions and light solids go to a disc
+    separator.
     """
 
-    bowl_length: Length
-    beach_length: Distance = 0.0
+    _: KW_ONLY
+    sludge_volume: Volume = 0.005
 
-    limits: ClassVar[Limits] = _machine_limits(
-        solids=(0.02, 0.5), flow=(0.0, 200.0 / 3600), effect=(300.0, 3000.0), source="robatel1989"
-    ) | _slender(3.0, 7.0)
+    limits: ClassVar[Limits] = DISC_LIMITS | EJECTED | no_floats("robatel1989")
+
+    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> EmptiedFigures:
+        return EmptiedFigures(
+            **clarifier_figures(self, feed, outlets),
+            discharge_interval=discharge_interval(self.sludge_volume, outlets.sediment.slurry_volume_flow),
+        )
 
     def measured(
-        self, inside: None, outlets: Clarified, figures: ClarifierFigures, feed: Stream
+        self, inside: None, outlets: Clarified, figures: EmptiedFigures, feed: Stream
     ) -> dict[str, Any]:
-        return super().measured(inside, outlets, figures, feed) | {
-            "slender": self.bowl_length / self.radius_outer
-        }
-
-    def sigma(self) -> Any:
-        return sigma_factor_scroll(
-            self.bowl_length, self.radius_inner, self.radius_outer, self.rotation_speed, self.beach_length
-        )
+        return self.measured_bowl(feed, figures) | {"emptied": figures.discharge_interval / 60.0}
 
 
 @equipment("solid_basket", source="ambler1959; svarovsky2001", title="Solid-basket centrifuge")
@@ -293,14 +300,24 @@ class SolidBasket(SettlingCentrifuge):
 
     bowl_length: Length
     working_share: Annotated[Fraction, Within(0.01, 1.0)] = 0.8
+    _: KW_ONLY
+    wall_thickness: Length | None = 0.015
 
-    limits: ClassVar[Limits] = _machine_limits(
-        solids=(0.0, 0.1), flow=(0.0, 20.0 / 3600), effect=(300.0, 2000.0), source="perry2008, § 18"
-    ) | {"pond": Limit("inner over outer radius", 0.5, 0.95, "dimensionless", "perry2008, § 18")}
+    limits: ClassVar[Limits] = (
+        machine_limits(
+            solids=(0.0, 0.1), flow=(0.0, 20.0 / 3600), effect=(300.0, 2000.0), source="perry2008, § 18"
+        )
+        | no_floats("perry2008, § 18")
+        | {"pond": Limit("inner over outer radius", 0.5, 0.95, "dimensionless", "perry2008, § 18")}
+    )
 
     @property
     def flow_multiple(self) -> Any:
         return 2.0 * self.working_share
+
+    @property
+    def outside_length(self) -> Any:
+        return self.bowl_length
 
     def sigma(self) -> Any:
         return sigma_factor_tubular_half_area(
@@ -316,3 +333,6 @@ class SolidBasket(SettlingCentrifuge):
             self.radius_outer,
             self.rotation_speed,
         )
+
+    def figures(self, inside: None, outlets: Clarified, feed: Stream) -> ClarifierFigures:
+        return ClarifierFigures(**clarifier_figures(self, feed, outlets))

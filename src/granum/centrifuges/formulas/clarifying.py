@@ -1,5 +1,5 @@
-"""Clarifying centrifuges: Sigma of each machine, cut sizes, grade efficiency, liquid–liquid interface, wall
-stress.
+"""Clarifying centrifuges: Sigma of each machine, cut sizes, scale-up, grade efficiency, liquid–liquid
+interface.
 """
 
 from __future__ import annotations
@@ -20,10 +20,8 @@ from granum.core.kinds import (
     Fraction,
     Length,
     PositiveNumber,
-    Pressure,
     RotationSpeed,
     Speed,
-    Stress,
     Volume,
     VolumeFlow,
 )
@@ -334,6 +332,37 @@ def volume_flow_other_centrifuge(
 
 
 @formula(
+    source="records2001",
+    equation=r"Q_2 = Q_1\,\frac{K_2 V_2}{K_1 V_1}",
+    output="volume_flow",
+    typical={
+        "volume_flow": (1e-5, 1e-3),
+        "centrifugal_effect": (500.0, 3000.0),
+        "pool_volume": (1e-3, 0.1),
+        "centrifugal_effect_other": (500.0, 3000.0),
+        "pool_volume_other": (0.1, 1.0),
+    },
+    title="Flow of another centrifuge at equal g-volume",
+)
+def volume_flow_g_volume(
+    volume_flow: VolumeFlow,
+    centrifugal_effect: PositiveNumber,
+    pool_volume: Volume,
+    centrifugal_effect_other: PositiveNumber,
+    pool_volume_other: Volume,
+) -> VolumeFlow:
+    """Flow at which another decanter keeps the product of centrifugal effect and stay in the pool: the rule
+    of practice for sludge that is compacted rather than settled.
+
+    >>> round(volume_flow_g_volume("1 m^3/hour", 2000.0, "20 L", 3000.0, "200 L") * 3600, 6)
+    15.0
+    """
+    impossible(~(pool_volume > 0), pool_volume, "pool_volume", 0.0, jnp.inf)
+    grown = centrifugal_effect_other * pool_volume_other / centrifugal_effect
+    return volume_flow * grown / jnp.where(pool_volume > 0, pool_volume, 1.0)
+
+
+@formula(
     source="svarovsky2001",
     title="Grade efficiency of a tubular bowl",
     equation=(
@@ -361,6 +390,41 @@ def grade_efficiency_tubular(
     hold_up = jnp.pi * bowl_length * (r2**2 - r1**2) / volume_flow
     swept = -jnp.expm1(-2.0 * terminal_velocity * rotation_speed**2 * hold_up / STANDARD_GRAVITY)
     return jnp.minimum(swept / (1.0 - (r1 / r2) ** 2), 1.0)
+
+
+@formula(
+    source="svarovsky2001",
+    equation=(
+        r"E = \min\left(1,\;\frac{\exp(2 v_t\omega^2\tau/g) - 1}{(r_o/r_i)^2 - 1}\right),\quad \tau = "
+        r"\frac{\pi L (r_o^2 - r_i^2)}{Q}"
+    ),
+    typical={**_BOWL, "terminal_velocity": (1e-9, 1e-8), "volume_flow": (1e-4, 1e-2)},
+    output="grade_efficiency",
+    title="Share of a size that rises out in a tubular bowl",
+)
+def grade_efficiency_tubular_rising(
+    terminal_velocity: Speed,
+    volume_flow: VolumeFlow,
+    bowl_length: Length,
+    radius_inner: Length,
+    radius_outer: Length,
+    rotation_speed: RotationSpeed,
+) -> Fraction:
+    """Share of a size of drops or light particles that reaches the inner radius of a tubular bowl with plug
+    flow, from its rising speed under gravity.
+
+    The way back of the sinking particle: it starts fast, at the wall, and slows down as the field weakens.
+    Derived as the law of the sinking one is.
+
+    >>> round(grade_efficiency_tubular_rising(1e-8, 1e-3, 1.0, 0.1, 0.2, 1000.0), 4)
+    0.0706
+    """
+    r1, r2 = radius_inner, radius_outer
+    impossible(~(r1 < r2), r1, "radius_inner", 0.0, r2, INSIDE_OUT)
+    hold_up = jnp.pi * bowl_length * (r2**2 - r1**2) / volume_flow
+    path = 2.0 * terminal_velocity * rotation_speed**2 * hold_up / STANDARD_GRAVITY
+    whole = jnp.log(r2 / r1) * 2.0
+    return jnp.minimum(jnp.expm1(jnp.minimum(path, whole)) / ((r2 / r1) ** 2 - 1.0), 1.0)
 
 
 @formula(
@@ -450,32 +514,3 @@ def radius_heavy_dam(
     )
     i2, l2 = radius_interface**2, radius_light**2
     return jnp.sqrt(i2 - density_light / density_heavy * (i2 - l2))
-
-
-@formula(
-    source="perry2008, § 18; budynas2015, ch. 3",
-    fitted={"thickness_ratio": (0.0, 0.1)},
-    equation=r"\sigma_\theta = \rho_m\,\omega^2 R^2 + \frac{p R}{s}",
-    typical={
-        "bowl_radius": (0.1, 0.5),
-        "wall_thickness": (5e-3, 3e-2),
-        "rotation_speed": (100.0, 600.0),
-        "pressure": (1e5, 5e6),
-    },
-)
-def hoop_stress_bowl(
-    bowl_radius: Length,
-    wall_thickness: Length,
-    rotation_speed: RotationSpeed,
-    pressure: Pressure,
-    wall_density: Density = 7850.0,
-) -> Stress:
-    """Hoop stress in a thin bowl wall: its own weight in the field and the pressure of its contents.
-
-    A wall counts as thin up to a tenth of its radius (Budynas and Nisbett).
-
-    >>> round(hoop_stress_bowl(0.3, 0.01, 300, 1e6) / 1e6, 1)
-    93.6
-    """
-    watch(thickness_ratio=wall_thickness / bowl_radius)
-    return wall_density * (rotation_speed * bowl_radius) ** 2 + pressure * bowl_radius / wall_thickness

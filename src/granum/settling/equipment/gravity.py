@@ -69,7 +69,9 @@ def class_velocities(feed: Stream, drag: Any, hindrance: Any, effect: Any = 1.0)
     size = jnp.asarray(m.sizes) + 0.0 * density
     liquid = feed.liquid_density, feed.liquid_viscosity
     alone = terminal_velocity(size, density, *liquid, effect * STANDARD_GRAVITY, drag)
-    reynolds = reynolds_number(size, jnp.abs(alone), *liquid)
+    there = jnp.sum(feed.solid, axis=tuple(range(2, feed.solid.ndim))) > 0
+    # what is not there shall not be told to lie outside the range of a law
+    reynolds = jnp.where(there, reynolds_number(size, jnp.abs(alone), *liquid), 1.0)
     crowd = jnp.clip(feed.solids_volume_fraction, 1e-12, 1.0 - 1e-9)
     return alone / effect * hindrance(crowd, reynolds)
 
