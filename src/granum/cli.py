@@ -63,7 +63,8 @@ def _options(
 def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
     """Evaluate a formula, a law or a procedure; solve a piece of equipment alone.
 
-    Equipment begins with an ordinary feed; what enters is said by port: feed.solid_flow=400kg/h, mixture.solids=quartz.
+    Equipment begins with an ordinary feed; what enters is said by port: feed.solid_flow=400kg/h,
+    mixture.solids=quartz.
     """
     from granum.core import registry
 

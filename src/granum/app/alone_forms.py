@@ -17,8 +17,8 @@ from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.materials.library import session
 
-PORTS = {"feed": "feed", "gas": "gas", "wash": "wash", "fuel": "fuel", "cooling": "cooling air", "water": "water"}
-_NOT_SAID = {"relative_humidity"}
+LABELS = {"solid_flow": "solid flow", "liquid_flow": "liquid flow", "gas_flow": "gas flow"}
+PORTS = {"cooling": "cooling air", "outdoor": "outdoor air", "exhaust": "exhaust air"}
 
 
 def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
@@ -39,6 +39,8 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
         values |= stand
     rows, stand = _substances(found["mixture"])
     values |= stand
+    for row in (*rows, *(row for group in groups for row in group["parameters"])):
+        row["required"] = row["name"] in values
     thing = registry.find(key)
     spare = [port for port in thing.optional_inlets() if port not in found["feeds"]]
     return {
@@ -76,7 +78,8 @@ def _feed(
     for name, kind in FEED_KINDS.items():
         if name in feed or name in ("temperature", "pressure"):
             usual = {"temperature": 298.15, "pressure": 101325.0}.get(name, "")
-            rows.append(_row(f"{port}.{name}", Parameter(name, KINDS[kind], default=usual or None)))
+            p = Parameter(name, KINDS[kind], default=usual or None)
+            rows.append(_row(f"{port}.{name}", p, _(LABELS[name]) if name in LABELS else ""))
             if name in feed:
                 values[f"{port}.{name}"] = case_value(feed[name])
     for phase, shares in PHASES.items():
@@ -85,11 +88,15 @@ def _feed(
             for species in listed:
                 path = f"{port}.{shares}.{species}"
                 label = _("share of {species}").format(species=_(species))
-                rows.append(_row(path, Parameter("mass_fraction", KINDS["MassFraction"], default=None), label))
+                rows.append(
+                    _row(path, Parameter("mass_fraction", KINDS["MassFraction"], default=None), label)
+                )
                 values[path] = case_value(feed[shares].get(species, 0))
     sizes = feed.get("sizes")
     if isinstance(sizes, Mapping) and sizes.get("law"):
-        rows.append(_row(f"{port}.sizes", Parameter("size_distribution", default=None, law="size_distribution")))
+        rows.append(
+            _row(f"{port}.sizes", Parameter("size_distribution", default=None, law="size_distribution"))
+        )
         values[f"{port}.sizes"] = json.dumps(sizes, ensure_ascii=False)
     return rows, values
 
@@ -101,7 +108,9 @@ def _substances(mixture: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[
         listed = mixture.get(phase)
         if not listed:
             continue
-        p = Parameter(phase, default=None, choices=tuple(session().names("solid")) if phase == "solids" else ())
+        p = Parameter(
+            phase, default=None, choices=tuple(session().names("solid")) if phase == "solids" else ()
+        )
         row = _row(f"mixture.{phase}", p, label)
         rows.append(row if phase == "solids" and len(listed) == 1 else row | {"options": []})
         values[f"mixture.{phase}"] = ", ".join(listed)

@@ -110,7 +110,10 @@ def _feed(table: Mapping[str, Any]) -> dict[str, Any]:
             }
             row["default_shown"] = None if default is None else entry(p, default)
             rows.append(row)
-    return {"parameters": rows, "values": {name: case_value(table[name]) for name in FEED_KINDS if name in table}}
+    return {
+        "parameters": rows,
+        "values": {name: case_value(table[name]) for name in FEED_KINDS if name in table},
+    }
 
 
 def case_value(value: Any) -> str:

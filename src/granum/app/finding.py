@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
 
 from granum.app import exercises
 from granum.app.reading import page
@@ -59,7 +58,12 @@ def _told(kind: str, key: str) -> dict[str, str]:
         one = next(e for e in exercises.declared()["exercise"] if e["id"] == key)
         code = current_language()
         return {"sort": "exercise", "domain": "", "title": one["title"][code], "summary": one["source"]}
-    return {"sort": "page", "domain": "", "title": page(key).title, "summary": " · ".join(page(key).headings[:4])}
+    return {
+        "sort": "page",
+        "domain": "",
+        "title": page(key).title,
+        "summary": " · ".join(page(key).headings[:4]),
+    }
 
 
 def found(text: str, limit: int = SHOWN) -> list[dict[str, str]]:

@@ -66,9 +66,7 @@ def as_html(name: str) -> dict[str, Any]:
             return f"[{card.title}](#/find/{quote(match[1], safe='')})" if card else ""
 
     text = _MADE.sub("", _CARD.sub(of_card, found.text))
-    text = _LINK.sub(
-        lambda m: m[0] if m[2].startswith("#/") else _link_to(found.name, m[1], m[2]), text
-    )
+    text = _LINK.sub(lambda m: m[0] if m[2].startswith("#/") else _link_to(found.name, m[1], m[2]), text)
     shown = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
     shown = shown.replace("<table>", '<div class="wide" tabindex="0" role="region"><table>')
     return {

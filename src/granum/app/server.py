@@ -33,6 +33,7 @@ from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.glossary import glossary, term
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
 from granum.core.search import search
@@ -358,9 +359,7 @@ def _files(app: FastAPI, quick: Workers, workspace: Path | None) -> None:
         return Answer(
             {
                 "files": sorted(examples()),
-                "titles": {
-                    name: title_of(name) for name in examples()
-                },
+                "titles": {name: title_of(name) for name in examples()},
             }
         )
 
@@ -397,6 +396,11 @@ def _inside(workspace: Path | None, path: str) -> Path:
     return place
 
 
+def _family_title(family: str) -> str:
+    label = term(family).label if family in glossary() else family.replace("_", " ")
+    return label[:1].upper() + label[1:]
+
+
 @cache
 def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
     found = [
@@ -406,7 +410,8 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "domain": c.domain,
             "title": c.title,
             "summary": c.summary,
-            "other_names": c.other_names,
+            "family": c.family,
+            "family_title": _family_title(c.family),
         }
         for c in entries().values()
     ]

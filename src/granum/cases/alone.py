@@ -87,9 +87,7 @@ def _say(thing: Any, found: dict[str, Any], own: dict[str, Any], word: str, valu
     elif dot and (head in feeds or head in (thing.inlet_names() or (head,))):
         field = rest.partition(".")[0]
         if field not in FeedTable.model_fields:
-            raise unknown_name(
-                _("Input"), word, [f"{head}.{n}" for n in FeedTable.model_fields], _for(thing)
-            )
+            raise unknown_name(_("Input"), word, [f"{head}.{n}" for n in FeedTable.model_fields], _for(thing))
         feed = feeds.setdefault(head, {})
         for these, others in ((ONE_WAY, OTHER_WAY), (OTHER_WAY, ONE_WAY)):
             if field in these:  # the flow said one way is not also said the other
@@ -135,7 +133,7 @@ def alone(key: str, **inputs: Any) -> Line:
     """A piece of equipment as a line that can be solved; the streams at its inlets as dictionaries.
 
     >>> line = alone("streams.heater", temperature="70 degC", feed={"liquid_flow": "2 t/h"})
-    >>> round(line.solve().units["heater"].results.temperature - 273.15)
+    >>> round(line.solve().units["heater"].values.temperature - 273.15)
     70
     """
     thing = _equipment(key)
