@@ -17,15 +17,8 @@ from granum.core.parameters import Parameter
 from granum.core.sources import cite
 from granum.materials.library import session
 
-PORTS = {
-    "feed": "feed",
-    "gas": "gas",
-    "wash": "wash",
-    "fuel": "fuel",
-    "cooling": "cooling air",
-    "water": "water",
-}
-_NOT_SAID = {"relative_humidity"}
+LABELS = {"solid_flow": "solid flow", "liquid_flow": "liquid flow", "gas_flow": "gas flow"}
+PORTS = {"cooling": "cooling air", "outdoor": "outdoor air", "exhaust": "exhaust air"}
 
 
 def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
@@ -46,6 +39,8 @@ def alone_form(key: str, words: Mapping[str, Any]) -> dict[str, Any]:
         values |= stand
     rows, stand = _substances(found["mixture"])
     values |= stand
+    for row in (*rows, *(row for group in groups for row in group["parameters"])):
+        row["required"] = row["name"] in values
     thing = registry.find(key)
     spare = [port for port in thing.optional_inlets() if port not in found["feeds"]]
     return {
@@ -83,7 +78,8 @@ def _feed(
     for name, kind in FEED_KINDS.items():
         if name in feed or name in ("temperature", "pressure"):
             usual = {"temperature": 298.15, "pressure": 101325.0}.get(name, "")
-            rows.append(_row(f"{port}.{name}", Parameter(name, KINDS[kind], default=usual or None)))
+            p = Parameter(name, KINDS[kind], default=usual or None)
+            rows.append(_row(f"{port}.{name}", p, _(LABELS[name]) if name in LABELS else ""))
             if name in feed:
                 values[f"{port}.{name}"] = case_value(feed[name])
     for phase, shares in PHASES.items():

@@ -38,9 +38,15 @@ from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import law_label, limit_rows
 
 
+def whole(card: Card) -> Card:
+    """A card as a form asks for it: of a law also what it is called with."""
+    return replace(card, parameters=tuple(card.inputs.values()), arguments=()) if card.arguments else card
+
+
 def card_form(key: str) -> dict[str, Any]:
     """One card with everything a form needs."""
-    card = registry.find(key).card
+    card = whole(registry.find(key).card)
+    asked = registry.find(key).card.arguments
     data = card.as_json() | {"equation_shown": equation_lines(card.equation)}
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
@@ -50,7 +56,7 @@ def card_form(key: str) -> dict[str, Any]:
         row["options"] = options(p)
         row["laws"] = laws_with_parameters(p)
         row["several"] = bool(p.kind) and card.sort == "formula"
-        row["example"] = example(p, examples)
+        row["example"] = example(p, {} if p in asked and p.name not in examples else examples)
         row["units"] += _unit_of(row["example"], p.kind, row["units"])
     return data
 

@@ -34,6 +34,7 @@ from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
 from granum.core.errors import GranumError, InputError, unknown_name
+from granum.core.glossary import glossary, term
 from granum.core.i18n import _, current_language
 from granum.core.index import entries
 from granum.core.search import search
@@ -450,6 +451,11 @@ def _inside(workspace: Path | None, path: str) -> Path:
     return place
 
 
+def _family_title(family: str) -> str:
+    label = term(family).label if family in glossary() else family.replace("_", " ")
+    return label[:1].upper() + label[1:]
+
+
 @cache
 def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
     found = [
@@ -459,7 +465,8 @@ def _cards_in(_language: str) -> tuple[list[dict[str, Any]], bytes]:
             "domain": c.domain,
             "title": c.title,
             "summary": c.summary,
-            "other_names": c.other_names,
+            "family": c.family,
+            "family_title": _family_title(c.family),
         }
         for c in entries().values()
     ]

@@ -84,7 +84,7 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
     refused here.
     """
     values = given_values(inputs)
-    for p in card.parameters:
+    for p in card.inputs.values():
         value = values.get(p.name)
         listed = isinstance(value, (list, tuple))
         single = p.kind is not None and not p.series and card.sort != "formula"
@@ -104,8 +104,12 @@ def inputs_for(card: Card, inputs: dict[str, Any]) -> dict[str, Any]:
 
 
 def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
-    """Evaluate a formula or a procedure."""
-    thing = evaluable(payload["key"], ("formula", "procedure"))
+    """Evaluate a formula, a procedure or a law that needs no more than numbers."""
+    thing = evaluable(payload["key"], ("formula", "procedure", "law"))
+    if not hasattr(thing, "evaluate"):
+        raise InputError(
+            _("'{key}' is used inside equipment and has no value by itself.").format(key=thing.card.key)
+        )
     given = inputs_for(thing.card, payload["inputs"])
     return packed(described(thing.evaluate(**given), given))
 

@@ -133,7 +133,7 @@ def alone(key: str, **inputs: Any) -> Line:
     """A piece of equipment as a line that can be solved; the streams at its inlets as dictionaries.
 
     >>> line = alone("streams.heater", temperature="70 degC", feed={"liquid_flow": "2 t/h"})
-    >>> round(line.solve().units["heater"].results.temperature - 273.15)
+    >>> round(line.solve().units["heater"].values.temperature - 273.15)
     70
     """
     thing = _equipment(key)

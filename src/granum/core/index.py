@@ -76,12 +76,6 @@ class Entry:
         """First sentence of the docstring, in the current language."""
         return (self.french_summary if current_language() == "fr" else "") or _(self.english_summary)
 
-    @property
-    def other_names(self) -> str:
-        """Other names, in either language, of what it is about and what it gives."""
-        words = dict.fromkeys(map(quantity_in, (self.name, self.family, *self.gives.split())))
-        return ", ".join(dict.fromkeys(name for word in words if word for name in term(word).also))
-
 
 @cache
 def entries() -> dict[str, Entry]:

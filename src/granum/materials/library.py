@@ -150,6 +150,13 @@ class Library:
         """The materials of a sort as their files declare them, by name: nothing is calculated."""
         return dict(self._entries[sort].values())
 
+    def label(self, name: str) -> str:
+        """The name of a material in the current language, as far as its file tells."""
+        if current_language() == "en":
+            return name
+        found = (self._entries[sort].get(name) for sort in _SORTS)
+        return next((entry.fr for _key, entry in filter(None, found) if getattr(entry, "fr", "")), name)
+
     def fluid(self, name: str) -> Fluid:
         """A pure fluid by name, chemical formula or French name."""
         return self._find("fluid", name, fluid_of)

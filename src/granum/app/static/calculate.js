@@ -20,7 +20,7 @@ import { Finder, useCards } from './cards.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
 
-const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
+export const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
 /** Selection guides are the procedures whose name says that they choose. */
 export const isSelection = (c) => c.sort === 'procedure' && /^choose|_choice$/.test(c.card.split('.')[1]);
 

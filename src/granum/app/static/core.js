@@ -8,9 +8,9 @@ export { h, html, render, useState, useEffect, useRef, useMemo, useCallback };
 let links = 0;
 export function readLink() {
   const [path, query = ''] = location.hash.replace(/^#\/?/, '').split('?');
-  const [page = 'calculate', ...rest] = path.split('/').map(decodeURIComponent);
+  const [page = 'home', ...rest] = path.split('/').map(decodeURIComponent);
   return {
-    page: page || 'calculate',
+    page: page || 'home',
     key: rest.join('/'),
     values: Object.fromEntries(new URLSearchParams(query)),
     visit: ++links,
