@@ -33,6 +33,7 @@ from granum.core.units import (
     to_si,
 )
 from granum.core.written import read_number
+from granum.estimation.tables import heading_names
 from granum.materials.stated import asked_of_a_fluid
 from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import law_label, limit_rows
@@ -55,6 +56,7 @@ def card_form(key: str) -> dict[str, Any]:
         row |= _field(p)
         row["options"] = options(p)
         row["laws"] = laws_with_parameters(p)
+        row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"
         row["example"] = example(p, {} if p in asked and p.name not in examples else examples)
         row["units"] += _unit_of(row["example"], p.kind, row["units"])

@@ -22,7 +22,7 @@ from granum.core.cards import Card
 from granum.core.conversion import Binder
 from granum.core.errors import InputError
 from granum.core.i18n import _, current_language
-from granum.core.units import format_number
+from granum.core.units import format_number, pretty_unit
 from granum.flowsheet.watching import Watch
 from granum.reports.quantities import (
     check_row,
@@ -32,7 +32,7 @@ from granum.reports.quantities import (
     is_finding,
     origins_text,
     ranges_text,
-    statistics_text,
+    statistics_rows,
     value_text,
 )
 from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
@@ -151,14 +151,20 @@ def fit(payload: dict[str, Any], tell: Tell) -> bytes:
         data
         | {
             "shown": [row._asdict() for row in estimate_rows(data)],
-            "statistics_shown": " · ".join(
-                filter(
-                    None, (statistics_text(data), origins_text(data), defaults_text(data), ranges_text(data))
-                )
-            ),
+            "residual_unit": _residual_unit(test_type),
+            "statistics_rows": statistics_rows(data),
+            "remarks": [*filter(None, (text(data) for text in (origins_text, defaults_text, ranges_text)))],
             "chart": json.loads(test.chart().to_json()),
         }
     )
+
+
+def _residual_unit(test_type: Any) -> str:
+    """SI unit of what a test fits; empty where it fits several things."""
+    from granum.core.kinds import kind_of
+
+    kinds = [kind_of(annotation) for annotation in getattr(test_type, "axes", {}).values()]
+    return pretty_unit(kinds[1].unit) if len(kinds) == 2 and kinds[1] is not None else ""
 
 
 def table(payload: dict[str, Any], _tell: Tell) -> bytes:

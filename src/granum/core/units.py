@@ -388,8 +388,6 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
 
 def format_number(value: float, digits: int = 4) -> str:
     """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French."""
-    from granum.core.i18n import current_language
-
     if not np.isfinite(value):
         return "—"
     if value == 0.0:
@@ -403,7 +401,19 @@ def format_number(value: float, digits: int = 4) -> str:
     else:
         mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
         mantissa, exponent = mantissa.rstrip("0").rstrip("."), int(power)
-        text = f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPT)}"
+        text = f"{mantissa} {ten_to(exponent)}"
+    return decimal(text)
+
+
+def ten_to(power: int) -> str:
+    """``× 10⁸``."""
+    return f"× 10{str(power).translate(_SUPERSCRIPT)}"
+
+
+def decimal(text: str) -> str:
+    """The text of a number with the decimal mark of the current language."""
+    from granum.core.i18n import current_language
+
     return text.replace(".", ",") if current_language() == "fr" else text
 
 

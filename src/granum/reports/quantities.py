@@ -5,7 +5,7 @@ table.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any, NamedTuple
@@ -19,7 +19,7 @@ from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.limits import Limit
 from granum.core.parameters import Parameter, default_as_json
 from granum.core.sources import cite
-from granum.core.units import field_units, format_number, from_si, pretty_unit, show
+from granum.core.units import decimal, field_units, format_number, from_si, pretty_unit, show, ten_to
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -102,8 +102,8 @@ def label_of(name: str) -> str:
     return f"{term(word).label} ({ending(rest)})" if rest else term(word).label
 
 
-def statistics_text(data: dict[str, Any]) -> str:
-    """The statistics of the JSON of a fit in one line."""
+def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
+    """The statistics of the JSON of a fit, in words with their numbers."""
     labels = {
         "rmse": _("root mean square of the residuals"),
         "r_squared": "R²",
@@ -113,11 +113,15 @@ def statistics_text(data: dict[str, Any]) -> str:
         "points_excluded": _("points excluded"),
         "residual_standard_deviation": _("residual standard deviation"),
         "condition": _("condition of the normal equations"),
+        "smoothing_points": _("points smoothed over"),
     }
     numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
-    return " · ".join(
-        f"{labels.get(name, name.replace('_', ' '))} = {format_number(x)}" for name, x in numbers
-    )
+    return [(labels.get(name, name.replace("_", " ")), format_number(x)) for name, x in numbers]
+
+
+def statistics_text(data: dict[str, Any]) -> str:
+    """The statistics of the JSON of a fit in one line."""
+    return " · ".join(f"{label} = {text}" for label, text in statistics_rows(data))
 
 
 def defaults_text(data: dict[str, Any]) -> str:
@@ -166,7 +170,10 @@ def range_text(low: float, high: float, p: Parameter) -> str:
 
 
 class EstimateRow(NamedTuple):
-    """An estimate in its display unit, each number to the second figure of the standard error."""
+    """An estimate in its display unit, each number to the second figure of the standard error.
+
+    ``together`` is value ± error and ``between`` the interval, both with one power of ten.
+    """
 
     name: str
     label: str
@@ -175,6 +182,8 @@ class EstimateRow(NamedTuple):
     interval: str
     unit: str
     derived: bool
+    together: str = ""
+    between: str = ""
 
 
 def estimate_rows(data: dict[str, Any]) -> list[EstimateRow]:
@@ -198,7 +207,32 @@ def _estimate(card: str, name: str, row: dict[str, Any], derived: bool) -> Estim
         ]
     value, error, low, high = (_to_figure_of(x, numbers[1]) for x in numbers)
     interval = "" if numbers[2] is None and numbers[3] is None else f"{low} … {high}"
-    return EstimateRow(name, label_of(name), value, error, interval, pretty_unit(unit), derived)
+    return EstimateRow(
+        name, label_of(name), value, error, interval, pretty_unit(unit), derived, *_in_one_power(numbers)
+    )
+
+
+def _in_one_power(numbers: Sequence[float | None]) -> tuple[str, str]:
+    """Value ± error, and the interval, each with the power of ten of the value taken out where it is far from
+    one.
+    """
+    value, error, low, high = numbers
+    if value is None:
+        return "—", ""
+    size = math.floor(math.log10(abs(value))) if value else 0
+    power = size if not -3 <= size < 5 else 0
+    fine = error if error and math.isfinite(error) else None
+    figure = math.floor(math.log10(fine / 10.0**power)) - 1 if fine else size - power - 3
+    decimals = max(-figure, 0)
+
+    def written(x: float | None) -> str:
+        return "—" if x is None else decimal(f"{x / 10.0**power:.{decimals}f}")
+
+    def times(text: str, several: bool) -> str:
+        return text if not power else f"({text}) {ten_to(power)}" if several else f"{text} {ten_to(power)}"
+
+    together = times(f"{written(value)} ± {written(error)}", True) if fine else times(written(value), False)
+    return together, "" if low is None and high is None else times(f"{written(low)} … {written(high)}", True)
 
 
 def _to_figure_of(value: float | None, error: float | None) -> str:

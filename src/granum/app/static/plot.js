@@ -106,6 +106,23 @@ const tabled = (data, width) =>
       : trace,
   );
 
+/** The title of an upright axis in two lines where one is too long for it. */
+function upright(axis, height) {
+  const text = axis?.title?.text;
+  const bare = text?.replace(/<[^>]*>/g, '');
+  if (!bare || bare.length * 7.5 < height) return axis;
+  const breaks = [...text.matchAll(/ (?=<i>|\/ |\(|\S)/g)].map((found) => found.index);
+  const free = breaks.filter((at) => (text.slice(0, at).match(/</g) ?? []).length % 2 === 0); // in no tag
+  const middle = free.toSorted((a, b) => Math.abs(a - text.length / 2) - Math.abs(b - text.length / 2))[0];
+  return middle
+    ? {
+        ...axis,
+        automargin: true,
+        title: { ...axis.title, text: `${text.slice(0, middle)}<br>${text.slice(middle + 1)}` },
+      }
+    : { ...axis, automargin: true };
+}
+
 /** The layout for a place on the page: the page carries the title; a narrow place gets the legend under the plot. */
 function fitted({ layout, data }, width) {
   const count = data.filter((trace) => trace.name && trace.showlegend !== false).length;
@@ -113,6 +130,9 @@ function fitted({ layout, data }, width) {
   const right = layout.yaxis?.side === 'right';
   const margin = { ...layout.margin, t: 12, ...(narrow ? { l: right ? 20 : 56, r: right ? 62 : 12 } : {}) };
   const table = narrow && data.find((trace) => trace.type === 'table');
+  const own = layout.legend && ['x', 'y', 'orientation'].some((part) => layout.legend[part] !== undefined);
+  const above = !narrow && !own && count > 1 && count <= 6 && layout.showlegend !== false;
+  if (above) margin.t = 34;
   const legend = narrow
     ? {
         ...layout.legend,
@@ -123,7 +143,9 @@ function fitted({ layout, data }, width) {
         yanchor: 'top',
         font: { size: 11 },
       }
-    : layout.legend;
+    : above
+      ? { ...layout.legend, orientation: 'h', x: 0, xanchor: 'left', y: 1.01, yanchor: 'bottom' } // over the plot, on nothing
+      : layout.legend;
   const axes = narrow
     ? {
         xaxis: { ...layout.xaxis, dtick: undefined, nticks: 6, tickangle: 0 },
@@ -131,6 +153,18 @@ function fitted({ layout, data }, width) {
         ...(table && { yaxis: { ...layout.yaxis, domain: [shareOf(table) + 0.12, 1] } }),
       }
     : {};
+  const height = (layout.height || 450) - 110;
+  const upward = Object.fromEntries(
+    Object.entries({ ...layout, ...axes })
+      .filter(([part]) => /^yaxis\d*$/.test(part))
+      .map(([part, axis]) => {
+        const [low, high] = axis.domain ?? [0, 1];
+        return [
+          part,
+          upright({ ...axis, ...(narrow && !right && { automargin: true }) }, (high - low) * height),
+        ];
+      }),
+  );
   return {
     ...layout,
     title: undefined,
@@ -140,6 +174,7 @@ function fitted({ layout, data }, width) {
     margin,
     legend,
     ...axes,
+    ...upward,
   };
 }
 
@@ -212,9 +247,11 @@ function Files({ figure, place, name, label }) {
 const MOST_ROWS = 500;
 
 /** `files`: whether what the chart can be taken away as stands below it; where its numbers stand beside it anyway, not. */
-export function Plot({ figure, label, onPoint, files = true, name = 'granum' }) {
+export function Plot({ figure, label, onPoint, onMark, files = true, name = 'granum' }) {
   const clicked = useRef(null);
   clicked.current = onPoint;
+  const marked = useRef(null);
+  marked.current = onMark;
   const place = useRef(null);
   const [theme, setTheme] = useState(0);
   useEffect(() => {
@@ -238,6 +275,7 @@ export function Plot({ figure, label, onPoint, files = true, name = 'granum' }) 
         });
         place.current.removeAllListeners?.('plotly_click');
         place.current.on('plotly_click', (event) => {
+          marked.current?.(event.points[0]);
           const edge = place.current.getBoundingClientRect();
           const { xaxis, yaxis } = place.current._fullLayout;
           clicked.current?.(

@@ -148,6 +148,17 @@ export const french = {
   'Product: {stream}. In brackets: given by another unit of the line, and not counted.':
     'Produit : {stream}. Entre parenthèses : fourni par un autre appareil de la ligne, et non compté.',
   'Data and fit': 'Données et ajustement',
+  'Parameters': 'Paramètres',
+  'value ± standard error': 'valeur ± erreur type',
+  'measured − model': 'mesuré − modèle',
+  'residuals': 'résidus',
+  'Statistics': 'Statistiques',
+  'Points': 'Points',
+  '{count} left out by you': '{count} écartés par vous',
+  '{count} (found automatically)': '{count} (trouvé automatiquement)',
+  'Click a point to leave it out of the fit.': 'Cliquez sur un point pour l’écarter de l’ajustement.',
+  'This table is too large to be kept here: it is gone after a reload.':
+    'Ce tableau est trop grand pour être gardé ici : il disparaît après un rechargement.',
   'Download the result': 'Télécharger le résultat',
   'Open a case file': 'Ouvrir un fichier de cas',
   'Open…': 'Ouvrir…',
