@@ -13,6 +13,7 @@ import {
   Working,
 } from './core.js';
 import { Plot } from './plot.js';
+import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';
@@ -112,7 +113,7 @@ function Test({ card, given }) {
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
-      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} />`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} table=${table} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
 }
 
@@ -173,22 +174,6 @@ function Columns({ columns, table, change }) {
   })}`;
 }
 
-/** The fit as a table of a case file: the line then takes what the test gave. */
-function asCase(data, values) {
-  const quoted = (text) => JSON.stringify(String(text));
-  const given = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined);
-  const name = data.card.split('.')[1];
-  return [
-    `[fits.${name}]`,
-    `test = ${quoted(data.card)}`,
-    'data = "data.csv"',
-    `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
-    `gives = { ${Object.keys(data.parameters)
-      .map((key) => `"UNIT.${key}" = ${quoted(key)}`)
-      .join(', ')} }`,
-  ].join('\n');
-}
-
 const residuals = (data) => ({
   data: [
     {
@@ -208,7 +193,7 @@ const residuals = (data) => ({
   },
 });
 
-function Fitted({ data, values }) {
+function Fitted({ data, values, table }) {
   const save = () => {
     const { chart: _chart, ...rest } = data;
     download(`${data.card}.json`, JSON.stringify(rest, null, 1), 'application/json');
@@ -219,6 +204,6 @@ function Fitted({ data, values }) {
     ${data.chart && html`<${Plot} figure=${data.chart} label=${t('Data and fit')} />`}
     ${data.residuals?.length > 0 && !Array.isArray(data.residuals[0]) && html`<h2>${t('Residuals')}</h2><${Plot} figure=${residuals(data)} label=${t('Residuals')} />`}
     <p class="small dim">${data.statistics_shown}</p>
-    <details><summary>${t('Use in a line')}</summary><p class="small">${t('Put this into the case file, with the table saved beside it as data.csv, and write the name of the unit instead of UNIT.')}</p><pre>${asCase(data, values)}</pre></details>
+    <${UseInLine} data=${data} values=${values} table=${table} />
     <button class="button" onClick=${save}>${t('Download the result')}</button>`;
 }

@@ -67,7 +67,14 @@ export function Substances({ form, build }) {
   return html`<details data-substances><summary>${t('Substances')} <span class="dim">${[...new Set([...liquids, ...solids, ...gases])].map((name) => named(known, name)).join(', ')}</span></summary>
     ${phases.map(
       ([phase, label, names]) =>
-        html`<div class="substances"><p class="small dim">${label}</p><div class="row">${names.map((name) => html`<span class="chip">${named(known, name)} <button aria-label=${t('Remove {name}', { name: named(known, name) })} onClick=${() => set(phase, names.filter((other) => other !== name))}>×</button></span>`)}
+        html`<div class="substances"><p class="small dim">${label}</p><div class="row">${names.map(
+          (name) =>
+            html`<span class="chip">${named(known, name)} <button aria-label=${t('Remove {name}', { name: named(known, name) })} onClick=${() =>
+              set(
+                phase,
+                names.filter((other) => other !== name),
+              )}>×</button></span>`,
+        )}
         <${Choice} id=${'add-' + phase} label=${t('Add')} quiet rows=${offered(known, phase, liquids[0])} value="" pick=${(name) => name && set(phase, [...names, name])} /></div></div>`,
     )}</details>`;
 }
@@ -84,10 +91,19 @@ export function Specifications({ form, build }) {
   const inputs = units.flatMap(([name, unit]) =>
     unit.parameters
       .filter((p) => p.kind && !p.series && unit.values[p.name] !== undefined)
-      .map((p) => ({ value: `${name}.${p.name}`, label: `${pretty(name)}: ${p.label}`, p, now: unit.values[p.name] })),
+      .map((p) => ({
+        value: `${name}.${p.name}`,
+        label: `${pretty(name)}: ${p.label}`,
+        p,
+        now: unit.values[p.name],
+      })),
   );
   const figures = Object.entries(form.units).flatMap(([name, unit]) =>
-    (unit.figures || []).map((p) => ({ value: `${name}.${p.name}`, label: `${pretty(name)}: ${p.label}`, p })),
+    (unit.figures || []).map((p) => ({
+      value: `${name}.${p.name}`,
+      label: `${pretty(name)}: ${p.label}`,
+      p,
+    })),
   );
   const [draft, setDraft] = useState({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
   const set = (part) => setDraft((before) => ({ ...before, ...part }));
@@ -109,6 +125,7 @@ export function Specifications({ form, build }) {
     ${figure && amount('spec-equals', t('takes the value'), figure.p, 'equals')}
     ${input && html`${amount('spec-lower', t('looked for from'), input.p, 'lower')}${amount('spec-upper', t('up to'), input.p, 'upper')}<p class="small dim">${t('now {value}', { value: input.now })}</p>`}
     <button class="button" disabled=${!whole} onClick=${async () => {
-      if (await build('set_specification', draft)) setDraft({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
+      if (await build('set_specification', draft))
+        setDraft({ vary: '', so_that: '', equals: '', lower: '', upper: '' });
     }}>${t('Add the specification')}</button></div></details>`;
 }

@@ -7,7 +7,9 @@ export function useSubstances() {
   const [known, setKnown] = useState(lists[settings.language] || null);
   useEffect(() => {
     const language = settings.language;
-    lists[language] ? setKnown(lists[language]) : ask('/api/substances').then((found) => setKnown((lists[language] = found)));
+    lists[language]
+      ? setKnown(lists[language])
+      : ask('/api/substances').then((found) => setKnown((lists[language] = found)));
   }, [settings.language]);
   return known;
 }
@@ -33,10 +35,17 @@ export function Choice({ id, label, rows, value, pick, quiet }) {
     pick(found ? found.value : text.trim());
     setTyped(null);
   };
-  const entry = html`<input id=${id} list=${id + '-list'} type="text" autocomplete="off" aria-label=${quiet ? label : null} placeholder=${quiet ? label : ''} value=${typed ?? shown} onFocus=${(e) => e.target.select()} onInput=${(e) => {
+  const entry = html`<input id=${id} list=${id + '-list'} type="text" autocomplete="off" aria-label=${quiet ? label : null} placeholder=${quiet ? label : ''} value=${typed ?? shown} onFocus=${(e) => e.target.select()} onInput=${(
+    e,
+  ) => {
     setTyped(e.target.value);
     const whole = rows.find((row) => plain(row.label) === plain(e.target.value));
-    if (whole && e.inputType !== 'deleteContentBackward' && !rows.some((row) => row !== whole && plain(row.label).startsWith(plain(e.target.value)))) pick(whole.value);
+    if (
+      whole &&
+      e.inputType !== 'deleteContentBackward' &&
+      !rows.some((row) => row !== whole && plain(row.label).startsWith(plain(e.target.value)))
+    )
+      pick(whole.value);
   }} onChange=${(e) => settle(e.target.value)} /><datalist id=${id + '-list'}>${rows.map((row) => html`<option value=${row.label}></option>`)}</datalist>`;
   return quiet ? entry : html`<label class="end" for=${id}><span>${label}</span>${entry}</label>`;
 }

@@ -41,7 +41,13 @@ function Comparison({ cases, clear }) {
     ]) {
       for (const [name, item] of Object.entries(items || {})) {
         for (const p of item.parameters)
-          put(inputs, `${sort}.${name}.${p.name}`, `${pretty(name)}: ${p.label}`, i, item.values[p.name] ?? '—');
+          put(
+            inputs,
+            `${sort}.${name}.${p.name}`,
+            `${pretty(name)}: ${p.label}`,
+            i,
+            item.values[p.name] ?? '—',
+          );
       }
     }
     for (const [name, unit] of Object.entries(c.units))

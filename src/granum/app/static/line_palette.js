@@ -15,8 +15,7 @@ export function Palette({ origin, pick, close }) {
   const field = useRef(null);
   useEffect(() => {
     const language = settings.language;
-    if (!kept[language])
-      ask('/api/palette').then((found) => setList((kept[language] = found.equipment)));
+    if (!kept[language]) ask('/api/palette').then((found) => setList((kept[language] = found.equipment)));
     field.current?.focus();
   }, []);
   const words = plain(word).split(/\s+/).filter(Boolean);
@@ -26,7 +25,9 @@ export function Palette({ origin, pick, close }) {
   });
   const domains = Object.keys(english).filter((domain) => found.some((e) => e.domain === domain));
   return html`<section class="card palette" data-palette aria-label=${t('Add equipment')} onKeyDown=${(e) => e.key === 'Escape' && close()}><div class="row spread"><h2 class="first">${origin ? t('Equipment for {origin}', { origin }) : t('Add equipment')}</h2><button class="button" onClick=${close}>${t('Close')}</button></div>
-    <input type="search" ref=${field} aria-label=${t('Search equipment')} placeholder=${t('filter, dryer, cyclone…')} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(e) => {
+    <input type="search" ref=${field} aria-label=${t('Search equipment')} placeholder=${t('filter, dryer, cyclone…')} value=${word} onInput=${(e) => setWord(e.target.value)} onKeyDown=${(
+      e,
+    ) => {
       if (e.key === 'Enter' && found.length) pick(found[0].model);
     }} />
     ${!list && html`<p class="dim" aria-busy="true">${t('Loading…')}</p>`}

@@ -8,7 +8,8 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }
   const { sort, name } = chosen;
   const panel = useRef(null);
   useEffect(() => {
-    if (chosen.port) panel.current?.querySelector(`[data-port="${chosen.port.split('.')[1]}"] select`)?.focus();
+    if (chosen.port)
+      panel.current?.querySelector(`[data-port="${chosen.port.split('.')[1]}"] select`)?.focus();
   }, [chosen]);
   const unit = sort === 'unit' && form.units[name];
   const feed = sort === 'stream' && form.feeds[name];
@@ -16,15 +17,21 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }
   if (!unit && !feed && !stream) return null;
   const solved = unit && data?.units[name];
   return html`<section class="card panel" ref=${panel} data-panel=${name} aria-label=${pretty(name)}><div class="row spread"><h2 class="first">${pretty(name)} <span class="dim">${unit ? unit.title || unit.model : ''}</span></h2><div class="row">
-    ${(unit || feed) && html`<${Rename} key=${name} name=${name} rename=${async (next) => {
-      const made = await build('rename', { old: name, new: next });
-      if (made) choose({ sort, name: made });
-    }} />`}
+    ${
+      (unit || feed) &&
+      html`<${Rename} key=${name} name=${name} rename=${async (next) => {
+        const made = await build('rename', { old: name, new: next });
+        if (made) choose({ sort, name: made });
+      }} />`
+    }
     ${unit && unit.outlets.length > 0 && !unit.joins && html`<button class="button" title=${t('Lead a part of what enters around it')} onClick=${() => build('bypass', { unit: name })}>${t('Bypass')}</button>`}
     ${unit?.inlets.some((i) => i.port === 'wash' && !i.from) && html`<button class="button" onClick=${() => build('add_wash', { unit: name })}>${t('Add wash liquor')}</button>`}
-    ${(unit || feed) && html`<button class="button" onClick=${async () => {
-      if (await build('remove', { name })) choose({ sort: '', name: '' });
-    }}>${t('Delete')}</button>`}
+    ${
+      (unit || feed) &&
+      html`<button class="button" onClick=${async () => {
+        if (await build('remove', { name })) choose({ sort: '', name: '' });
+      }}>${t('Delete')}</button>`
+    }
     <button class="button" onClick=${() => choose({ sort: '', name: '' })}>${t('Close')}</button></div></div>
     ${unit && html`<${Ports} name=${name} unit=${unit} form=${form} build=${build} />`}
     <div class="columns">${unit && html`<div><${ItemForm} key=${name} table="units" name=${name} item=${unit} typedIn=${typedIn} spot="panel" /></div>`}

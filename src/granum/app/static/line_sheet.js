@@ -62,7 +62,14 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
     if (e.button) return;
     const outlet = e.target.closest?.('[data-outlet]')?.dataset.outlet;
     const box = frame.current;
-    drag.current = { x: e.clientX, y: e.clientY, left: box.scrollLeft, top: box.scrollTop, outlet, moved: false };
+    drag.current = {
+      x: e.clientX,
+      y: e.clientY,
+      left: box.scrollLeft,
+      top: box.scrollTop,
+      outlet,
+      moved: false,
+    };
   };
   const move = (e) => {
     const d = drag.current;
@@ -74,7 +81,12 @@ export function Sheet({ svg, streams, old, chosen, choose, put, connect, setAcro
       const box = sheet.current.getBoundingClientRect();
       const line = sheet.current.parentElement.querySelector('.rubber');
       line.style.display = 'block';
-      const ends = { x1: d.x - box.left, y1: d.y - box.top, x2: e.clientX - box.left, y2: e.clientY - box.top };
+      const ends = {
+        x1: d.x - box.left,
+        y1: d.y - box.top,
+        x2: e.clientX - box.left,
+        y2: e.clientY - box.top,
+      };
       for (const [name, value] of Object.entries(ends)) line.firstElementChild.setAttribute(name, value);
     } else if (e.pointerType === 'mouse') {
       frame.current.scrollLeft = d.left - (e.clientX - d.x);

@@ -8,7 +8,11 @@ export function StreamTable({ table, place, text, choose }) {
   const take = async (form) => {
     setProblem('');
     try {
-      const content = await ask('/api/case/tables', { case: text, place, form }, { text: form === 'csv', blob: form !== 'csv' });
+      const content = await ask(
+        '/api/case/tables',
+        { case: text, place, form },
+        { text: form === 'csv', blob: form !== 'csv' },
+      );
       download(`streams.${form}`, content, form === 'csv' ? 'text/csv' : 'application/octet-stream');
     } catch (fault) {
       setProblem(fault.message);

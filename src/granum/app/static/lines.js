@@ -369,20 +369,30 @@ export function Lines({ state }) {
     <section aria-label=${t('Believe')} aria-busy=${String(busy)}>
     ${making && html`<${NewLine} make=${make} cancel=${() => setMaking(false)} />`}
     ${text && html`<div class="row spread"><h2 class="first title">${form?.title || outcome?.title || ''}</h2><div class="row">${tools}</div></div>`}
-    ${form && html`<div class="row"><button class="button" onClick=${() => setPalette({ origin: '' })}>${t('Add equipment')}</button><button class="button" onClick=${async () => {
-      const made = await build('add_feed', {});
-      if (made) choose({ sort: 'stream', name: made });
-    }}>${t('Add a feed')}</button></div>`}
+    ${
+      form &&
+      html`<div class="row"><button class="button" onClick=${() => setPalette({ origin: '' })}>${t('Add equipment')}</button><button class="button" onClick=${async () => {
+        const made = await build('add_feed', {});
+        if (made) choose({ sort: 'stream', name: made });
+      }}>${t('Add a feed')}</button></div>`
+    }
     <${Working} busy=${busy} cancel=${() => {
       stop.current?.abort();
       setBusy(false);
     }} job=${() => stop.current?.signal.job} text=${t('Working… a new line takes a little while the first time.')} />
     ${error && html`<p class="message out" role="alert">${error.message}</p>`}
     ${missing.length > 0 && html`<div class="message caution" data-missing>${missing.map((one) => html`<p>▲ ${one}</p>`)}</div>`}
-    ${!text && !making && html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
-    <h2>${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`}
-    ${form && html`<div class="sheet ${old ? 'stale' : ''}"><${Sheet} svg=${form.diagram} streams=${outcome?.streams} old=${old || missing.length > 0} chosen=${chosen} choose=${choose} put=${(origin) => setPalette({ origin })} connect=${(origin, target) => build('connect', { origin, target })} setAcross=${wider} /></div>
-    <p class="small dim">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`}
+    ${
+      !text &&
+      !making &&
+      html`<h2 class="first">${t('Start a new line')}</h2><p>${t('Choose what enters, put equipment behind it, and see it solved after each step.')}</p><button class="button main" onClick=${() => setMaking(true)}>${t('New line')}</button>
+    <h2>${t('Start from an example')}</h2><div class="columns">${(list?.shipped || []).map((f) => html`<button class="tile" onClick=${() => open('examples:' + f)}>${list.titles[f] || f}<span class="small dim">${f}</span></button>`)}</div>`
+    }
+    ${
+      form &&
+      html`<div class="sheet ${old ? 'stale' : ''}"><${Sheet} svg=${form.diagram} streams=${outcome?.streams} old=${old || missing.length > 0} chosen=${chosen} choose=${choose} put=${(origin) => setPalette({ origin })} connect=${(origin, target) => build('connect', { origin, target })} setAcross=${wider} /></div>
+    <p class="small dim">${t('Choose a unit or a stream; + puts equipment at an open end; drag a + to an inlet to connect it.')}</p>`
+    }
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}

@@ -62,8 +62,6 @@ export const french = {
   'point': 'point',
   'measured less model (SI)': 'mesuré moins modèle (SI)',
   'Use in a line': 'Utiliser dans une ligne',
-  'Put this into the case file, with the table saved beside it as data.csv, and write the name of the unit instead of UNIT.':
-    "À mettre dans le fichier de cas, le tableau étant enregistré à côté sous le nom data.csv ; remplacez UNIT par le nom de l'unité.",
   'or paste the table': 'ou collez le tableau',
   'The first line names the columns with their units:':
     'La première ligne nomme les colonnes avec leurs unités :',
