@@ -29,7 +29,7 @@ from granum.cases.starting import (
     starting_values,
     wash_liquor,
 )
-from granum.cases.wiring import bypass, connect, disconnect, remove, rename
+from granum.cases.wiring import bypass, connect, disconnect, lead, remove, rename, replace
 from granum.core import registry
 from granum.core.conversion import convert
 from granum.core.errors import GranumError, InputError, unknown_name
@@ -46,10 +46,12 @@ __all__ = [
     "connect",
     "disconnect",
     "form_of_feed",
+    "lead",
     "new_line",
     "remove",
     "remove_specification",
     "rename",
+    "replace",
     "retitle",
     "set_specification",
     "share_of_feed",

@@ -181,6 +181,16 @@ def disconnect(case: str, end: str) -> str:
     return checked(_leading(case, found, link.name, "")) if link.target else case
 
 
+def lead(case: str, origin: str, target: str) -> str:
+    """What leaves a feed or ``unit.outlet`` led to another inlet than so far."""
+    return connect(disconnect(case, origin), origin, target)
+
+
+def replace(case: str, origin: str, target: str) -> str:
+    """What enters an inlet replaced by another stream; the one before ends open."""
+    return connect(disconnect(case, target), origin, target)
+
+
 def bypass(case: str, unit: str, inlet: str = "", outlet: str = "", share: str = "10 %") -> str:
     """A share of what enters a unit led around it, to what leaves it."""
     found = outline(case)

@@ -155,6 +155,7 @@ export async function ask(path, body, options = {}) {
     signal: options.signal,
   });
   if (options.text && response.ok) return response.text();
+  if (options.blob && response.ok) return response.blob();
   const data = await response.json();
   if (!response.ok)
     throw Object.assign(new Error(data.error?.message || t('The server did not understand the request.')), {

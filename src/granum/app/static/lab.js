@@ -15,6 +15,7 @@ import {
   Working,
 } from './core.js';
 import { Plot, decoded } from './plot.js';
+import { UseInLine } from './lab_line.js';
 import { Field, changed, fields, missingOf } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { inLanguage } from './quantity.js';
@@ -127,7 +128,7 @@ function Test({ card, given }) {
       ${table.trim() && missing.length > 0 && html`<p class="message dim">${t('Still to be given: {names}', { names: missing.map((p) => p.label).join(', ') })}</p>`}
       <${Working} busy=${answer.pending} cancel=${answer.cancel} job=${answer.job} />
       ${!answer.data && !answer.error && html`<p class="dim">${t('Parameters with their 95 % intervals appear here.')}</p>`}
-      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} leave=${(point) => setTable(toggled(table, point, answer.data.kept.length))} />`}</div>
+      <div class=${answer.pending || answer.error ? 'stale' : ''} aria-busy=${String(answer.pending)}>${answer.data && html`<${Fitted} data=${answer.data} values=${values} table=${table} leave=${(point) => setTable(toggled(table, point, answer.data.kept.length))} />`}</div>
       <p class="small dim">${card.citation}</p></section>`;
 }
 
@@ -229,22 +230,6 @@ function Columns({ columns, table, change }) {
   })}</div>`;
 }
 
-/** The fit as a table of a case file: the line then takes what the test gave. */
-function asCase(data, values) {
-  const quoted = (text) => JSON.stringify(String(text));
-  const given = Object.entries(values).filter(([, value]) => value !== '' && value !== undefined);
-  const name = data.card.split('.')[1];
-  return [
-    `[fits.${name}]`,
-    `test = ${quoted(data.card)}`,
-    'data = "data.csv"',
-    `conditions = { ${given.map(([key, value]) => `${key} = ${quoted(value)}`).join(', ')} }`,
-    `gives = { ${Object.keys(data.parameters)
-      .map((key) => `"UNIT.${key}" = ${quoted(key)}`)
-      .join(', ')} }`,
-  ].join('\n');
-}
-
 /** Residuals by themselves, where the chart has no room of its own for them. */
 const residuals = (data) => ({
   data: [
@@ -284,7 +269,7 @@ function pointOf(mark, data) {
   return found ? found[mark.pointIndex] : null;
 }
 
-function Fitted({ data, values, leave }) {
+function Fitted({ data, values, table, leave }) {
   const mark = (found) => {
     const point = pointOf(found, data);
     if (point !== null) leave(point);
@@ -302,6 +287,6 @@ function Fitted({ data, values, leave }) {
     <p class="small dim">${t('Click a point to leave it out of the fit.')}</p>
     <details><summary>${t('Statistics')}</summary><table class="small" data-statistics><tbody>${data.statistics_rows.map(([label, text]) => html`<tr><td>${label}</td><td class="n">${text}</td></tr>`)}</tbody></table></details>
     ${data.remarks.map((text) => html`<p class="small dim">${text}</p>`)}
-    <details><summary>${t('Use in a line')}</summary><p class="small">${t('Put this into the case file, with the table saved beside it as data.csv, and write the name of the unit instead of UNIT.')}</p><pre>${asCase(data, values)}</pre></details>
+    <${UseInLine} data=${data} values=${values} table=${table} />
     <button class="button" onClick=${save}>${t('Download the result')}</button>`;
 }
