@@ -23,7 +23,7 @@ from granum.app.case_forms import edited, line_form
 from granum.app.forms import card_form, read_entry
 from granum.app.jobs import Broken, GivenUp, Jobs, crew
 from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, problem
-from granum.app.tasks import calculate, packed
+from granum.app.tasks import TASKS, calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
@@ -149,6 +149,30 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         return _json(
             await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
         )
+
+    async def nearby(request: Request, task: str, payload: dict[str, Any]) -> bytes:
+        """What is asked about one formula in this process; what repeats a procedure, or many laws, may be
+        long.
+        """
+        key = payload["key"]
+        if not payload.get("laws") and await quick.run(lambda: registry.find(key).card.sort) == "formula":
+            return await quick.run(lambda: TASKS[task](payload, Tell()), request)
+        return await crew().run(task, payload, key, request)
+
+    @app.post("/api/sensitivity/{key}")
+    async def sensitivity(request: Request, key: str, asked: Inputs) -> Response:
+        """A result over one of its inputs: ``{"inputs", "against", "output", "unit", "laws"}``."""
+        return _json(await nearby(request, "sensitivity", asked | {"key": key}))
+
+    @app.post("/api/solve/{key}")
+    async def solve(request: Request, key: str, asked: Inputs) -> Response:
+        """The input for which a result is the wanted one: ``{"inputs", "find", "output", "wanted"}``."""
+        return _json(await nearby(request, "solve", asked | {"key": key}))
+
+    @app.post("/api/sheet/{key}", response_class=HTMLResponse)
+    async def sheet(request: Request, key: str, asked: Inputs) -> HTMLResponse:
+        """The calculation as a sheet to print: asked as the sensitivity, with the ``link`` of the page."""
+        return HTMLResponse(await nearby(request, "calculation", asked | {"key": key}))
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
