@@ -11,6 +11,7 @@ import typer
 from granum.core.errors import ConvergenceError, InputError
 from granum.core.garbage import collect_seldom
 from granum.core.i18n import _
+from granum.core.written import interval
 from granum.shell import (
     SHARED,
     Commands,
@@ -61,7 +62,15 @@ def _options(
 
 @app.command()
 @one_message
-def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
+def calc(
+    key: Key,
+    inputs: Pairs = None,
+    as_json: Json = False,
+    solve: Annotated[
+        str, typer.Option(help="An input to find: the wanted result stands among the inputs.")
+    ] = "",
+    report: Annotated[Path | None, typer.Option(help="Write a calculation sheet (HTML).")] = None,
+) -> None:
     """Evaluate a formula, a law or a procedure; solve a piece of equipment alone.
 
     Equipment begins with an ordinary feed; what enters is said by port: feed.solid_flow=400kg/h,
@@ -80,13 +89,35 @@ def calc(key: Key, inputs: Pairs = None, as_json: Json = False) -> None:
                 key=key, sort=_(thing.card.sort), hint=hint.format(key=key)
             )
         )
-    result = thing.evaluate(**pairs(inputs))
+    given, within = pairs(inputs), {}
+    if solve:
+        from granum.studies.inverse import find_input
+
+        result = find_input(thing, solve, **given).result
+    elif thing.card.sort != "law" and any(map(interval, given.values())):
+        from granum.studies.intervals import with_intervals
+
+        result, within = with_intervals(thing, **given)
+    else:
+        result = thing.evaluate(**given)
+    if report is not None:
+        from granum.core.files import write_atomic
+        from granum.reports.calculation import calculation_sheet
+        from granum.studies.intervals import stated
+
+        told = {name: (i.text, i.how) for name, i in within.items()}
+        typed = stated(thing.card, given) if within else {}
+        write_atomic(report, calculation_sheet(thing, result, within=told, stated=typed))
     if as_json:
-        emit(result.as_json())
+        emit(
+            result.as_json() | ({"intervals": {n: i._asdict() for n, i in within.items()}} if within else {})
+        )
     else:
         from granum.reports.terminal import print_result
 
-        print_result(result)
+        print_result(result, {name: f"{i.text} ({i.how})" for name, i in within.items()})
+        if report is not None:
+            print(_("saved to {path}").format(path=report))
 
 
 def _operate(key: str, inputs: Mapping[str, str], as_json: bool) -> None:

@@ -107,6 +107,7 @@ class Page:
     def type(self, selector: str, text: str, into: str = "") -> Any:
         """Type as people do: the field emptied, then key by key."""
         field = self.one(selector)
+        self.browser.execute_script("arguments[0].closest('details')?.setAttribute('open', '')", field)
         field.send_keys(Keys.CONTROL, "a")
         field.send_keys(Keys.BACKSPACE)
         for key in text:

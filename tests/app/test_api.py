@@ -454,9 +454,14 @@ def test_every_selection_guide_answers_its_own_example(client: httpx.Client) -> 
 
 
 def test_other_laws_answer_the_same_question(client: httpx.Client) -> None:
-    rows = client.post("/api/spread/particles.terminal_velocity_stokes", json=SPHERE).json()["rows"]
-    assert len(rows) >= 3
-    assert all(row["card"] != "particles.terminal_velocity_stokes" and row["text"] for row in rows)
+    found = client.post("/api/spread/particles.terminal_velocity_stokes", json=SPHERE).json()
+    own = [row for row in found["rows"] if row["own"]]
+    assert [row["card"] for row in own] == ["particles.terminal_velocity_stokes"]
+    assert len(found["rows"]) >= 4
+    assert all(row["text"] for row in found["rows"])
+    values = [row["value"] for row in found["rows"]]
+    assert values == sorted(values)
+    assert f"of {len(values)} laws" in found["summary"]["sentence"]
 
 
 def test_files_stay_inside_the_workspace(client: httpx.Client, workspace: Path) -> None:

@@ -32,11 +32,12 @@ from granum.core.units import (
     show,
     to_si,
 )
-from granum.core.written import read_number
+from granum.core.written import interval, read_number
 from granum.estimation.tables import heading_names
 from granum.materials.stated import asked_of_a_fluid
 from granum.reports.mathml import equation_lines, mathml
 from granum.reports.quantities import law_label, limit_rows
+from granum.studies.intervals import spread_of
 
 
 def whole(card: Card) -> Card:
@@ -58,6 +59,7 @@ def card_form(key: str) -> dict[str, Any]:
         row["laws"] = laws_with_parameters(p)
         row["headings"] = heading_names(p) if p.series else ()
         row["several"] = bool(p.kind) and card.sort == "formula"
+        row["interval"] = bool(p.kind) and not p.series and card.sort in ("formula", "procedure")
         row["example"] = example(p, {} if p in asked and p.name not in examples else examples)
         row["units"] += _unit_of(row["example"], p.kind, row["units"])
     return data
@@ -155,6 +157,9 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     p = _asked_parameter(asked)
     assert p.kind is not None
     typed = str(asked.get("unit_typed", ""))
+    within = interval(f"{asked.get('number', '')} {typed}".strip()) if asked.get("interval") else None
+    if within is not None:
+        return _read_interval(within, p)
     array = _converted(f"{asked.get('number', '')} {typed}".strip(), p, bool(asked.get("several")))
     unit = typed or p.kind.unit
     if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
@@ -167,6 +172,24 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "shown": _listed(array, unit, p.kind),
         "number": numbers,
+        "unit": "" if unit == "dimensionless" else unit,
+    }
+
+
+def _read_interval(within: tuple[str, str, str], p: Parameter) -> dict[str, Any]:
+    """What ``85 ± 5 um`` or ``80..90 um`` means, in the unit in which it was typed."""
+    assert p.kind is not None
+    spread = spread_of(p, *within)
+    unit = (read_number(within[0]) or (0.0, ""))[1] or p.kind.unit
+    if not _known(unit, p.kind):
+        unit = p.kind.unit
+    low, middle, high = (float(from_si(x, unit, p.kind)) for x in (spread.low, spread.middle, spread.high))
+    ends, mark = ((middle, middle - low), "±") if spread.about else ((low, high), "…")
+    shown = f" {mark} ".join(format_number(x, 9) for x in ends)
+    number = f" {mark} ".join(f"{x:.9g}" for x in ends)
+    return {
+        "shown": f"{shown} {pretty_unit(unit)}".strip(),
+        "number": number,
         "unit": "" if unit == "dimensionless" else unit,
     }
 

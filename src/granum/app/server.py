@@ -29,7 +29,7 @@ from granum.app.limits import LARGEST_BODY, Busy, Familiar, Guard, Workers, prob
 from granum.app.reading import as_html
 from granum.app.sending import Shorter, kept, lasting
 from granum.app.shipped import examples, examples_folder, title_of
-from granum.app.tasks import calculate, packed
+from granum.app.tasks import TASKS, calculate, packed
 from granum.app.telling import Tell
 from granum.app.wording import told
 from granum.core import registry
@@ -174,6 +174,30 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
     async def by_itself(request: Request, key: str, inputs: Inputs) -> Response:
         """A piece of equipment alone: its form, and the case file of what stands in it."""
         return Answer(await quick.run(lambda: alone_form(key, inputs), request))
+
+    async def nearby(request: Request, task: str, payload: dict[str, Any]) -> bytes:
+        """What is asked about one formula in this process; what repeats a procedure, or many laws, may be
+        long.
+        """
+        key = payload["key"]
+        if not payload.get("laws") and await quick.run(lambda: registry.find(key).card.sort) == "formula":
+            return await quick.run(lambda: TASKS[task](payload, Tell()), request)
+        return await crew().run(task, payload, key, request)
+
+    @app.post("/api/sensitivity/{key}")
+    async def sensitivity(request: Request, key: str, asked: Inputs) -> Response:
+        """A result over one of its inputs: ``{"inputs", "against", "output", "unit", "laws"}``."""
+        return _json(await nearby(request, "sensitivity", asked | {"key": key}))
+
+    @app.post("/api/solve/{key}")
+    async def solve(request: Request, key: str, asked: Inputs) -> Response:
+        """The input for which a result is the wanted one: ``{"inputs", "find", "output", "wanted"}``."""
+        return _json(await nearby(request, "solve", asked | {"key": key}))
+
+    @app.post("/api/sheet/{key}", response_class=HTMLResponse)
+    async def sheet(request: Request, key: str, asked: Inputs) -> HTMLResponse:
+        """The calculation as a sheet to print: asked as the sensitivity, with the ``link`` of the page."""
+        return HTMLResponse(await nearby(request, "calculation", asked | {"key": key}))
 
     @app.get("/api/exercises")
     async def exercise_list() -> Response:

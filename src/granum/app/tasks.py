@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Any
 
 from granum.app import exercises, studies
+from granum.app.beside import described_curve, sheet, solved_input
 from granum.app.case_forms import read_line
 from granum.app.exercises.marking import marked
 from granum.app.spread import spread
@@ -37,6 +38,7 @@ from granum.reports.quantities import (
 )
 from granum.reports.streams import audit_text, stream_figures, stream_look, stream_sheet
 from granum.reports.utilities import utility_table
+from granum.studies.intervals import intervals, split
 
 LONGEST = 900.0  # s that a line may take
 
@@ -110,17 +112,39 @@ def calculate(payload: dict[str, Any], _tell: Tell) -> bytes:
         raise InputError(
             _("'{key}' is used inside equipment and has no value by itself.").format(key=thing.card.key)
         )
-    given = inputs_for(thing.card, payload["inputs"])
-    return packed(described(thing.evaluate(**given), given))
+    given, spreads = inputs_for(thing.card, payload["inputs"]), {}
+    if thing.card.sort != "law":
+        given, spreads = split(thing.card, given)
+    result = thing.evaluate(**given)
+    shown = described(result, given)
+    for row in shown["inputs_shown"]:
+        row["text"] = spreads[row["name"]].text if row["name"] in spreads else row["text"]
+    found = {name: i._asdict() for name, i in intervals(thing, result, spreads).items()}
+    return packed(shown | {"intervals": found})
 
 
 def others(payload: dict[str, Any], _tell: Tell) -> bytes:
     """The same inputs by other laws."""
     thing = evaluable(payload["key"], ("formula",))
-    given = inputs_for(thing.card, payload["inputs"])
-    return packed(
-        {"rows": spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0])}
-    )
+    given = split(thing.card, inputs_for(thing.card, payload["inputs"]))[0]
+    return packed(spread(thing, Binder.of(thing.card.key, thing.card.parameters).with_fluid((), given)[0]))
+
+
+def sensitivity(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The chart of one result over one input, with the choice of both; and what other laws give where that
+    is wanted.
+    """
+    return packed(described_curve(evaluable(payload["key"], ("formula", "procedure")), payload))
+
+
+def solve(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The input for which a result is the wanted one."""
+    return packed(solved_input(evaluable(payload["key"], ("formula", "procedure")), payload))
+
+
+def calculation(payload: dict[str, Any], _tell: Tell) -> bytes:
+    """The sheet of a calculation, HTML."""
+    return sheet(evaluable(payload["key"], ("formula", "procedure")), payload).encode()
 
 
 def chart(payload: dict[str, Any], tell: Tell) -> bytes:
@@ -298,6 +322,9 @@ TASKS: dict[str, Callable[[dict[str, Any], Tell], bytes]] = {
     for task in (
         calculate,
         others,
+        sensitivity,
+        solve,
+        calculation,
         chart,
         fit,
         table,

@@ -16,7 +16,7 @@ from typing import Any
 from granum.core import registry
 from granum.core.errors import InputError, unknown_name
 from granum.core.i18n import _
-from granum.core.written import read_number
+from granum.core.written import interval
 
 _LIMIT = re.compile(r"^(.*?)(<=|>=|<|>)(.*)$")
 STEPS = {"sweep": 25, "map": 15}
@@ -58,9 +58,7 @@ def study_text(
                 raise unknown_name(_("Input"), name, known, _("for {owner}").format(owner=key))
     ranges = {name: _pair(name, value, "..") for name, value in words.items() if ".." in value}
     spreads = {
-        name: _pair(name, value.replace("±", "+-"), "+-")
-        for name, value in words.items()
-        if "+-" in value or "±" in value
+        name: _pair(name, value, "±") for name, value in words.items() if "+-" in value or "±" in value
     }
     fixed = {name: value for name, value in words.items() if name not in ranges and name not in spreads}
     unit = key.rpartition(".")[2] if thing.card.sort == "equipment" else ""
@@ -136,21 +134,15 @@ def _pair(name: str, value: str, mark: str) -> tuple[str, str]:
     """Both numbers of ``0.3..0.8bar`` or ``1e7+-2e6``, the first with the unit of the second when it has
     none.
     """
-    first, _mark, second = value.partition(mark)
-    low, high = read_number(first), read_number(second)
-    if low is None or high is None:
+    found = interval(value)
+    if found is None or found[2] != mark:
         raise InputError(
             _(
                 "'{name}' = '{value}': write a range as 0.3..0.8bar and a spread as 1e7+-30% or 85+-5um."
             ).format(name=name, value=value),
             name=name,
         )
-    (one, unit), (_two, last) = low, high
-    return (
-        f"{repr(one).removesuffix('.0')} {unit or last}".strip()
-        if mark == ".." or last != "%"
-        else first.strip()
-    ), second.strip()
+    return found[:2]
 
 
 def _spread(mean: str, width: str) -> dict[str, Any]:

@@ -24,7 +24,7 @@ from granum.core.docstrings import CompletedDoc
 from granum.core.errors import InputError
 from granum.core.glossary import quantity_in
 from granum.core.i18n import _
-from granum.core.notices import describe
+from granum.core.notices import beside, describe
 from granum.core.parameters import Parameter, outputs_of, parameters_of
 from granum.core.registry import register
 from granum.core.results import Result
@@ -451,7 +451,15 @@ class Formula(Generic[P, R]):
             if not isinstance(out, tuple)
             else np.shape(jax.tree.leaves(out)[0])
         )
-        result = Result(self.card, inputs, _floats(out), flags.bits(records, shape), describe(records))
+        own = {p.name for p in (*self.card.parameters, *self.card.outputs)}
+        result = Result(
+            self.card,
+            inputs,
+            _floats(out),
+            flags.bits(records, shape),
+            describe(records),
+            beside=[] if shape else beside(records, own),
+        )
         steps = _steps.get()
         if steps is not None:
             steps.append(result)

@@ -133,7 +133,7 @@ MassFlux = Annotated[Any, _nonnegative("mass flux", "kg/(m^2*s)", "kg/(m^2*hour)
 SignedMassFlux = Annotated[Any, _any("mass flux", "kg/(m^2*s)", "kg/(m^2*hour)")]
 MolarMass = Annotated[Any, _positive("molar mass", "kg/mol", "g/mol")]
 # mechanics
-Velocity = Annotated[Any, _any("velocity", "m/s", "mm/s", "m/s", "cm/s", "m/hour", "ft/s")]
+Velocity = Annotated[Any, _any("velocity", "m/s", "mm/s", "m/s", "cm/s", "um/s", "m/hour", "ft/s")]
 Speed = Annotated[Any, _nonnegative("speed", "m/s", "mm/s", "m/s", "cm/s", "m/hour", "ft/s")]
 Acceleration = Annotated[Any, _positive("acceleration", "m/s^2", "m/s^2", "cm/s^2")]
 Density = Annotated[Any, _positive("density", "kg/m^3", "kg/m^3", "g/cm^3", "lb/ft^3")]

@@ -359,7 +359,9 @@ def best_unit(value: float, kind: Kind) -> str:
         for unit in units:
             if low <= sizes[unit] < high:
                 return unit
-    return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+    # far from any of them, nobody counts in percent
+    far = [u for u in units if u != "percent"] or units
+    return min(far, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
 
 
 def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
@@ -387,7 +389,12 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
 
 
 def format_number(value: float, digits: int = 4) -> str:
-    """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French."""
+    """A number with a few significant figures: ``1.07 × 10⁸`` beyond five digits, ten thousands and more set
+    apart by a thin space, the minus sign of print, decimal comma in French.
+
+    >>> format_number(-0.5), format_number(40533.0).replace("\u202f", " ")
+    ('−0.5', '40 533')
+    """
     if not np.isfinite(value):
         return "—"
     if value == 0.0:
@@ -396,8 +403,10 @@ def format_number(value: float, digits: int = 4) -> str:
     if -4 <= exponent < 5:
         decimals = max(digits - 1 - exponent, 0)
         text = f"{value:.{decimals}f}"
-        if "." in text:
-            text = text.rstrip("0").rstrip(".")
+        whole, point, rest = text.partition(".")
+        if exponent == 4:
+            whole = f"{whole[:-3]}\u202f{whole[-3:]}"
+        text = f"{whole}{point}{rest}".rstrip("0").rstrip(".") if point else whole
     else:
         mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
         mantissa, exponent = mantissa.rstrip("0").rstrip("."), int(power)
@@ -414,6 +423,7 @@ def decimal(text: str) -> str:
     """The text of a number with the decimal mark of the current language."""
     from granum.core.i18n import current_language
 
+    text = text.replace("-", "\u2212")
     return text.replace(".", ",") if current_language() == "fr" else text
 
 

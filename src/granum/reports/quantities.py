@@ -14,12 +14,23 @@ import numpy as np
 
 from granum.core.cards import Card
 from granum.core.glossary import ending, quantity_in, term
-from granum.core.i18n import _
+from granum.core.i18n import _, current_language
 from granum.core.kinds import KINDS, Kind, kind_of
 from granum.core.limits import Limit
+from granum.core.notices import units_of
 from granum.core.parameters import Parameter, default_as_json
+from granum.core.results import Result
 from granum.core.sources import cite
-from granum.core.units import decimal, field_units, format_number, from_si, pretty_unit, show, ten_to
+from granum.core.units import (
+    decimal,
+    field_units,
+    format_number,
+    from_si,
+    pretty_unit,
+    same_dimension,
+    show,
+    ten_to,
+)
 
 AMBIGUOUS = ("dimensionless", "1/m")  # a percentage or a number; a surface per volume or a medium resistance
 MOST_SHOWN = 8
@@ -37,6 +48,77 @@ def value_text(value: Any, parameter: Parameter) -> str:
         return show(float(array), parameter.kind, unit)
     items = [format_number(float(x)) for x in np.ravel(from_si(array, unit, parameter.kind))[:MOST_SHOWN]]
     return f"{'; '.join(items)}{' …' if array.size > MOST_SHOWN else ''} {pretty_unit(unit)}".strip()
+
+
+def in_units(value: Any, parameter: Parameter) -> list[dict[str, str]]:
+    """One number in every unit that people write it in, the usual one first: as it is printed, and with all
+    its digits. Empty for what is no single number.
+    """
+    if parameter.kind is None or value is None or np.ndim(value) or not np.isfinite(float(value)):
+        return []
+    usual = parameter.display_unit(value)
+    offered = dict.fromkeys((usual, *field_units(parameter.kind), *parameter.units))
+    fitting = [u for u in offered if same_dimension(u, parameter.kind.unit)]
+    comma = current_language() == "fr"
+    rows = []
+    for unit in fitting:
+        number = float(from_si(value, unit, parameter.kind))
+        full = f"{number:.12g}".replace("e+", "e")
+        rows.append(
+            {
+                "unit": unit,
+                "label": pretty_unit(unit),
+                "text": format_number(number),
+                "full": full.replace(".", ",") if comma else full,
+            }
+        )
+    return rows
+
+
+class BesideRow(NamedTuple):
+    """A number that a calculation went through, and where it lies in the range of its source."""
+
+    name: str
+    label: str
+    symbol: str
+    text: str
+    place: str
+    inside: bool
+
+
+def beside_rows(result: Result) -> list[BesideRow]:
+    """The numbers that a calculation went through, such as its Reynolds number, in words."""
+    return [_beside(row) for row in result.beside]
+
+
+def _beside(row: dict[str, Any]) -> BesideRow:
+    shown, unit = units_of(row | {"worst": row["value"]})
+    word = quantity_in(row["name"])
+    value, low, high = row["value"], row["low"], row["high"]
+    ends = ("−∞" if low is None else shown(low), "∞" if high is None else shown(high))
+    return BesideRow(
+        row["name"],
+        label_of(row["name"]),
+        term(word).symbol if word and word == row["name"] else "",
+        shown(value) + unit,
+        _place(value, low, high).format(low=ends[0], high=ends[1] + unit),
+        (low is None or value >= low) and (high is None or value <= high),
+    )
+
+
+def _place(value: float, low: float | None, high: float | None) -> str:
+    """Where a number lies in a range; within a factor of 1.5 of one end it is near it."""
+    if low is not None and value < low:
+        return _("below {low} … {high}")
+    if high is not None and value > high:
+        return _("above {low} … {high}")
+    near_low = low is not None and 0.0 < low <= value <= 1.5 * low
+    near_high = high is not None and value >= high / 1.5 > 0.0
+    if near_low == near_high:
+        return _("inside {low} … {high}")
+    return (
+        _("near the lower end of {low} … {high}") if near_low else _("near the upper end of {low} … {high}")
+    )
 
 
 def _word(value: Any, parameter: Parameter) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextvars import ContextVar
 from io import StringIO
 from pathlib import Path
@@ -23,6 +23,7 @@ from granum.core.results import Result
 from granum.core.symbols import text_symbol
 from granum.core.units import format_number, pretty_unit, show
 from granum.reports.quantities import (
+    beside_rows,
     defaults_text,
     estimate_rows,
     figure_named,
@@ -74,8 +75,8 @@ def _notices(console: Console, notices: Iterable[dict[str, Any]]) -> None:
         console.print(Text("! " + notice["message"], style=style))
 
 
-def print_result(result: Result) -> None:
-    """The outcome of ``granum calc``."""
+def print_result(result: Result, within: Mapping[str, str] | None = None) -> None:
+    """The outcome of ``granum calc``; ``within`` tells results as intervals."""
     console = _console()
     console.print(Text(result.card.title, style="bold"), Text(f"  {result.card.key}", style="dim"))
     table = _table((_("quantity"), "left"), (_("symbol"), "left"), (_("value"), "right"))
@@ -99,6 +100,11 @@ def print_result(result: Result) -> None:
                 Text(value_text(result.outputs[p.name], p), style="bold"),
             )
     console.print(table)
+    for p in result.card.outputs:
+        if within and p.name in within:
+            console.print(Text(f"{p.label} = {within[p.name]}"))
+    for row in beside_rows(result):
+        console.print(Text(f"{row.label} = {row.text}, {row.place}", style="dim"))
     if columns:
         ranked = _table(*((p.label, "right" if p.kind else "left") for p in columns))
         for row in rows:
