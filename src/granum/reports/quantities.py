@@ -186,7 +186,7 @@ def label_of(name: str) -> str:
 
 def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
     """The statistics of the JSON of a fit, in words with their numbers."""
-    labels = {
+    labels: dict[str, str] = {
         "rmse": _("root mean square of the residuals"),
         "r_squared": "R²",
         "aicc": "AICc",
@@ -198,7 +198,7 @@ def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
         "smoothing_points": _("points smoothed over"),
     }
     numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
-    return [(labels.get(name, name.replace("_", " ")), format_number(x)) for name, x in numbers]
+    return [(labels.get(name) or name.replace("_", " "), format_number(x)) for name, x in numbers]
 
 
 def statistics_text(data: dict[str, Any]) -> str:
