@@ -9,6 +9,7 @@ from granum import costs as costs
 from granum import crystallization as crystallization
 from granum import cyclones as cyclones
 from granum import drying as drying
+from granum import dust as dust
 from granum import estimation as estimation
 from granum import filtration as filtration
 from granum import flowsheet as flowsheet

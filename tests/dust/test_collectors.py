@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import granum as gr
+from granum.core.errors import GranumError, InputError
 from granum.dust.equipment.bag_filter import BagFilter
 from granum.dust.equipment.precipitator import ElectrostaticPrecipitator
 from granum.dust.equipment.settling_chamber import SettlingChamber
@@ -187,3 +188,17 @@ def test_nothing_in_nothing_out() -> None:
         made = UNITS[name](0.5, 0.5, 0.5).operate(feed=empty(AIR, 300.0))
         assert float(made.outlets.gas.mass_flow + made.outlets.dust.mass_flow) == 0.0
         assert all(np.isfinite(np.asarray(v, dtype=float)).all() for v in made.figures)
+
+
+def test_oxygen_is_given_with_its_reference() -> None:
+    """16 % measured, 11 % of reference: 9.95/4.95 of the plain concentration; one without the other, or air
+    as flue gas, is refused.
+    """
+    plain = gr.dust.emission_concentration(1e-5, 1.0)
+    assert gr.dust.emission_concentration(1e-5, 1.0, 0.16, 0.11) == pytest.approx(plain * 9.95 / 4.95)
+    with pytest.raises(InputError, match="both or neither"):
+        gr.dust.emission_concentration(1e-5, 1.0, oxygen_fraction=0.16)
+    with pytest.raises(InputError, match="both or neither"):
+        BagFilter(200.0, oxygen_reference=0.11).operate(feed=dusty(AIR))
+    with pytest.raises(GranumError, match="burnt nothing"):
+        gr.dust.emission_concentration(1e-5, 1.0, 0.2095, 0.11)

@@ -10,6 +10,7 @@ import pytest
 from tests.sharing.places import EXAMPLES
 
 import granum as gr
+from granum.core.errors import InputError
 from granum.costs.formulas.emissions import emission_factor
 from granum.flowsheet import Flowsheet
 from granum.streams.equipment.basics import Heater
@@ -134,3 +135,17 @@ def test_studies_watch_what_is_taken() -> None:
     assert float(found.dataset["cyclones.electric_power_fan"].values[-1]) == pytest.approx(
         float(run.units["cyclones"].uses["electric_power_fan"]), rel=1e-6
     )
+
+
+def test_what_a_line_pays(starch) -> None:
+    """By hand: heat at 30 USD/MWh, electricity at 0.10 USD/kWh; a price that is missing or of nothing is
+    told.
+    """
+    prices = {"electricity": "0.10 USD/kWh", "medium_pressure_steam": "30 USD/MWh"}
+    power, heat = starch.carriers["electricity"], starch.carriers["medium_pressure_steam"]
+    by_hand = power * 0.10 / 3.6e6 + heat * 30.0 / 3.6e9
+    assert starch.utility_cost(prices) == pytest.approx(by_hand, rel=1e-12)
+    with pytest.raises(InputError, match="also takes medium_pressure_steam"):
+        starch.utility_cost({"electricity": "0.10 USD/kWh"})
+    with pytest.raises(InputError, match="steam"):
+        starch.utility_cost(prices | {"steam": "1 USD/MWh"})

@@ -35,7 +35,16 @@ from granum.flowsheet.schedule import Schedule, schedule
 from granum.flowsheet.sheet import Flowsheet
 from granum.flowsheet.solving import Solution
 from granum.flowsheet.specifications import Target
-from granum.flowsheet.utilities import FIGURES, WATER, Totals, by_carrier, counted, main_product, totals
+from granum.flowsheet.utilities import (
+    FIGURES,
+    WATER,
+    Totals,
+    by_carrier,
+    cost_rate,
+    counted,
+    main_product,
+    totals,
+)
 from granum.flowsheet.watching import Watch
 from granum.streams.stream import Stream, median_size
 from granum.streams.units import Check, Operated
@@ -241,6 +250,14 @@ class Run:
         """What the line takes of every carrier (W) and material (kg/s)."""
         uses = {name: self.solution.sheets[name].uses for name in self.sheet.order}
         return {name: float(x) for name, x in by_carrier(self.sheet, uses).items()}
+
+    def utility_cost(self, prices: Mapping[str, Any]) -> float:
+        """What the line pays for its utilities, USD/s, at prices by carrier.
+
+        As in ``{"electricity": "0.10 USD/kWh", "low_pressure_steam": "30 USD/MWh"}``; a material, such as
+        ``filter_aid``, has one per mass, hot gas one where it comes from outside.
+        """
+        return cost_rate(self.carriers, prices)
 
     @property
     def product(self) -> str:

@@ -12,9 +12,12 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 
 from granum.core.constants import ZERO_CELSIUS
+from granum.core.errors import InputError, unknown_name
+from granum.core.i18n import _
 from granum.core.kinds import MassFlow, MassRatio, Power, Ratio, SpecificEnergy
 from granum.core.parameters import Parameter, outputs_of
 from granum.core.utilities import COOLING, ELECTRICITY, HEAT, carrier, purpose, sort_of
+from granum.costs.formulas.economics import energy_cost_rate, material_cost_rate
 from granum.costs.formulas.emissions import CARRIERS, emission_factor, greenhouse_gas_rate
 from granum.drying.balances.indices import energy_consumption_ratio
 from granum.flowsheet.sheet import Flowsheet
@@ -163,6 +166,26 @@ def streams_by_product(
     solid, mass = (jnp.stack([getattr(s, n) for s in leaving]) for n in ("solid_flow", "mass_flow"))
     chosen = jnp.argmax(jnp.where(jnp.sum(solid) > 0.0, solid, mass))
     return jnp.stack([figure(s) for s in leaving])[chosen]
+
+
+def cost_rate(taken: Mapping[str, float], prices: Mapping[str, Any]) -> float:
+    """Cost per time of what is taken of every carrier (W) and material (kg/s), USD/s."""
+    for name in prices:
+        if name not in taken:
+            raise unknown_name(_("Utility"), name, taken)
+    missing = [name for name, value in taken.items() if value > 0.0 and name not in prices]
+    if missing:
+        raise InputError(
+            _("This line also takes {names}: give a price for it, per energy or per mass.").format(
+                names=", ".join(missing)
+            ),
+            name=missing[0],
+        )
+    costs = [
+        energy_cost_rate(taken[name], price) if name in CARRIERS else material_cost_rate(taken[name], price)
+        for name, price in prices.items()
+    ]
+    return float(sum(costs))
 
 
 def main_product(line: Flowsheet, streams: Mapping[str, Stream]) -> str:

@@ -10,6 +10,7 @@ from granum.core.sources import cite
 from granum.core.utilities import AREA, carrier, sort_of
 from granum.reports.quantities import value_text
 
+ELECTRICITY_CARRIER = "electricity"  # whose sum is told as electric power
 LEAST = 1e-9  # of the largest of its sort in the line, below which nothing is taken
 
 
@@ -24,11 +25,14 @@ class UtilityRow(NamedTuple):
 
 
 class UtilityTable(NamedTuple):
-    """What the units take, what the line takes by carrier, and in all: labels and texts."""
+    """What the units take, what the line takes by carrier, and in all: labels and texts; ``headline`` is the
+    one that tells most.
+    """
 
     rows: list[UtilityRow]
     carriers: list[tuple[str, str]]
     totals: list[tuple[str, str]]
+    headline: tuple[str, str]
     product: str
 
 
@@ -61,8 +65,8 @@ def utility_table(run: Any) -> UtilityTable:
     carriers = [
         (carrier_label(name), value_text(value, kinds[name]))
         for name, value in run.carriers.items()
-        if value > LEAST * largest[sort_of(kinds[name].name)]
+        if name != ELECTRICITY_CARRIER and value > LEAST * largest[sort_of(kinds[name].name)]
     ]
-    return UtilityTable(
-        rows, carriers, [(p.label, value_text(value, p)) for p, value in run.totals()], run.product
-    )
+    taken = {p.name: (p.label, value_text(value, p)) for p, value in run.totals() if value != 0.0}
+    told = (taken[name] for name in ("energy_per_water", "energy_per_product") if name in taken)
+    return UtilityTable(rows, carriers, list(taken.values()), next(told, ("", "")), run.product)

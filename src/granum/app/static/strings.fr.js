@@ -160,7 +160,6 @@ export const french = {
   'unit': 'unité',
   'Utilities': 'Utilités',
   'utility': 'utilité',
-  'source': 'source',
   'whole line': 'ligne entière',
   'Product: {stream}. In brackets: given by another unit of the line, and not counted.':
     'Produit : {stream}. Entre parenthèses : fourni par un autre appareil de la ligne, et non compté.',

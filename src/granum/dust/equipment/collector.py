@@ -74,10 +74,16 @@ def dry_normal_flow(gas: Stream) -> Any:
 class Collector(Unit):
     """Abstract dust collector, whose emission has a limit."""
 
-    if TYPE_CHECKING:  # fields of every collector
-        emission_limit: Any
-        oxygen_fraction: Any
-        oxygen_reference: Any
+    if TYPE_CHECKING:  # fields of every collector, which a dataclass would put first if they stood here
+
+        @property
+        def emission_limit(self) -> Any: ...
+
+        @property
+        def oxygen_fraction(self) -> Any: ...
+
+        @property
+        def oxygen_reference(self) -> Any: ...
 
     limits: ClassVar[Limits] = {
         "emission": Limit("emission of dust, dry at 0 °C and 1 atm", 0.0, "emission_limit", "kg/m^3", SOURCE)

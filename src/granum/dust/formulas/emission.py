@@ -7,6 +7,8 @@ from typing import Annotated
 import jax.numpy as jnp
 
 from granum.core import formula, impossible
+from granum.core.errors import InputError
+from granum.core.i18n import _
 from granum.core.kinds import Concentration, MassFlow, MoleFraction, VolumeFlow, Within
 
 AIR_OXYGEN = 0.2095  # of dry air by volume
@@ -45,8 +47,10 @@ def emission_concentration(
     20.1
     """
     plain = mass_flow / jnp.where(volume_flow_normal > 0.0, volume_flow_normal, jnp.nan)
-    if oxygen_fraction is None or oxygen_reference is None:
+    if oxygen_fraction is None and oxygen_reference is None:
         return plain
+    if oxygen_fraction is None or oxygen_reference is None:
+        raise InputError(_("Oxygen and its reference go together: give both or neither."))
     burnt = AIR_OXYGEN - oxygen_fraction
     impossible(~(burnt > 0.0), oxygen_fraction, "oxygen_fraction", 0.0, AIR_OXYGEN, ONLY_AIR)
     return plain * (AIR_OXYGEN - oxygen_reference) / jnp.where(burnt > 0.0, burnt, jnp.nan)

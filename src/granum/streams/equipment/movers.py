@@ -37,9 +37,15 @@ class _Mover(Unit):
     """What fans and pumps share: the shaft power warms the stream."""
 
     if TYPE_CHECKING:  # fields of both
-        pressure_rise: Any
-        machine_efficiency: Any
-        motor_efficiency: Any
+
+        @property
+        def pressure_rise(self) -> Any: ...
+
+        @property
+        def machine_efficiency(self) -> Any: ...
+
+        @property
+        def motor_efficiency(self) -> Any: ...
 
     utilities: ClassVar[Utilities] = DRIVE
 
