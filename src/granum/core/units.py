@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections.abc import Iterable
 from contextvars import ContextVar
 from functools import cache
 from typing import Any
@@ -235,6 +236,10 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 _PRETTY = {
     "um": "µm",
+    "us": "µs",
+    "ug": "µg",
+    "uN": "µN",
+    "uPa": "µPa",
     "degC": "°C",
     "degF": "°F",
     "percent": "%",
@@ -352,14 +357,24 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    # from 1 m/s on nobody writes mm/s
-    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):
+    if 0.1 <= sizes[units[0]] < most_of(units[0], units):
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:
             if low <= sizes[unit] < high:
                 return unit
     return min(units, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+
+
+def most_of(unit: str, offered: Iterable[str]) -> float:
+    """The number from which a unit gives way to a larger one: from 1 m/s on nobody writes mm/s.
+
+    >>> most_of("mm/s", ("mm/s", "m/s")), most_of("kJ/kg", ("kJ/kg", "kcal/kg"))
+    (1000.0, 10000.0)
+    """
+    small = re.match(r"[umn](?=(m|s|g|L|N|Pa)\b)", unit)
+    larger = {unit[1:], "m" + unit[1:], "k" + unit[1:]} if small else set()
+    return 1e3 if larger & set(offered) - {unit} else 1e4
 
 
 def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
@@ -380,14 +395,20 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
         usual
         and not field_units(kind)
         and same_dimension(usual, kind.unit)
-        and (not middle or 0.05 <= abs(from_si(middle, usual, kind)) < 1e4)
+        and (not middle or 0.1 <= abs(from_si(middle, usual, kind)) < most_of(usual, kind.units))
     ):
         return usual
     return best_unit(middle, kind)
 
 
 def format_number(value: float, digits: int = 4) -> str:
-    """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French."""
+    """A number with a few significant figures, ``1.07 × 10⁸`` beyond five digits, decimal comma in French.
+
+    Five digits are set apart by a narrow blank, and the minus is one of print.
+
+    >>> format_number(-40533.0), format_number(-125.94)
+    ('−40\u202f533', '−125.9')
+    """
     from granum.core.i18n import current_language
 
     if not np.isfinite(value):
@@ -400,10 +421,14 @@ def format_number(value: float, digits: int = 4) -> str:
         text = f"{value:.{decimals}f}"
         if "." in text:
             text = text.rstrip("0").rstrip(".")
+        if exponent == 4:
+            whole, point, rest = text.partition(".")
+            text = f"{whole[:-3]}\u202f{whole[-3:]}{point}{rest}"
     else:
         mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
         mantissa, exponent = mantissa.rstrip("0").rstrip("."), int(power)
         text = f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPT)}"
+    text = text.replace("-", "−")
     return text.replace(".", ",") if current_language() == "fr" else text
 
 
