@@ -8,7 +8,8 @@ import ast
 import doctest
 import json
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -20,6 +21,7 @@ from granum.core.cards import Card
 from granum.core.conversion import convert
 from granum.core.errors import InputError, UnitError
 from granum.core.i18n import _
+from granum.core.index import entries
 from granum.core.kinds import KINDS, Kind
 from granum.core.parameters import Parameter
 from granum.core.units import (
@@ -52,7 +54,7 @@ def card_form(key: str) -> dict[str, Any]:
     data: dict[str, Any] = card.as_json() | {"equation_shown": equation_lines(card.equation)}
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
-    examples = docstring_values(card)
+    examples = opening_values(card)
     for row, p in zip(data["parameters"], card.parameters, strict=True):
         row |= _field(p)
         row["options"] = options(p)
@@ -285,25 +287,98 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
 
 
 def docstring_values(card: Card) -> dict[str, Any]:
-    """Arguments of the call in the docstring's example, as far as they are literals; empty when one is
+    """Arguments of the first call in the docstring's examples, as far as they can be read; empty when one can
     not.
     """
+    known: dict[str, Any] = {}
     for item in doctest.DocTestParser().get_examples(card.doc):
-        for node in ast.walk(ast.parse(item.source)):
+        tree = ast.parse(item.source)
+        for node in ast.walk(tree):
             if (
                 isinstance(node, ast.Call)
                 and isinstance(node.func, ast.Name)
                 and node.func.id == card.name
                 and len(node.args) <= len(card.parameters)
+                and (node.args or node.keywords)
             ):
-                words = [(p.name, arg) for p, arg in zip(card.parameters, node.args, strict=False)]
-                words += [(word.arg, word.value) for word in node.keywords if word.arg]
                 try:
-                    if words:
-                        return {name: ast.literal_eval(value) for name, value in words}
+                    found = {
+                        p.name: _read(arg, known) for p, arg in zip(card.parameters, node.args, strict=False)
+                    }
+                    for word in node.keywords:
+                        value = _read(word.value, known)
+                        found |= {word.arg: value} if word.arg else value
+                    return found
                 except ValueError:
                     break
+        for node in tree.body:
+            if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+                try:
+                    known[node.targets[0].id] = _read(node.value, known)
+                except ValueError:
+                    continue
     return {}
+
+
+EXTRAORDINARY = 900.0  # times more or less than the ordinary range: numbers chosen for the arithmetic
+
+
+def opening_values(card: Card) -> dict[str, Any]:
+    """What a form opens with: the docstring's example, unless a number in it is none that anybody meets; on
+    Earth.
+    """
+    values = {name: value for name, value in docstring_values(card).items() if name != "gravity"}
+    return {} if any(_extraordinary(p, values.get(p.name)) for p in card.parameters) else values
+
+
+def _extraordinary(p: Parameter, value: Any) -> bool:
+    if value is None or p.kind is None or p.kind.unit in ("K", "dimensionless"):
+        return False
+    sizes = np.abs(np.atleast_1d(np.asarray(convert(value, p), dtype=float)))
+    middle = float(np.median(sizes[sizes > 0.0])) if np.any(sizes > 0.0) else 0.0
+    low, high = sorted(map(abs, p.ordinary()))
+    if p.kind.unit == "kg/m^3":
+        low = min(low, 1.0)  # a gas where the glossary thinks of liquids
+    return middle > EXTRAORDINARY * high or 0.0 < middle < low / EXTRAORDINARY
+
+
+_ARITHMETIC: dict[type, Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
+
+
+def _read(node: ast.expr, known: Mapping[str, Any]) -> Any:
+    """The value of an expression of an example: literals, names given before, arithmetic, ``dict(…)``, laws.
+
+    >>> _read(ast.parse("[0.1 / 4, dict(a=size)]", mode="eval").body, {"size": "2 um"})
+    [0.025, {'a': '2 um'}]
+    """
+    if isinstance(node, ast.Name) and node.id in known:
+        return known[node.id]
+    if isinstance(node, (ast.List, ast.Tuple)):
+        return [_read(item, known) for item in node.elts]
+    if isinstance(node, ast.Dict) and None not in node.keys:
+        return {
+            ast.literal_eval(key): _read(value, known)
+            for key, value in zip(node.keys, node.values, strict=True)
+            if key is not None
+        }
+    if isinstance(node, ast.BinOp) and type(node.op) in _ARITHMETIC:
+        return _ARITHMETIC[type(node.op)](_read(node.left, known), _read(node.right, known))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        words = {word.arg: _read(word.value, known) for word in node.keywords if word.arg}
+        if node.func.id == "dict":
+            return words
+        law = next((e for e in entries().values() if e.sort == "law" and e.attribute == node.func.id), None)
+        if law is not None:
+            names = [p.name for p in registry.find(law.key).card.parameters]
+            given = dict(zip(names, (_read(arg, known) for arg in node.args), strict=False))
+            return {"law": law.name} | given | words
+    return ast.literal_eval(node)
 
 
 def options(p: Parameter) -> list[dict[str, str]]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections.abc import Iterable
 from contextvars import ContextVar
 from functools import cache
 from typing import Any
@@ -235,6 +236,10 @@ def quantity_to_si(value: Any, kind: Kind, name: str = "") -> Any:
 
 _PRETTY = {
     "um": "µm",
+    "us": "µs",
+    "ug": "µg",
+    "uN": "µN",
+    "uPa": "µPa",
     "degC": "°C",
     "degF": "°F",
     "percent": "%",
@@ -352,8 +357,7 @@ def best_unit(value: float, kind: Kind) -> str:
     if not np.isfinite(value) or value == 0.0 or kind.name == "temperature":
         return units[0]
     sizes = {unit: abs(from_si(value, unit, kind)) for unit in units}
-    # from 1 m/s on nobody writes mm/s
-    if 0.1 <= sizes[units[0]] < (1_000 if units[0].startswith("mm/") else 10_000):
+    if 0.1 <= sizes[units[0]] < most_of(units[0], units):
         return units[0]
     for low, high in ((1.0, 1_000), (0.1, 10_000)):
         for unit in units:
@@ -362,6 +366,17 @@ def best_unit(value: float, kind: Kind) -> str:
     # far from any of them, nobody counts in percent
     far = [u for u in units if u != "percent"] or units
     return min(far, key=lambda u: abs(np.log10(max(abs(from_si(value, u, kind)), 1e-300)) - 1.5))
+
+
+def most_of(unit: str, offered: Iterable[str]) -> float:
+    """The number from which a unit gives way to a larger one: from 1 m/s on nobody writes mm/s.
+
+    >>> most_of("mm/s", ("mm/s", "m/s")), most_of("kJ/kg", ("kJ/kg", "kcal/kg"))
+    (1000.0, 10000.0)
+    """
+    small = re.match(r"[umn](?=(m|s|g|L|N|Pa)\b)", unit)
+    larger = {unit[1:], "m" + unit[1:], "k" + unit[1:]} if small else set()
+    return 1e3 if larger & set(offered) - {unit} else 1e4
 
 
 def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
@@ -382,7 +397,7 @@ def display_unit(values: Any, kind: Kind, usual: str | None = None) -> str:
         usual
         and not field_units(kind)
         and same_dimension(usual, kind.unit)
-        and (not middle or 0.05 <= abs(from_si(middle, usual, kind)) < 1e4)
+        and (not middle or 0.1 <= abs(from_si(middle, usual, kind)) < most_of(usual, kind.units))
     ):
         return usual
     return best_unit(middle, kind)

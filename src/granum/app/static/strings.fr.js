@@ -302,7 +302,7 @@ export const french = {
   'Where the variance comes from': "D'où vient la variance",
   'Optimum': 'Optimum',
   'What varies': 'Ce qui varie',
-  'One more input': 'Une donnée de plus',
+  'One more input': 'Ajouter une donnée',
   'What is sought': 'Ce que l’on cherche',
   'What is watched': 'Ce que l’on observe',
   'Sense': 'Sens',

@@ -41,7 +41,11 @@ def surface_height_rotating(
     return surface_height_center + (rotation_speed * radius) ** 2 / (2.0 * STANDARD_GRAVITY)
 
 
-@formula(source="perry2008, § 18", equation=r"K = \frac{\omega^2 r}{g}")
+@formula(
+    source="perry2008, § 18",
+    equation=r"K = \frac{\omega^2 r}{g}",
+    typical={"rotation_speed": (50.0, 500.0)},
+)
 def centrifugal_effect(radius: Length, rotation_speed: RotationSpeed) -> PositiveNumber:
     """Centrifugal effect: acceleration of the field over that of gravity, also called relative centrifugal
     force.
@@ -73,7 +77,7 @@ def rotation_speed_for_effect(centrifugal_effect: PositiveNumber, radius: Length
 @formula(
     source="perry2008, § 18",
     equation=r"F_c = m\left(1 - \frac{\rho_f}{\rho_p}\right)\omega^2 r",
-    typical={"mass": (1e-6, 1.0)},
+    typical={"rotation_speed": (50.0, 500.0), "mass": (1e-6, 1.0)},
 )
 def centrifugal_force(
     mass: Mass,
@@ -194,7 +198,7 @@ def settling_velocity_centrifugal_newton(
     equation=r"v_c = v_t(d_p, \rho_p, \rho_f, \eta, \omega^2 r)",
     title="Settling velocity in a centrifuge, any range",
     output="settling_velocity_centrifugal",
-    typical={"particle_diameter": (1e-6, 1e-4)},
+    typical={"rotation_speed": (50.0, 500.0), "particle_diameter": (1e-6, 1e-4)},
 )
 def settling_velocity_centrifugal(
     particle_diameter: Length,

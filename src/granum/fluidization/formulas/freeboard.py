@@ -250,7 +250,7 @@ def elutriation_flux_wen_hashinger(
 @formula(
     source="lin1980",
     equation=r"K^*_\infty = 9.43\times10^{-4}\,\rho_f U\left(\frac{U^2}{g d_p}\right)^{1.65}",
-    typical=ESCAPE,
+    typical={**ESCAPE, "superficial_velocity": (0.1, 0.3)},
     symbols={"elutriation_flux": r"K^*_\infty"},
 )
 def elutriation_flux_lin(

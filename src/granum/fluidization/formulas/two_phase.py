@@ -130,7 +130,7 @@ def two_phase_bed(
 @formula(
     source="davidson1963",
     equation=r"\frac{c}{c_0} = B + \frac{(1-B)^2}{1 - B + k H_{mf}/U}",
-    typical=BED,
+    typical={**BED, "rate_constant": (0.5, 5.0)},
     symbols={"bypass_fraction": "B", "height": "H_{mf}"},
 )
 def unconverted_fraction_davidson_harrison(

@@ -70,8 +70,9 @@ def mean_diameter_number_length(class_sizes: Sizes, class_numbers: Amounts) -> L
 
     >>> round(
     ...     mean_diameter_number_length(
-    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
-    ...     ),
+    ...         class_sizes="3 6 12 24 48 96 um", class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     )
+    ...     * 1e6,
     ...     3,
     ... )
     14.475
@@ -89,8 +90,9 @@ def mean_diameter_number_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 
     >>> round(
     ...     mean_diameter_number_surface(
-    ...         class_sizes=[3, 6, 12, 24, 48, 96], class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
-    ...     ),
+    ...         class_sizes="3 6 12 24 48 96 um", class_numbers=[2.7, 20.3, 50.8, 23.3, 2.7, 0.2]
+    ...     )
+    ...     * 1e6,
     ...     2,
     ... )
     17.19
@@ -106,7 +108,7 @@ def mean_diameter_number_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Diameter of the particle that has the mean volume.
 
-    >>> round(mean_diameter_number_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]) ** 3, 6)
+    >>> round((mean_diameter_number_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3) ** 3, 6)
     4.5
     """
     return _ratio(class_sizes, class_numbers, 3, 0) ** (1 / 3)
@@ -120,7 +122,7 @@ def mean_diameter_number_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
 def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Sauter diameter: the size that has the specific surface of the whole.
 
-    >>> mean_diameter_surface_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0])
+    >>> round(mean_diameter_surface_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.8
     """
     return _ratio(class_sizes, class_numbers, 3, 2)
@@ -134,7 +136,7 @@ def mean_diameter_surface_volume(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Mean diameter weighted by length.
 
-    >>> round(mean_diameter_length_surface(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]), 6)
+    >>> round(mean_diameter_length_surface("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.666667
     """
     return _ratio(class_sizes, class_numbers, 2, 1)
@@ -148,7 +150,7 @@ def mean_diameter_length_surface(class_sizes: Sizes, class_numbers: Amounts) -> 
 def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> Length:
     """Root of the volume over the length of the whole.
 
-    >>> round(mean_diameter_length_volume(class_sizes=[1.0, 2.0], class_numbers=[1.0, 1.0]), 6)
+    >>> round(mean_diameter_length_volume("1 2 mm", class_numbers=[1.0, 1.0]) * 1e3, 6)
     1.732051
     """
     return jnp.sqrt(_ratio(class_sizes, class_numbers, 3, 1))
@@ -163,7 +165,7 @@ def mean_diameter_length_volume(class_sizes: Sizes, class_numbers: Amounts) -> L
 def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Arithmetic mean diameter by mass (or volume).
 
-    >>> mean_diameter_mass(class_sizes=[1.0, 2.0], class_masses=[3.0, 1.0])
+    >>> round(mean_diameter_mass("1 2 mm", class_masses=[3.0, 1.0]) * 1e3, 6)
     1.25
     """
     return weighted(class_masses, class_sizes, "class_masses")
@@ -178,8 +180,8 @@ def mean_diameter_mass(class_sizes: Sizes, class_masses: Masses) -> Length:
 def mean_diameter_harmonic(class_sizes: Sizes, class_masses: Masses) -> Length:
     """Harmonic mean diameter by mass: the Sauter diameter of a mass analysis.
 
-    >>> mean_diameter_harmonic(class_sizes=[1.0, 2.0], class_masses=[0.5, 0.5])
-    1.3333333333333333
+    >>> round(mean_diameter_harmonic("1 2 mm", class_masses=[0.5, 0.5]) * 1e3, 6)
+    1.333333
     """
     return 1.0 / weighted(class_masses, 1.0 / class_sizes, "class_masses")
 
@@ -195,10 +197,10 @@ def number_per_mass(
 
     The volume of a particle of size X is k_v X³, π/6 for spheres.
 
-    >>> number_per_mass(
-    ...     class_sizes=[1.0, 2.0], class_masses=[1.0, 1.0], particle_density=0.5625, volume_shape_factor=1.0
+    >>> round(
+    ...     number_per_mass("1 2 mm", class_masses=[1.0, 1.0], particle_density=2250, volume_shape_factor=1.0)
     ... )
-    1.0
+    250000
     """
     return weighted(class_masses, class_sizes**-3.0, "class_masses") / (
         volume_shape_factor * particle_density
@@ -232,7 +234,7 @@ def mean_diameter_moment_ratio(
 ) -> Length:
     """Any moment-ratio mean of discrete sizes, from amounts on any basis; geometric for p = q.
 
-    >>> mean_diameter_moment_ratio(class_sizes=[1.0, 2.0], class_amounts=[1.0, 8.0], basis="volume")
+    >>> round(mean_diameter_moment_ratio("1 2 mm", class_amounts=[1.0, 8.0], basis="volume") * 1e3, 6)
     1.8
     """
     p, q = moment_order_upper - order_of(basis), moment_order_lower - order_of(basis)

@@ -22,6 +22,7 @@ ROUNDING = 1e-12
     source="wadell1933",
     equation=r"\psi = \left(\frac{d_v}{d_s}\right)^2",
     title="Sphericity from two diameters",
+    typical={"diameter_volume": (1e-4, 2e-4), "diameter_surface": (2.1e-4, 2.5e-4)},
 )
 def sphericity_diameters(diameter_volume: Length, diameter_surface: Length) -> Sphericity:
     """Surface of the sphere of the same volume over the surface of the particle.

@@ -97,14 +97,14 @@ def fall_stokes(
     Stokes' law, whose drag is 4 % too low at a Reynolds number of 0.2 (Oseen).
 
     >>> found = fall_stokes(
-    ...     particle_diameter="18 um",
+    ...     particle_diameter="60 um",
     ...     particle_density=2000,
     ...     fluid_density=1000,
     ...     dynamic_viscosity="1 cP",
-    ...     time=36e-6,
+    ...     time=4e-4,
     ...     gravity=10.0,
     ... )
-    >>> round(found.velocity / (10.0 * 1000 * 18e-6**2 / 18e-3), 4)
+    >>> round(found.velocity / (10.0 * 1000 * 60e-6**2 / 18e-3), 4)
     0.6321
     """
     tau = relaxation_time(
@@ -194,17 +194,17 @@ def approach_to_terminal(
     flagged.
 
     >>> found = approach_to_terminal(
-    ...     particle_diameter="1 um",
+    ...     particle_diameter="20 um",
     ...     particle_density=2000,
     ...     fluid_density=1000,
     ...     dynamic_viscosity="1 cP",
     ...     approach_fraction=0.99,
     ... )
     >>> tau = relaxation_time(
-    ...     particle_diameter="1 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP"
+    ...     particle_diameter="20 um", particle_density=2000, fluid_density=1000, dynamic_viscosity="1 cP"
     ... )
-    >>> round(found.time / tau, 3)
-    4.605
+    >>> round(found.time / tau, 1)
+    4.6
     """
     d, rho, eta = particle_diameter, fluid_density, dynamic_viscosity
     excess = jnp.asarray(particle_density - rho, dtype=float)
