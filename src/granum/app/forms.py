@@ -47,7 +47,9 @@ def card_form(key: str) -> dict[str, Any]:
     """One card with everything a form needs."""
     card = whole(registry.find(key).card)
     asked = registry.find(key).card.arguments
-    data = card.as_json() | {"equation_shown": mathml(card.equation, display=True) if card.equation else ""}
+    data: dict[str, Any] = card.as_json() | {
+        "equation_shown": mathml(card.equation, display=True) if card.equation else ""
+    }
     data["limits_shown"] = [row._asdict() for row in limit_rows(card)]
     data["fluid"] = fluid_field(card)
     examples = docstring_values(card)

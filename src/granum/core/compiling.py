@@ -5,8 +5,9 @@ compiling it costs.
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import jax
 import jax.numpy as jnp
@@ -36,12 +37,19 @@ def begun(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
 
 
 class _Begun:
+    all: ClassVar[weakref.WeakSet[_Begun]] = weakref.WeakSet()
+
     def __init__(self, function: Callable[..., Any], options: dict[str, Any]):
+        _Begun.all.add(self)
         self._function, self._options = function, options
         self._jitted = jax.jit(function, **options)
         self._trials: dict[Any, _Trial | None] = {}
         self._hot: Callable[..., Any] | None = None
         functools.update_wrapper(self, function)
+
+    def forget(self) -> None:
+        """Begin anew."""
+        self._trials, self._hot = {}, None
 
     def __call__(self, *given: Any) -> Any:
         if self._hot is not None:
@@ -67,6 +75,13 @@ class _Begun:
         if any(map(is_tracer, closed.consts)):
             return None
         return _Trial(closed, jax.tree.structure(shape), self._options)
+
+
+def forget() -> None:
+    """Drop all that was traced and compiled; what is called again is traced again."""
+    for one in list(_Begun.all):
+        one.forget()
+    jax.clear_caches()
 
 
 class _Trial:
