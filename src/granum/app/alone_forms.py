@@ -87,10 +87,9 @@ def _feed(
         if len(listed) > 1 and feed.get(shares):
             for species in listed:
                 path = f"{port}.{shares}.{species}"
-                label = _("share of {species}").format(species=_(species))
-                rows.append(
-                    _row(path, Parameter("mass_fraction", KINDS["MassFraction"], default=None), label)
-                )
+                label = _("share of {species}").format(species=session().label(species))
+                share = Parameter("mass_fraction", KINDS["MassFraction"], default=None)
+                rows.append(_row(path, share, label))
                 values[path] = case_value(feed[shares].get(species, 0))
     sizes = feed.get("sizes")
     if isinstance(sizes, Mapping) and sizes.get("law"):
@@ -108,11 +107,11 @@ def _substances(mixture: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[
         listed = mixture.get(phase)
         if not listed:
             continue
-        p = Parameter(
-            phase, default=None, choices=tuple(session().names("solid")) if phase == "solids" else ()
-        )
-        row = _row(f"mixture.{phase}", p, label)
-        rows.append(row if phase == "solids" and len(listed) == 1 else row | {"options": []})
+        row = _row(f"mixture.{phase}", Parameter(phase, default=None), label)
+        if phase == "solids" and len(listed) == 1:
+            named = [(session().label(name), name) for name in session().names("solid")]
+            row["options"] = [{"value": name, "label": shown} for shown, name in sorted(named)]
+        rows.append(row)
         values[f"mixture.{phase}"] = ", ".join(listed)
     return rows, values
 

@@ -51,7 +51,8 @@ def _told(kind: str, key: str) -> dict[str, str]:
     """What a hit shows: title, one line, and what sort of thing it is."""
     if kind == "card":
         card = entries()[key]
-        return {"sort": card.sort, "domain": card.domain, "title": card.title, "summary": card.summary}
+        told = card.summary.replace("``", "")
+        return {"sort": card.sort, "domain": card.domain, "title": card.title, "summary": told}
     if kind == "line":
         return {"sort": "line", "domain": "", "title": title_of(key), "summary": description_of(key)}
     if kind == "exercise":

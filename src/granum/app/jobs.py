@@ -303,7 +303,7 @@ class Crew:
             raise Busy(_("The calculation was cancelled."))
         process = self._take(key)
         try:
-            return self._watch(job, process)
+            return self._watch(job, process, key)
         finally:
             process.jobs += 1
             if process.alive and not (process.jobs % LOOK == 0 and worn(process.id)):
@@ -313,10 +313,10 @@ class Crew:
                 process.stop()
                 self.warm()
 
-    def _watch(self, job: Job, process: _Process) -> bytes:
+    def _watch(self, job: Job, process: _Process, key: str) -> bytes:
         job.started = started = time.monotonic()
         left = None
-        process.send((job.task, job.payload, job.language, job.units))
+        process.send((job.task, job.payload, job.language, job.units, key not in process.known))
         while True:
             message = process.receive(0.2)
             now = time.monotonic()

@@ -93,7 +93,7 @@ class Familiar:
     """
 
     # seconds; forms remembered; new forms after which the memory is looked at
-    quick, most, look = 0.03, 20_000, 50
+    quick, most, look = 0.03, 20_000, 25
     _number = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*(?:[A-Za-zµμ°℃%Ω][^\s;,\[\]]{0,30})?\s*")
 
     def __init__(self) -> None:

@@ -5,8 +5,9 @@ compiling it costs.
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import jax
 import jax.numpy as jnp
@@ -42,13 +43,20 @@ def begun(
 
 
 class _Begun:
+    all: ClassVar[weakref.WeakSet[_Begun]] = weakref.WeakSet()
+
     def __init__(self, function: Callable[..., Any], kept_as: Any, aside: list[Any], options: dict[str, Any]):
+        _Begun.all.add(self)
         self._function, self._options = function, options
         self._kept_as, self._aside = kept_as, aside
         self._jitted = jax.jit(function, **options)
         self._trials: dict[Any, _Trial | None] = {}
         self._hot: Callable[..., Any] | None = None
         functools.update_wrapper(self, function)
+
+    def forget(self) -> None:
+        """Begin anew."""
+        self._trials, self._hot = {}, None
 
     def __call__(self, *given: Any) -> Any:
         if self._hot is not None:
@@ -108,6 +116,13 @@ class _Begun:
         if trial.program.size >= LARGE:
             trial.compiled = jax.jit(jaxpr_as_fun(closed), **self._options)
         return trial
+
+
+def forget() -> None:
+    """Drop all that was traced and compiled; what is called again is traced again."""
+    for one in list(_Begun.all):
+        one.forget()
+    jax.clear_caches()
 
 
 class _Trial:

@@ -1,5 +1,16 @@
 // A piece of equipment alone: its parameters and what enters, solved as a line of its own; handed to Lines when wanted.
-import { html, t, ask, link, useAnswer, useState, useEffect, replaceLink, settings, Working } from './core.js';
+import {
+  html,
+  t,
+  ask,
+  link,
+  useAnswer,
+  useState,
+  useEffect,
+  replaceLink,
+  settings,
+  Working,
+} from './core.js';
 import { CALCULATED, Calculate } from './calculate.js';
 import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
@@ -83,8 +94,11 @@ function Outcome({ data, form }) {
     <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
       <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name.split('.').at(-1).replaceAll('_', ' ')}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
     <p class="small dim">${data.audit.text}</p>
-    ${form && html`<h2>${t('Source')}</h2><p class="small">${form.citation}</p>
+    ${
+      form &&
+      html`<h2>${t('Source')}</h2><p class="small">${form.citation}</p>
     <details><summary>${t('The same in Python')}</summary><pre>${form.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${form.command}</pre></details>
-    <details><summary>${t('About')}</summary><pre lang="en">${form.doc}</pre></details>`}`;
+    <details><summary>${t('About')}</summary><pre lang="en">${form.doc}</pre></details>`
+    }`;
 }

@@ -86,7 +86,10 @@ function App() {
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();
     const first = ['#main form :is(input, select)', '#main :is(input, select, textarea, a)'];
-    first.map((where) => document.querySelector(where)).find(Boolean)?.focus();
+    first
+      .map((where) => document.querySelector(where))
+      .find(Boolean)
+      ?.focus();
   }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('home')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(

@@ -79,7 +79,7 @@ export function Finder({ page, current, cards }) {
       e.preventDefault();
       visible(list.current)[0]?.focus();
     }} />
-    <nav class="scroll" ref=${list} aria-label=${t('Cards found')} onKeyDown=${walk} onFocusIn=${(e) => oneStop(list.current, e.target)}>
+    <nav class="scroll" ref=${list} aria-label=${t('Cards found')} onKeyDown=${walk} onfocusin=${(e) => oneStop(list.current, e.target)}>
       ${asked ? hits && html`<ul>${hits.map((c) => html`<${Item} key=${c.card} page=${page} card=${c} current=${current} />`)}</ul>` : html`<${Tree} page=${page} cards=${cards} current=${current} />`}
       ${hits?.length === 0 && !found.pending && html`<p class="dim">${t('Nothing found.')}</p>`}</nav></section>`;
 }
@@ -106,7 +106,8 @@ const Item = ({ page, card: c, current }) =>
   html`<li><a href=${link(page, c.card)} aria-current=${c.card === current ? 'page' : null} title=${c.summary}>${c.title}</a></li>`;
 
 // ---- one tab stop, arrow keys inside ----------------------------------------------------------------
-const visible = (list) => [...(list?.querySelectorAll('summary, a') || [])].filter((e) => e.checkVisibility());
+const visible = (list) =>
+  [...(list?.querySelectorAll('summary, a') || [])].filter((e) => e.checkVisibility());
 
 /** Only one entry is reached by Tab: the one that has the focus, else the open card, else the first. */
 function oneStop(list, wanted) {

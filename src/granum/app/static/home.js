@@ -5,20 +5,50 @@ import { hrefOf, placeOf } from './seek.js';
 import { recent } from './recent.js';
 
 const TASKS = [
-  ['How fast does it settle?', 'Terminal velocity of a particle in a fluid', 'calculate', 'particles.terminal_velocity'],
+  [
+    'How fast does it settle?',
+    'Terminal velocity of a particle in a fluid',
+    'calculate',
+    'particles.terminal_velocity',
+  ],
   ['Size a thickener from a jar test', 'Settling curve to area', 'lab', 'settling.batch_test'],
   ['Size a filter from a leaf test', 'Filtrate over time to cake resistance', 'lab', 'filtration.leaf_test'],
-  ['Filter, centrifuge or thickener?', 'Which separator suits a suspension', 'select', 'filtration.separator_choice'],
-  ['A drum filter at work', 'Capacity, washing and moisture of a machine', 'calculate', 'filtration.rotary_vacuum_drum'],
+  [
+    'Filter, centrifuge or thickener?',
+    'Which separator suits a suspension',
+    'select',
+    'filtration.separator_choice',
+  ],
+  [
+    'A drum filter at work',
+    'Capacity, washing and moisture of a machine',
+    'calculate',
+    'filtration.rotary_vacuum_drum',
+  ],
   ['Dry a product: energy and air', 'Balance of a dryer', 'calculate', 'drying.dryer_balance'],
   ['Which dryer?', 'Dryers that suit a product, with reasons', 'select', 'drying.choose'],
   ['State of humid air', 'Psychrometric chart with your process', 'charts', 'humid_gas.psychrometric_chart'],
-  ['Cyclones for a dust', 'Diameter and number for a cut and a pressure drop', 'calculate', 'cyclones.cyclone_sizing'],
-  ['When does a bed fluidize?', 'Minimum fluidization by every correlation', 'calculate', 'fluidization.minimum_fluidization_spread'],
+  [
+    'Cyclones for a dust',
+    'Diameter and number for a cut and a pressure drop',
+    'calculate',
+    'cyclones.cyclone_sizing',
+  ],
+  [
+    'When does a bed fluidize?',
+    'Minimum fluidization by every correlation',
+    'calculate',
+    'fluidization.minimum_fluidization_spread',
+  ],
   ['Crystals from a cooling batch', 'Size and yield, seeded or not', 'calculate', 'crystallization.batch'],
   ['Sizes from a sieve analysis', 'Median, spread and means of a table', 'lab', 'particles.sieve_analysis'],
   ['Energy for grinding', 'Power of a mill by Bond', 'calculate', 'comminution.mill_power_bond'],
-  ['Pressure drop of a bed of grains', 'Packed bed by the usual laws', 'calculate', 'porous.pressure_drop_packed_bed'],
+  [
+    'Pressure drop of a bed of grains',
+    'Packed bed by the usual laws',
+    'calculate',
+    'porous.pressure_drop_packed_bed',
+  ],
   ['A whole process line', 'Streams, sizes, duties, report', 'lines', ''],
 ];
 const SORTS = [
@@ -59,10 +89,11 @@ function Domain({ domain, cards }) {
       const list = own.filter((c) => c.sort === sort);
       if (!list.length) return null;
       const entries = sort === 'formula' ? entriesOf(list) : list.map((card) => ({ card }));
-      return html`<h2>${t(label)} <span class="dim">${list.length}</span></h2><ul class="plain several">${entries.map((entry) =>
-        entry.card
-          ? html`<li key=${entry.card.card}><${Way} card=${entry.card} /></li>`
-          : html`<li key=${entry.name}><details><summary>${entry.title}</summary><ul class="plain">${entry.list.map((c) => html`<li><${Way} card=${c} /></li>`)}</ul></details></li>`,
+      return html`<h2>${t(label)} <span class="dim">${list.length}</span></h2><ul class="plain several">${entries.map(
+        (entry) =>
+          entry.card
+            ? html`<li key=${entry.card.card}><${Way} card=${entry.card} /></li>`
+            : html`<li key=${entry.name}><details><summary>${entry.title}</summary><ul class="plain">${entry.list.map((c) => html`<li><${Way} card=${c} /></li>`)}</ul></details></li>`,
       )}</ul>`;
     })}</main>`;
 }

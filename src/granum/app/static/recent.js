@@ -38,6 +38,9 @@ export function recent(cards) {
     name: NAMES[one.page],
     title:
       cards?.find((c) => c.card === one.key)?.title ||
-      one.key.slice(one.key.indexOf(':') + 1).replace(/\.toml$/, '').replaceAll(/[-_]/g, ' '),
+      one.key
+        .slice(one.key.indexOf(':') + 1)
+        .replace(/\.toml$/, '')
+        .replaceAll(/[-_]/g, ' '),
   }));
 }

@@ -108,11 +108,11 @@ export function Seek() {
   };
   const listed = open && asked !== '';
   let number = -1;
-  return html`<div class=${open ? 'seek open' : 'seek'} role="search" onFocusOut=${(e) => {
+  return html`<div class=${open ? 'seek open' : 'seek'} role="search" onfocusout=${(e) => {
     if (!e.currentTarget.contains(e.relatedTarget)) setOpen(false);
   }}>
     <button class="opener" aria-label=${t('Search everything')} aria-expanded=${String(open)} onClick=${show}><${Glass} /></button>
-    <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" enterkeyhint="search" role="combobox" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-expanded=${String(listed)} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
+    <div class="sheet"><div class="line"><${Glass} /><input ref=${input} id="seek" type="text" enterkeyhint="search" autocomplete="off" spellcheck=${false} aria-label=${t('Search everything')} aria-controls="hits" aria-autocomplete="list" aria-activedescendant=${listed && flat.length ? `hit-${at}` : null}
         placeholder=${t('Search everything')} value=${word} onFocus=${() => setOpen(true)} onKeyDown=${press} onInput=${(
           e,
         ) => {
@@ -121,7 +121,10 @@ export function Seek() {
           setOpen(true);
         }} /><kbd aria-hidden="true">/</kbd><button class="button closer" onClick=${close}>${t('Close')}</button></div>
     <div id="hits" role="listbox" aria-label=${t('Found')} hidden=${!listed || !flat.length}>${groups.map(
-      ([name, list]) => html`<div role="group" aria-label=${t(name)} key=${name}><div class="kind" aria-hidden="true">${t(name)}</div>
+      ([
+        name,
+        list,
+      ]) => html`<div role="group" aria-label=${t(name)} key=${name}><div class="kind" aria-hidden="true">${t(name)}</div>
       ${list.map((hit) => {
         number += 1;
         const mine = number;

@@ -28,7 +28,7 @@ export const french = {
   'Search {count} cards…': 'Parmi {count} fiches…',
   'Nothing found.': 'Rien trouvé.',
   'The list of cards is on its way…': 'La liste des fiches arrive…',
-  'Equipment – {count}': 'Appareils – {count}',
+  'Equipment – {count}': 'Équipements – {count}',
   '{family} – {count} laws': '{family} – {count} lois',
   'Reading': 'Lecture',
   'Start': 'Accueil',
@@ -75,7 +75,8 @@ export const french = {
   'State of humid air': "État de l'air humide",
   'Psychrometric chart with your process': 'Diagramme psychrométrique avec votre évolution',
   'Cyclones for a dust': 'Des cyclones pour une poussière',
-  'Diameter and number for a cut and a pressure drop': 'Diamètre et nombre pour une coupure et une perte de charge',
+  'Diameter and number for a cut and a pressure drop':
+    'Diamètre et nombre pour une coupure et une perte de charge',
   'When does a bed fluidize?': 'Quand un lit se fluidise-t-il ?',
   'Minimum fluidization by every correlation': 'Minimum de fluidisation par toutes les corrélations',
   'Crystals from a cooling batch': 'Des cristaux par refroidissement discontinu',
