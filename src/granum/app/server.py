@@ -150,6 +150,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
             await quick.run(lambda: _familiar.meet(key, inputs, lambda: calculate(payload, Tell())), request)
         )
 
+    @app.get("/api/version")
+    async def version() -> Response:
+        """The version of the program."""
+        return Answer({"version": granum.__version__})
+
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
         """Worked examples and quizzes of the course notes."""

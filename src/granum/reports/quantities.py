@@ -104,7 +104,7 @@ def label_of(name: str) -> str:
 
 def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
     """The statistics of the JSON of a fit, in words with their numbers."""
-    labels = {
+    labels: dict[str, str] = {
         "rmse": _("root mean square of the residuals"),
         "r_squared": "R²",
         "aicc": "AICc",
@@ -115,7 +115,7 @@ def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
         "condition": _("condition of the normal equations"),
         "smoothing_points": _("points smoothed over"),
     }
-    numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
+    numbers = ((str(name), x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
     return [(labels.get(name, name.replace("_", " ")), format_number(x)) for name, x in numbers]
 
 

@@ -19,6 +19,8 @@ import { Lab } from './lab.js';
 import { Lines } from './lines.js';
 import { Studies } from './studies.js';
 import { Exercises } from './exercises.js';
+import './pinned.js';
+import './printed.js';
 
 const PAGES = [
   ['calculate', 'Calculate', (state) => html`<${Calculate} key="calculate" state=${state} />`],
@@ -72,7 +74,9 @@ function App() {
   }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();
-    document.querySelector('#main input, #main select, #main textarea, #main a')?.focus();
+    const inside = 'input, select, textarea';
+    const form = document.querySelector('#main form, #main section:not(.find)');
+    (form?.querySelector(inside) ?? document.querySelector('#main a, #main input'))?.focus();
   }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('calculate')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(

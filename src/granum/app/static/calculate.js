@@ -19,6 +19,8 @@ import { Field, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
+import { States, statesOf } from './states.js';
+import { Ranking } from './ranking.js';
 
 const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
 /** Selection guides are the procedures whose name says that they choose. */
@@ -79,6 +81,8 @@ function Work({ page, card, given }) {
   };
   const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
+  const states = process ? statesOf(values) : null;
+  const inForm = fields(card, card.parameters).filter((p) => !states || !(p.name in STATES));
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
     if (found)
@@ -100,7 +104,7 @@ function Work({ page, card, given }) {
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
         edited.current = '';
-      }}>${fields(card, card.parameters).map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
+      }}>${inForm.map((p) => html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => set(changed(values, p, text), p.name)} problem=${wrong === p ? answer.error.message : ''} />`)}</form>
       <div class="row"><button class="button" disabled=${!past.length} onClick=${() => {
         edited.current = '';
         setValues(past.at(-1));
@@ -116,12 +120,15 @@ function Work({ page, card, given }) {
       ${
         answer.data &&
         (kind === 'chart'
-          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} />`
+          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} tables=${!states} />`
           : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} />`)
       }</div>
-      ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
+      ${states && html`<${States} values=${values} states=${states} figure=${answer.data} set=${set} />`}
+      ${process && !states && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
+
+const STATES = { temperature: true, humidity_ratio: true };
 
 /** Values with the properties that a fluid gave in its place, for pages that ask for them. */
 function resolved(values, data) {
@@ -206,12 +213,6 @@ function Result({ card, values, data, old, kept, keep, clear, choose, laws, setL
     <details><summary>${t('The same in Python')}</summary><pre>${data.python}</pre></details>
     <details><summary>${t('The same on the command line')}</summary><pre>${data.command}</pre></details>
     <details><summary>${t('About')}</summary><pre lang="en">${card.doc}</pre></details>`;
-}
-
-/** Choices in order, the best first. */
-function Ranking({ table }) {
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Choices')}><table data-ranking><thead><tr>${table.columns.map((c) => html`<th scope="col" class=${c.number ? 'n' : ''}>${c.label}</th>`)}</tr></thead>
-    <tbody>${table.rows.map((row) => html`<tr>${row.map((text, i) => html`<td class=${table.columns[i].number ? 'n' : i === 0 ? 'first' : 'small'}>${text}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 
 function Comparison({ cases, clear }) {
