@@ -199,6 +199,11 @@ def _cards_and_formulas(app: FastAPI, quick: Workers) -> None:
         """The calculation as a sheet to print: asked as the sensitivity, with the ``link`` of the page."""
         return HTMLResponse(await nearby(request, "calculation", asked | {"key": key}))
 
+    @app.get("/api/version")
+    async def version() -> Response:
+        """The version of the program."""
+        return Answer({"version": granum.__version__})
+
     @app.get("/api/exercises")
     async def exercise_list() -> Response:
         """Worked examples and quizzes of the course notes."""

@@ -197,8 +197,8 @@ def statistics_rows(data: dict[str, Any]) -> list[tuple[str, str]]:
         "condition": _("condition of the normal equations"),
         "smoothing_points": _("points smoothed over"),
     }
-    numbers = ((name, x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
-    return [(labels.get(name) or name.replace("_", " "), format_number(x)) for name, x in numbers]
+    numbers = ((str(name), x) for name, x in data["statistics"].items() if isinstance(x, (int, float)))
+    return [(labels.get(name, name.replace("_", " ")), format_number(x)) for name, x in numbers]
 
 
 def statistics_text(data: dict[str, Any]) -> str:

@@ -24,6 +24,8 @@ import { Forward, Home } from './home.js';
 import { Read } from './read.js';
 import { Seek } from './seek.js';
 import { noteRecent } from './recent.js';
+import './pinned.js';
+import './printed.js';
 
 const PAGES = [
   ['calculate', 'Calculate', (state) => html`<${Desk} key="calculate" state=${state} />`],
@@ -85,11 +87,9 @@ function App() {
   }, [page, settings.language]);
   return html`<a class="skip" href="#main" onClick=${(e) => {
     e.preventDefault();
-    const first = ['#main form :is(input, select)', '#main :is(input, select, textarea, a)'];
-    first
-      .map((where) => document.querySelector(where))
-      .find(Boolean)
-      ?.focus();
+    const inside = 'input, select, textarea';
+    const form = document.querySelector('#main form, #main section:not(.find)');
+    (form?.querySelector(inside) ?? document.querySelector('#main a, #main input'))?.focus();
   }}>${t('Skip to content')}</a>
     <header><a class="brand" href=${link('home')}><img src="icon.svg" alt="" />Granum</a>
       <nav aria-label=${t('Pages')}>${shown.map(

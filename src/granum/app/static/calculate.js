@@ -19,6 +19,7 @@ import { Fields, changed, fields, missingOf, ordinary } from './form.js';
 import { Finder, useCards } from './cards.js';
 import { Result } from './result.js';
 import { Quantity, joined } from './quantity.js';
+import { States, statesOf } from './states.js';
 
 export const CALCULATED = (c) => (c.sort === 'formula' || c.sort === 'procedure') && !isSelection(c);
 /** Selection guides are the procedures whose name says that they choose. */
@@ -103,6 +104,8 @@ function Work({ page, card, given }) {
     html`<button type="button" class="find-input" aria-pressed=${String(sought?.name === p.name)} title=${t('Find the value that gives a wanted result')} aria-label=${t('Find {name} for a wanted result', { name: p.label })} onClick=${() => seek(p)}>${t('find')}</button>`;
   const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
+  const states = process ? statesOf(values) : null;
+  const inForm = fields(card, card.parameters).filter((p) => !states || !(p.name in STATES));
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);
     if (found)
@@ -128,7 +131,7 @@ function Work({ page, card, given }) {
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
         edited.current = '';
-      }}><${Fields} card=${card} values=${values} onChange=${(p, text) => {
+      }}><${Fields} all=${inForm} values=${values} onChange=${(p, text) => {
         if (p.name === sought?.name) setSought(null);
         set(changed(values, p, text), p.name);
       }} aside=${finder} wrong=${wrong} error=${answer.error?.message} /></form>
@@ -148,10 +151,11 @@ function Work({ page, card, given }) {
       ${
         answer.data &&
         (kind === 'chart'
-          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} />`
+          ? html`<${Plot} figure=${answer.data} label=${card.title} name=${card.card} onPoint=${process ? (x, y) => addState(x, y) : null} tables=${!states} />`
           : html`<${Result} card=${card} values=${values} data=${answer.data} old=${answer.pending || Boolean(answer.error)} kept=${others.data || []} keep=${() => setKept([...kept, values])} clear=${() => setKept([])} choose=${set} laws=${laws} setLaws=${setLaws} sheet=${sheet} />`)
       }</div>
-      ${process && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
+      ${states && html`<${States} values=${values} states=${states} figure=${answer.data} set=${set} />`}
+      ${process && !states && html`<div class="row"><span class="small dim">${t('Click on the chart to add a state of a process.')}</span> <button class="button" disabled=${!values.temperature && !values.humidity_ratio} onClick=${() => set({ ...values, temperature: '', humidity_ratio: '' })}>${t('Clear the process')}</button></div>`}
       ${kind === 'chart' && html`<p class="small dim">${card.citation}</p>`}</section>`;
 }
 
@@ -171,6 +175,8 @@ function Seek({ card, results, sought, change, stop, solved, label }) {
   } =</div><div class="row"><${Quantity} key=${p.name} p=${p} id="wanted" note="wanted-note" text=${sought.text} onChange=${(text) => change({ text })} label=${p.label} /><button class="button" onClick=${stop}>${t('Done')}</button></div>
     <p id="wanted-note" class=${solved.error ? 'small out' : 'small dim'} role="status">${solved.error ? solved.error.message : solved.pending ? '' : (solved.data?.shown ?? '')}</p></div>`;
 }
+
+const STATES = { temperature: true, humidity_ratio: true };
 
 /** Values with the properties that a fluid gave in its place, for pages that ask for them. */
 function resolved(values, data) {

@@ -14,8 +14,7 @@ export function Field({ parameter: p, text, onChange, problem, id = `field-${p.n
 }
 
 /** The fields of a card: what must be given and what it is about in front, what may be left out folded; a field does not move while it is filled. */
-export function Fields({ card, values, onChange, wrong, error, aside }) {
-  const all = fields(card, card.parameters);
+export function Fields({ all, values, onChange, wrong, error, aside }) {
   const [folded] = useState(
     () =>
       new Set(

@@ -4,6 +4,7 @@ import { Plot } from './plot.js';
 import { Series } from './series.js';
 import { Spread } from './spread.js';
 import { Comparison } from './comparison.js';
+import { Ranking } from './ranking.js';
 
 export function Result({ card, values, data, old, kept, keep, clear, choose, laws, setLaws, sheet }) {
   const bad = data.flags.length > 0;
@@ -92,10 +93,4 @@ function Sensitivity({ card, values, old, units, laws, choice, setChoice }) {
     <${Plot} figure=${data.figure} label=${data.spoken} name=${`${card.card}-${data.against}`} />
     ${data.covered && html`<p class="small dim">${t('Shaded: what the source covers.')}</p>`}
     ${laws && card.sort === 'formula' && data.figure.data.length > 2 && html`<p class="small dim">${t('Thin lines: other laws.')}</p>`}</section>`;
-}
-
-/** Choices in order, the best first. */
-function Ranking({ table }) {
-  return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Choices')}><table data-ranking><thead><tr>${table.columns.map((c) => html`<th scope="col" class=${c.number ? 'n' : ''}>${c.label}</th>`)}</tr></thead>
-    <tbody>${table.rows.map((row) => html`<tr>${row.map((text, i) => html`<td class=${table.columns[i].number ? 'n' : i === 0 ? 'first' : 'small'}>${text}</td>`)}</tr>`)}</tbody></table></div>`;
 }
