@@ -77,7 +77,7 @@ def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
     units, feeds, specs = (table_of(raw, name) for name in ("units", "feeds", "specifications"))
     mixture = table_of(raw, "mixture")
     return {
-        "title": str(raw.get("title", "")),
+        "title": _(found.title) if found.title else "",
         "units": {
             name: _unit(table) | _ports(found, name)
             for name, table in units.items()
