@@ -267,17 +267,17 @@ def test_what_a_lab_test_gave_goes_into_the_open_line_in_one_click(page: Page) -
 
 
 def test_tables_of_a_line_are_taken_as_files(address: str) -> None:
-    client = httpx.Client(base_url=address, timeout=240)
-    case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
-    rows = list(
-        csv.reader(io.StringIO(client.post("/api/case/tables", json={"case": case, "form": "csv"}).text))
-    )
-    book = openpyxl.load_workbook(
-        io.BytesIO(client.post("/api/case/tables", json={"case": case, "form": "xlsx"}).content)
-    )
+    with httpx.Client(base_url=address, timeout=240) as client:
+        case = client.get("/api/examples/grinding-circuit/circuit.toml").json()["text"]
+        answers = {
+            form: client.post("/api/case/tables", json={"case": case, "form": form})
+            for form in ("csv", "xlsx", "pdf")
+        }
+    rows = list(csv.reader(io.StringIO(answers["csv"].text)))
+    book = openpyxl.load_workbook(io.BytesIO(answers["xlsx"].content))
     assert book.sheetnames == ["streams", "results"]
     assert [str(cell.value) for cell in book["streams"][1]] == rows[0]
-    assert client.post("/api/case/tables", json={"case": case, "form": "pdf"}).status_code == 422
+    assert answers["pdf"].status_code == 422
 
 
 @pytest.mark.parametrize(

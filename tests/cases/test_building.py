@@ -338,3 +338,33 @@ def test_text_that_is_no_case_is_refused_in_words() -> None:
     for text in ("title = ", "[units.x", "\x00"):
         with pytest.raises(CaseError, match="TOML"):
             b.add_feed(text)
+
+
+@pytest.mark.parametrize(
+    ("enters", "models"),
+    [
+        ("solution", ["crystallization.msmpr", "crystallization.vacuum_crystallizer", "streams.heater"]),
+        ("suspension", ["settling.thickener", "filtration.chamber_press", "cyclones.hydrocyclone"]),
+        ("moist_solid", ["drying.well_mixed_dryer", "drying.convective_dryer", "drying.rotary_dryer"]),
+        ("dusty_gas", ["cyclones.gas_cyclone"]),
+    ],
+)
+def test_a_line_is_solved_as_soon_as_its_first_piece_stands(enters: str, models: list[str]) -> None:
+    begun = b.begin("First", enters)
+    for model in models:
+        run = read_text(b.add_unit(begun, model, origin=enters)).solve()
+        assert max(run.audit["mass_closure"], run.audit["energy_closure"]) < 1e-9
+
+
+def test_a_line_of_another_size_gets_machines_of_that_size() -> None:
+    begun = (
+        b.begin("Large", "suspension")
+        .replace('"1000 kg/h"', '"10000 kg/h"')
+        .replace('"200 kg/h"', '"2000 kg/h"')
+    )
+    small = tomllib.loads(b.add_unit(b.begin("Small", "suspension"), "filtration.chamber_press"))["units"][
+        "filter"
+    ]
+    large = tomllib.loads(b.add_unit(begun, "filtration.chamber_press"))["units"]["filter"]
+    assert (small["area"], large["area"]) == ("25 m2", "300 m^2")
+    assert small["chamber_depth"] == large["chamber_depth"]

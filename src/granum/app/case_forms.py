@@ -19,7 +19,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.flowsheet.drawing import ACROSS, Loose, draw
-from granum.materials.library import label_of
+from granum.materials.library import session
 
 FEED_KINDS = {
     "mass_flow": "MassFlow",
@@ -77,7 +77,7 @@ def line_form(case: str, across: int = ACROSS) -> dict[str, Any]:
     units, feeds, specs = (table_of(raw, name) for name in ("units", "feeds", "specifications"))
     mixture = table_of(raw, "mixture")
     return {
-        "title": str(raw.get("title", "")),
+        "title": _(found.title) if found.title else "",
         "units": {
             name: _unit(table) | _ports(found, name)
             for name, table in units.items()
@@ -219,13 +219,20 @@ def _feed(table: Mapping[str, Any], mixture: Mapping[str, Any]) -> dict[str, Any
         for one in names[1:]:
             row = _row(Parameter(f"{phase}.{one}", KINDS["MassFraction"], default=None))
             rows.append(
-                row | {"label": _("{species} in the {phase}").format(species=label_of(one), phase=_(phase))}
+                row
+                | {
+                    "label": _("{species} in the {phase}").format(
+                        species=session().label(one), phase=_(phase)
+                    )
+                }
             )
             if isinstance(shares, dict) and one in shares:
                 values[f"{phase}.{one}"] = case_value(shares[one])
         rest = shares.get(names[0], "") if isinstance(shares, dict) else ""
         rests.append(
-            _("the rest of the {phase} is {species}").format(species=label_of(names[0]), phase=_(phase))
+            _("the rest of the {phase} is {species}").format(
+                species=session().label(names[0]), phase=_(phase)
+            )
             + (f" ({rest})" if rest else "")
         )
     if listed(mixture, "solids") and ("solid_flow" in table or totals or "sizes" in table):

@@ -20,6 +20,7 @@ from granum.cases.reading import parsed, quantity
 from granum.cases.sections import checked, with_table, with_value, without_table, without_value, written
 from granum.cases.starting import (
     GAS_PER_FEED,
+    GAS_PER_MOISTURE,
     PAIR,
     crystals_of,
     drying_gas,
@@ -116,7 +117,7 @@ def begin(
     elif enters == "moist_solid":
         text = new_line(title, [liquid], [solid], [gas, liquid])
     elif enters == "dusty_gas":
-        text = new_line(title, [], [solid], [gas])
+        text = new_line(title, [], [solid], [gas], "0.1 um", "1 mm")
     else:
         raise unknown_name(_("Beginning"), enters, BEGINNINGS)
     return add_feed(text, _(enters), values=first_feed(table_of(parsed(text, "case"), "mixture"), enters))
@@ -265,7 +266,8 @@ def add_unit(
     if values is None:
         for port in ports or ():
             if port == "gas" and "feed" in ports:
-                case = _with_gas(case, name, found)
+                case = _with_gas(case, name, found, origin)
+        case = _with_vapor(case) if _asks_for_vapor(thing.card.key) else case
     return checked(case)
 
 
@@ -280,7 +282,7 @@ def _scaled(model: str, made: Mapping[str, Any], found: Outline) -> dict[str, An
         return {}
     parameters = (p for p in registry.find(model).card.parameters if p.name in EXTENSIVE and p.name in made)
     return {
-        p.name: f"{tonnes * float(convert(made[p.name], p)):.2g} {p.kind.unit}"
+        p.name: f"{float(f'{tonnes * float(convert(made[p.name], p)):.2g}'):.10g} {p.kind.unit}"
         for p in parameters
         if p.kind is not None
     }
@@ -301,18 +303,31 @@ def _entering(found: Outline) -> float:
     return total
 
 
-def _with_gas(case: str, unit: str, found: Outline) -> str:
+def _with_gas(case: str, unit: str, found: Outline, origin: str) -> str:
     """The case with a feed of hot gas to a dryer; air and the vapor of the first liquid are added to
     substances that have none.
     """
-    mixture = table_of(found.raw, "mixture")
-    liquids, gases = listed(mixture, "liquids"), listed(mixture, "gases")
-    if not gases:
-        gases = [PAIR[0], *(liquids[:1] or PAIR[1:])]
-        case = with_value(case, ("mixture",), "gases", gases)
+    case = _with_vapor(case)
     flow = GAS_PER_FEED * (_entering(found) or 1000.0 / 3600.0)
-    name = free_name(outline(case), _("hot_gas"))
-    return add_feed(case, name, f"{unit}.gas", drying_gas(dict(mixture) | {"gases": gases}, flow))
+    moist = table_of(table_of(found.raw, "feeds"), origin)
+    if moist:
+        flow = max(flow, GAS_PER_MOISTURE * _flow(moist, "liquid_flow"))
+    now = outline(case)
+    gas = drying_gas(table_of(now.raw, "mixture"), flow)
+    return add_feed(case, free_name(now, _("hot_gas")), f"{unit}.gas", gas)
+
+
+def _with_vapor(case: str) -> str:
+    """Air and the vapor of the first liquid, where the line has no gas yet."""
+    mixture = table_of(parsed(case, "case"), "mixture")
+    if listed(mixture, "gases"):
+        return case
+    return with_value(case, ("mixture",), "gases", [PAIR[0], *(listed(mixture, "liquids")[:1] or PAIR[1:])])
+
+
+def _asks_for_vapor(model: str) -> bool:
+    """Whether a piece of equipment evaporates or condenses the solvent."""
+    return any(word in model for word in ("vacuum_crystallizer", "vacuum_batch", "humid", "condenser"))
 
 
 def add_wash(case: str, unit: str) -> str:

@@ -16,6 +16,7 @@ LIQUID, SOLID, GAS = "1000 kg/h", "200 kg/h", "1000 kg/h"
 WARM, SATURATED_AT = "80 degC", 348.15  # a solution to be crystallized, saturated a little below
 HOT_GAS = "120 degC"
 GAS_PER_FEED = 2.0  # kg of drying gas per kg of everything else that enters
+GAS_PER_MOISTURE = 30.0  # and per kg of what a feed that is dried as it is holds of liquid
 SIZES = {"law": "rosin_rammler", "size_modulus": "150 um", "distribution_exponent": 1.5}
 PAIR = ("dry air", "water")
 
@@ -144,6 +145,15 @@ def _shares(names: list[str], one: str) -> dict[str, str]:
     return {name: "100 %" if name == one else "0 %" for name in names}
 
 
+def hourly(flow: float) -> str:
+    """A flow in kg/s as somebody would round it.
+
+    >>> hourly(0.6667), hourly(2.0)
+    ('2400 kg/h', '7200 kg/h')
+    """
+    return f"{float(f'{3600.0 * flow:.2g}'):.10g} kg/h"
+
+
 def drying_gas(mixture: Mapping[str, Any], flow: float) -> dict[str, Any]:
     """Hot gas for a dryer: of the carrier, with a little of its vapor."""
     gases = listed(mixture, "gases")
@@ -155,7 +165,7 @@ def drying_gas(mixture: Mapping[str, Any], flow: float) -> dict[str, Any]:
         shares[carrier] = "100 %"
     return {
         "temperature": HOT_GAS,
-        "gas_flow": f"{flow * 3600.0:.2g} kg/h".replace("e+03", "000"),
+        "gas_flow": hourly(flow),
         "gas": shares,
     }
 
@@ -165,6 +175,6 @@ def wash_liquor(mixture: Mapping[str, Any], flow: float) -> dict[str, Any]:
     liquids = listed(mixture, "liquids")
     return {
         "temperature": "20 degC",
-        "liquid_flow": f"{3600.0 * flow:.2g} kg/h",
+        "liquid_flow": hourly(flow),
         "liquid": _shares(liquids, liquids[0]),
     }

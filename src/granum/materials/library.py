@@ -252,15 +252,6 @@ def names(sort: str = "") -> list[str]:
     return session().names(sort)
 
 
-def label_of(name: str) -> str:
-    """The name of a material in the current language; as it is where the library does not know it."""
-    if current_language() != "fr":
-        return name
-    known = session()
-    found = (known.entries(sort).get(name) for sort in ("fluid", "solid", "solute"))
-    return next((entry.fr for entry in found if entry is not None and entry.fr), name)
-
-
 def fluid(name: str) -> Fluid:
     """A pure fluid by name, chemical formula or French name.
 

@@ -12,7 +12,7 @@ from granum.core.i18n import _
 from granum.core.kinds import KINDS
 from granum.core.parameters import Parameter
 from granum.core.units import format_number, from_si, pretty_unit, show
-from granum.materials.library import label_of
+from granum.materials.library import session
 from granum.streams.stream import main_phase, summary
 
 
@@ -31,7 +31,9 @@ def stream_figures(stream: Any) -> list[tuple[str, str]]:
     for phase, species, flows in phases:
         for one, flow in zip(species, np.asarray(flows), strict=True):
             if flow > 0.0:
-                figures.append((f"{_(phase)}: {label_of(one.name)}", show(float(flow), KINDS["MassFlow"])))
+                figures.append(
+                    (f"{_(phase)}: {session().label(one.name)}", show(float(flow), KINDS["MassFlow"]))
+                )
     return figures
 
 
@@ -124,7 +126,7 @@ def stream_sheet(run: Any) -> dict[str, Any]:
         if len(species) < 2:
             continue
         for i, one in enumerate(species):
-            heads.append(Head(f"w {label_of(one.name)}", "%", phase))
+            heads.append(Head(f"w {session().label(one.name)}", "%", phase))
             columns.append({n: _share(s, phase, i, flows[phase][n]) for n, s in streams.items()})
     entering = [k.name for k in run.sheet.links if not k.origin]
     leaving = [k.name for k in run.sheet.links if not k.target]

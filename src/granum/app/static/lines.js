@@ -330,6 +330,9 @@ export function Lines({ state }) {
   const old = Boolean(outcome && (busy || error || typing || text !== solved));
   const cases = outcome ? [...kept, { ...outcome, form }] : [];
   const missing = form?.missing || [];
+  const labels = Object.fromEntries(
+    (form?.ends.origins || []).map((end) => [end.stream, end.stream === end.value ? end.label : undefined]),
+  );
   const tools = html`<button class="button" disabled=${busy || !outcome || missing.length > 0} onClick=${report}>${t('Report')}</button>
     <button class="button" disabled=${old || !outcome || kept.length >= MOST_KEPT} onClick=${() => compare([...kept, { units: outcome.units, form }])}>${t('Keep to compare')}</button>
     <a class="button" onClick=${study} href=${place ? link('studies', place, { case: carried }) : null}>${t('Study')}</a>`;
@@ -396,5 +399,5 @@ export function Lines({ state }) {
     ${palette && form && html`<${Palette} key=${settings.language} origin=${palette.origin} pick=${add} close=${() => setPalette(null)} />`}
     <div aria-live="polite">${form && chosen.name && html`<${Panel} chosen=${chosen} choose=${choose} form=${form} data=${outcome} cases=${cases} old=${old} typedIn=${typedIn} build=${build} />`}</div>
     ${old && !busy && html`<p class="message caution" data-old>▲ ${t('What follows belongs to the line before the last change.')}</p>`}
-    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} /></div>`}</section></main>`;
+    ${outcome && html`<div class=${old ? 'stale' : ''}><${Outcome} data=${outcome} cases=${cases} compared=${kept.length > 0} clear=${() => compare([])} choose=${choose} place=${place} text=${solved} labels=${labels} /></div>`}</section></main>`;
 }
