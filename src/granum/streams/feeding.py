@@ -190,7 +190,7 @@ def size_shares(sizes: Any, mixture: Mixture, where: str) -> np.ndarray:
     edges = np.asarray(mixture.edges)
     cumulative = np.asarray(once(partial(_below, sizes), edges))
     inside = cumulative[-1] - cumulative[0]
-    if inside < LEAST_INSIDE:
+    if not inside >= LEAST_INSIDE:
         raise InputError(
             _(
                 "{where}: {missing} % of the feed lies outside the size classes; widen [mixture.sizes]."
