@@ -26,6 +26,7 @@ from granum.streams.equipment.basics import (
     Heated as Heated,
     Heater as Heater,
     HeaterFigures as HeaterFigures,
+    Mixed as Mixed,
     Mixer as Mixer,
     Single as Single,
     SplitFigures as SplitFigures,
@@ -44,7 +45,7 @@ from granum.streams.equipment.humid_gas import (
     HumidMixer as HumidMixer,
     Humidified as Humidified,
     HumidifierFigures as HumidifierFigures,
-    Mixed as Mixed,
+    MixedGas as MixedGas,
 )
 from granum.streams.equipment.movers import (
     Fan as Fan,

@@ -131,7 +131,7 @@ class BagFilter(Collector):
 
     def measured(self, inside: Bagged, outlets: Cleaned, figures: BagFigures, feed: Stream) -> dict[str, Any]:
         return {
-            "emission": figures.emission_concentration,
+            "emission": self.over_limit(figures.emission_concentration),
             "cloth": 60.0 * inside.velocity,
             "drop": inside.highest,
             "warm": self.temperature_cloth - feed.temperature,

@@ -86,7 +86,7 @@ class Collector(Unit):
         def oxygen_reference(self) -> Any: ...
 
     limits: ClassVar[Limits] = {
-        "emission": Limit("emission of dust, dry at 0 °C and 1 atm", 0.0, "emission_limit", "kg/m^3", SOURCE)
+        "emission": Limit("emission of dust over its limit", 0.0, 1.0, "dimensionless", SOURCE)
     }
 
     def emission(self, gas: Stream) -> Any:
@@ -96,6 +96,10 @@ class Collector(Unit):
             gas.solid_flow, jnp.maximum(flow, LEAST), self.oxygen_fraction, self.oxygen_reference
         )
         return jnp.where(flow > 0.0, found, 0.0)
+
+    def over_limit(self, emission: Any) -> Any:
+        """Emission over its limit; of a limit of nothing a large number."""
+        return emission / jnp.maximum(self.emission_limit, 1e-15)
 
     def parted(self, feed: Stream, share: Any, pressure_drop: Any) -> Cleaned:
         """Gas and dust; liquid travels with the dust."""

@@ -125,7 +125,7 @@ class ElectrostaticPrecipitator(Collector):
         self, inside: Charged, outlets: Cleaned, figures: PrecipitatorFigures, feed: Stream
     ) -> dict[str, Any]:
         return {
-            "emission": figures.emission_concentration,
+            "emission": self.over_limit(figures.emission_concentration),
             "velocity": inside.velocity,
             "plates": self.area / inside.flow,
             "migration": figures.migration_velocity,

@@ -101,7 +101,7 @@ class SettlingChamber(Collector):
     def measured(
         self, inside: Fallen, outlets: Cleaned, figures: ChamberFigures, feed: Stream
     ) -> dict[str, Any]:
-        return {"emission": figures.emission_concentration, "velocity": inside.velocity}
+        return {"emission": self.over_limit(figures.emission_concentration), "velocity": inside.velocity}
 
     def drawn(
         self, inside: Fallen, outlets: Cleaned, figures: ChamberFigures, feed: Stream

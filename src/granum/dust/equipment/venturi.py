@@ -145,7 +145,7 @@ class VenturiScrubber(Collector):
         self, inside: Throat, outlets: Scrubbed, figures: VenturiFigures, feed: Stream, water: Stream
     ) -> dict[str, Any]:
         return {
-            "emission": figures.emission_concentration,
+            "emission": self.over_limit(figures.emission_concentration),
             "throat": inside.velocity,
             "liquid": inside.ratio,
             "drop": inside.lost,

@@ -37,7 +37,7 @@ def _above_freezing(source: str) -> Limits:
     return {"liquid": Limit("temperature above the freezing point", 0.0, math.inf, "delta_degC", source)}
 
 
-class Mixed(NamedTuple):
+class MixedGas(NamedTuple):
     """Mixed gas; its liquid is fog."""
 
     product: Stream
@@ -64,13 +64,13 @@ class HumidMixer(Unit):
 
     limits: ClassVar[Limits] = _above_freezing("ashrae2017")
 
-    def outlets(self, inside: None, **inlets: Stream) -> Mixed:
+    def outlets(self, inside: None, **inlets: Stream) -> MixedGas:
         mixed = reduce(add, inlets.values())
         product = HumidMixture(mixed.mixture).at_own_enthalpy(mixed)
         unsolved(jnp.isfinite(product.temperature), type(self).card, reason=UNSOLVED)
-        return Mixed(product)
+        return MixedGas(product)
 
-    def figures(self, inside: None, outlets: Mixed, **inlets: Stream) -> HumidFigures:
+    def figures(self, inside: None, outlets: MixedGas, **inlets: Stream) -> HumidFigures:
         gas = outlets.product
         humid = HumidMixture(gas.mixture)
         return HumidFigures(
@@ -82,7 +82,7 @@ class HumidMixer(Unit):
         )
 
     def measured(
-        self, inside: None, outlets: Mixed, figures: HumidFigures, **inlets: Stream
+        self, inside: None, outlets: MixedGas, figures: HumidFigures, **inlets: Stream
     ) -> dict[str, Any]:
         return {
             "liquid": outlets.product.temperature - HumidMixture(outlets.product.mixture).freezing_temperature
