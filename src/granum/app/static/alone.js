@@ -15,6 +15,8 @@ import { CALCULATED, Calculate } from './calculate.js';
 import { Finder, useCards } from './cards.js';
 import { Field } from './form.js';
 import { keepDraft, packed } from './drafts.js';
+import { StreamTable } from './line_streams.js';
+import { Utilities } from './utilities.js';
 
 const SHOWN = (c) => CALCULATED(c) || c.sort === 'equipment';
 
@@ -81,18 +83,22 @@ function Work({ card, given }) {
     <section aria-label=${t('Believe')}>
       <div aria-live="polite">${problem && html`<p class="message out">${problem.message}</p>`}</div>
       <${Working} busy=${busy} cancel=${answer.cancel} job=${answer.job} />
-      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} />`}</div></section>`;
+      <div class=${busy || problem ? 'stale' : ''} aria-busy=${String(busy && !problem)}>${answer.data && html`<${Outcome} data=${answer.data} form=${form.data} text=${text} />`}</div></section>`;
 }
 
-function Outcome({ data, form }) {
+/** Streams by the ports of the one machine. */
+const ports = (rows) =>
+  Object.fromEntries(rows.map(([name]) => [name, name.split('.').at(-1).replaceAll('_', ' ')]));
+
+function Outcome({ data, form, text }) {
   const [unit] = Object.values(data.units);
   const failed = unit.checks.filter((c) => !c.ok);
   return html`<div class="wide" tabindex="0" role="region" aria-label=${t('Results')}><table class="answers"><tbody>${Object.entries(unit.results).map(([name, row]) => html`<tr><td>${row.label || name.replaceAll('_', ' ')}</td><td class="n" data-figure=${name}><strong>${row.text}</strong></td></tr>`)}</tbody></table></div>
     <div class=${failed.length || data.flags.length ? 'caution' : 'ok'} data-belief=${failed.length || data.flags.length ? 'caution' : 'ok'}>${data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`)}${failed.map((c) => html`<p class="mark">▲ ${c.name}: ${c.text} (${c.allowed})</p>`)}
       ${!failed.length && !data.flags.length && html`<p class="mark">● ${t('within its practical limits')}</p>`}</div>
     ${unit.checks.length > 0 && html`<details open><summary>${t('Practical limits')}</summary><div class="wide small"><table><tbody>${unit.checks.map((c) => html`<tr class=${c.ok ? '' : 'out'}><td>${c.ok ? '✓' : '✗'} ${c.name}</td><td class="n">${c.text}</td><td class="dim">${c.allowed}</td></tr>`)}</tbody></table></div></details>`}
-    <h2>${t('Streams')}</h2><div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table><thead><tr><th scope="col">${t('stream')}</th>${data.stream_table.heads.map((head) => html`<th class="n" scope="col">${head}</th>`)}</tr></thead>
-      <tbody>${data.stream_table.rows.map(([name, cells]) => html`<tr><td>${name.split('.').at(-1).replaceAll('_', ' ')}</td>${cells.map((text) => html`<td class="n">${text}</td>`)}</tr>`)}</tbody></table></div>
+    <${StreamTable} table=${data.stream_table} text=${text} labels=${ports(data.stream_table.rows)} />
+    <${Utilities} table=${data.utility_table} />
     <p class="small dim">${data.audit.text}</p>
     ${
       form &&

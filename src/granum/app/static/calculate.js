@@ -168,7 +168,7 @@ function written(data, name) {
 /** The wanted result, typed where the result stands; the input is found. */
 function Seek({ card, results, sought, change, stop, solved, label }) {
   const p = results.find((q) => q.name === sought.output);
-  return html`<div class="seek" data-seek=${sought.name}><div class="row"><strong>${t('Find {name} for', { name: label })}</strong>${
+  return html`<div class="sought" data-seek=${sought.name}><div class="row"><strong>${t('Find {name} for', { name: label })}</strong>${
     results.length > 1
       ? html`<select aria-label=${t('Wanted result')} value=${p.name} onChange=${(e) => change({ output: e.target.value, text: '' })}>${results.map((q) => html`<option value=${q.name} selected=${q.name === p.name}>${q.label}</option>`)}</select>`
       : html`<label for="wanted">${p.label}</label>`

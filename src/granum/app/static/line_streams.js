@@ -3,7 +3,7 @@ import { html, t, ask, download, useState } from './core.js';
 import { Plot } from './plot.js';
 import { pretty } from './line_forms.js';
 
-export function StreamTable({ table, place, text, choose, labels }) {
+export function StreamTable({ table, place = '', text, choose, labels }) {
   const [problem, setProblem] = useState('');
   const take = async (form) => {
     setProblem('');
@@ -21,7 +21,7 @@ export function StreamTable({ table, place, text, choose, labels }) {
   return html`<div class="row spread"><h2>${t('Streams')}</h2><div class="row"><button class="button" onClick=${() => take('csv')}>CSV</button><button class="button" onClick=${() => take('xlsx')}>Excel</button></div></div>
     ${problem && html`<p class="message out" role="alert">${problem}</p>`}
     <div class="wide" tabindex="0" role="region" aria-label=${t('Streams')}><table class="streams"><thead><tr><th scope="col">${t('stream')}</th>${table.heads.map((head) => html`<th class="n" scope="col" data-phase=${head.phase}>${head.label}<span class="dim"> / ${head.unit}</span></th>`)}</tr></thead>
-    <tbody>${table.rows.map(([name, cells]) => html`<tr><th scope="row"><button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button></th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
+    <tbody>${table.rows.map(([name, cells]) => html`<tr><th scope="row">${choose ? html`<button class="name" onClick=${() => choose({ sort: 'stream', name })}>${labels[name] || pretty(name)}</button>` : labels[name] || pretty(name)}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}</tr>`)}
     ${table.sums.map(([label, cells]) => html`<tr class="sum"><th scope="row">${label}</th>${cells.map((cell, i) => html`<td class="n" data-phase=${table.heads[i].phase}>${cell}</td>`)}${table.heads.slice(cells.length).map(() => html`<td></td>`)}</tr>`)}</tbody></table></div>`;
 }
 
