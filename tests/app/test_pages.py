@@ -187,7 +187,7 @@ def test_the_limit_of_an_optimum_has_its_unit(page: Page) -> None:
 
 def test_a_study_takes_the_line_as_it_stands_on_the_screen(page: Page) -> None:
     page.open(f"lines/{quote(CASE, safe='')}")
-    page.one(".diagram svg")
+    page.one(".findings")
     page.browser.execute_script("document.querySelector('[data-form=mill]').open = true")
     field = page.type("[data-form=mill] input[id$=holdup_mass]", "2.4 tonne")
     assert page.all(".stale .diagram"), "figures of the line before the change are grey"
@@ -369,7 +369,7 @@ def test_a_pasted_table_is_fitted(page: Page, language: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_line_is_solved_and_its_diagram_answers_clicks(page: Page, language: str) -> None:
     page.open(f"lines/{quote(CASE, safe='')}", language)
-    page.one(".diagram svg")
+    page.one(".findings")
     page.settle()
     page.check()
     page.browser.execute_script(
@@ -390,7 +390,7 @@ def test_a_line_is_solved_and_its_diagram_answers_clicks(page: Page, language: s
 
 def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None:
     page.open(f"lines/{quote(CASE, safe='')}")
-    page.one(".diagram svg")
+    page.one(".findings")
     page.settle()
     before = page.one("[data-figure='mill.residence_time']").text
     page.button("Keep to compare").click()
@@ -417,7 +417,7 @@ def test_a_line_is_edited_by_forms_compared_undone_and_saved(page: Page) -> None
 
 def test_unsaved_changes_are_there_on_coming_back(page: Page) -> None:
     page.open(f"lines/{quote(CASE, safe='')}")
-    page.one(".diagram svg")
+    page.one(".findings")
     page.browser.execute_script("document.querySelector('[data-form=mill]').open = true")
     page.write("[data-form=mill] input[id$=holdup_mass]", "2.4")
     page.until(lambda: "2.4 tonne" in page.one("#case").get_attribute("value"))
@@ -509,7 +509,7 @@ ANSWERED = """
 
 def test_figures_of_a_line_that_does_not_close_do_not_look_current(page: Page) -> None:
     page.open(f"lines/{quote(CASE, safe='')}")
-    page.one(".diagram svg")
+    page.one(".findings")
     assert not page.all(".stale")
     page.browser.execute_script(ANSWERED, OFF)
     page.button("Solve").click()

@@ -25,7 +25,7 @@ export function Panel({ chosen, choose, form, data, cases, old, typedIn, build }
       }} />`
     }
     ${unit && unit.outlets.length > 0 && !unit.joins && html`<button class="button" title=${t('Lead a part of what enters around it')} onClick=${() => build('bypass', { unit: name })}>${t('Bypass')}</button>`}
-    ${unit?.inlets.some((i) => i.port === 'wash' && !i.from) && html`<button class="button" onClick=${() => build('add_wash', { unit: name })}>${t('Add wash liquor')}</button>`}
+    ${unit && unit.inlets.some((i) => i.port === 'wash' && !i.from) && html`<button class="button" onClick=${() => build('add_wash', { unit: name })}>${t('Add wash liquor')}</button>`}
     ${
       (unit || feed) &&
       html`<button class="button" onClick=${async () => {

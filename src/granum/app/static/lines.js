@@ -117,11 +117,7 @@ export function Lines({ state }) {
   /** Solve in a moment what is whole; what is not says what it needs. */
   const soon = (next, found) => {
     clearTimeout(waiting.current);
-    stop.current?.abort();
-    if (!found || found.missing.length) {
-      setBusy(false);
-      return;
-    }
+    if (!found || found.missing.length) return;
     waiting.current = setTimeout(() => solve(next), 400);
   };
   const change = async (next) => {
