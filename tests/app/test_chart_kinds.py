@@ -12,7 +12,11 @@ from selenium.webdriver.common.keys import Keys
 from tests.app.browsing import Page
 
 INDEX = Path(str(files("granum") / "core" / "index.csv"))
-CHARTS = [row["key"] for row in csv.DictReader(INDEX.open(encoding="utf-8")) if row["sort"] == "chart"]
+CHARTS = [
+    row["key"]
+    for row in csv.DictReader(INDEX.read_text(encoding="utf-8").splitlines())
+    if row["sort"] == "chart"
+]
 
 
 def asked(page: Page) -> list[str]:
@@ -30,7 +34,7 @@ def test_no_button_of_a_chart_sends_anything_anywhere(page: Page, chart: str) ->
     page.browser.get_log("performance")
     page.open(f"charts/{chart}")
     windows = len(page.browser.window_handles)
-    if not page.all("[role=alert], .message.out"):  # some charts wait for a table of one's own
+    if page.all(".plot"):  # some charts wait for a table of one's own
         buttons = page.until(lambda: page.all(".plot .modebar-btn"))
         titles = [b.get_attribute("data-title") or "" for b in buttons]
         assert not [t for t in titles if any(w in t.lower() for w in ("share", "cloud", "edit", "upload"))]
