@@ -172,12 +172,12 @@ function Seek({ card, results, sought, change, stop, solved, label }) {
     <p id="wanted-note" class=${solved.error ? 'small out' : 'small dim'} role="status">${solved.error ? solved.error.message : solved.pending ? '' : (solved.data?.shown ?? '')}</p></div>`;
 }
 
-/** Values with the properties that a fluid gave in its place, for pages that ask for them. */
+/** Values for pages that take numbers only: the properties that a fluid gave in its place, the middles of intervals. */
 function resolved(values, data) {
-  if (!values.fluid?.trim() || !data?.inputs) return values;
+  if (!data?.inputs) return values;
   const { fluid, ...rest } = values;
   const given = Object.entries(data.inputs)
-    .filter(([, input]) => input?.from)
+    .filter(([name, input]) => (fluid?.trim() && input?.from) || /±|\+\/?-|\.\.|…/.test(rest[name] ?? ''))
     .map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
   return { ...rest, ...Object.fromEntries(given) };
 }
