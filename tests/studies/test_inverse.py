@@ -56,9 +56,21 @@ def test_random_settings_come_back() -> None:
 
 def test_what_is_not_reached_is_refused_with_what_is() -> None:
     with pytest.raises(
-        ConvergenceError, match=r"not reached at any value of particle diameter: .* between 0"
+        ConvergenceError, match=r"not reached at any value of particle diameter from 0 .* between 0"
     ):
         find_input("particles.terminal_velocity", "particle_diameter", terminal_velocity=-1e-3, **SPHERE)
+
+
+def test_the_greatest_value_is_reached_without_being_passed() -> None:
+    """Vesilind's flux v₀ C exp(−k C) is greatest at C = 1/k: v₀/(e k)."""
+    law = {"law": "vesilind", "vesilind_velocity": "5 m/hour", "vesilind_coefficient": 0.5}
+    found = find_input(
+        "settling.solids_flux_settling",
+        "solids_concentration",
+        settling=law,
+        solids_flux=5.0 / 3600.0 / (0.5 * np.e),
+    )
+    assert found.value == pytest.approx(2.0, rel=1e-2)
 
 
 def test_several_solutions_are_named() -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from typing import Any
 
+from granum.app.forms import typed
 from granum.app.spread import curves
 from granum.core.conversion import Binder
 from granum.core.errors import InputError
@@ -15,10 +17,21 @@ from granum.core.units import from_si
 from granum.core.written import read_number
 from granum.reports.calculation import calculation_sheet
 from granum.reports.quantities import value_text
-from granum.reports.sensitivity import Curve, chart, covered, curve, measured, seen, spoken, variable
+from granum.reports.sensitivity import (
+    Curve,
+    chart,
+    covered,
+    curve,
+    measured,
+    seen,
+    spoken,
+    takes_arrays,
+    variable,
+)
 from granum.studies.intervals import intervals, split
 from granum.studies.inverse import find_input
 
+LONG = 0.5  # seconds of one calculation, beyond which it is not repeated for a chart
 THIN = {"color": "#8a94a3", "width": 0.8}
 
 
@@ -30,11 +43,12 @@ def described_curve(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     """
     from granum.app.tasks import inputs_for
 
-    typed = inputs_for(thing.card, _mapping(asked.get("inputs")))
-    given = split(thing.card, typed)[0]
+    given = split(thing.card, inputs_for(thing.card, _mapping(asked.get("inputs"))))[0]
+    start = time.perf_counter()
     result = thing.evaluate(**given)
-    found = curve(thing, result, str(asked.get("against", "")), str(asked.get("output", "")))
-    if found is None:
+    repeatable = takes_arrays(thing) or time.perf_counter() - start < LONG
+    found = repeatable and curve(thing, result, str(asked.get("against", "")), str(asked.get("output", "")))
+    if not found:
         return {"figure": None, "inputs": [], "outputs": []}
     units = _units(found, given, asked)
     figure = chart(found, units).to_plotly_json()
@@ -85,7 +99,7 @@ def solved_input(thing: Any, asked: Mapping[str, Any]) -> dict[str, Any]:
     p = found.parameter
     unit = _typed_unit(before, p) or p.display_unit(found.value)
     assert p.kind is not None  # what is found is a quantity
-    number = f"{float(from_si(found.value, unit, p.kind)):.9g}".replace("e+", "e")
+    number = typed(float(from_si(found.value, unit, p.kind)), 9)
     return {
         "name": name,
         "text": number if unit == "dimensionless" else f"{number} {unit}",

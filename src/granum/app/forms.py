@@ -136,17 +136,17 @@ def entry(p: Parameter, value: Any) -> dict[str, str]:
         value = convert(value, p)
     array = np.atleast_1d(np.asarray(value, dtype=float))
     unit = p.display_unit(array)
-    shown = (_typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
+    shown = (typed(float(x)) for x in np.atleast_1d(from_si(array, unit, p.kind)))
     return {"number": " ".join(shown), "unit": "" if unit == "dimensionless" else unit}
 
 
-def _typed(number: float) -> str:
+def typed(number: float, figures: int = 6) -> str:
     """A number as somebody would type it.
 
-    >>> _typed(1.07e8), _typed(85.0), _typed(2e-12)
+    >>> typed(1.07e8), typed(85.0), typed(2e-12)
     ('1.07e8', '85', '2e-12')
     """
-    digits, _e, power = f"{number:.6g}".partition("e")
+    digits, _e, power = f"{number:.{figures}g}".partition("e")
     return f"{digits}e{int(power)}" if power else digits
 
 
@@ -158,19 +158,19 @@ def read_entry(asked: Mapping[str, Any]) -> dict[str, Any]:
     """
     p = _asked_parameter(asked)
     assert p.kind is not None
-    typed = str(asked.get("unit_typed", ""))
-    within = interval(f"{asked.get('number', '')} {typed}".strip()) if asked.get("interval") else None
+    written = str(asked.get("unit_typed", ""))
+    within = interval(f"{asked.get('number', '')} {written}".strip()) if asked.get("interval") else None
     if within is not None:
         return _read_interval(within, p)
-    array = _converted(f"{asked.get('number', '')} {typed}".strip(), p, bool(asked.get("several")))
-    unit = typed or p.kind.unit
+    array = _converted(f"{asked.get('number', '')} {written}".strip(), p, bool(asked.get("several")))
+    unit = written or p.kind.unit
     if not _known(unit, p.kind):  # "2 mm, 850 um": each value keeps its own
         shown = display_unit(array, p.kind)
         return {"shown": _listed(array, shown, p.kind)}
     offered = (str(u) for u in asked.get("units") or ())
     unit = next((u for u in offered if _known(u, p.kind) and _alike(u, unit, p.kind)), unit)
     between = " " if p.series else "; "  # beside one number a blank sets thousands apart
-    numbers = between.join(f"{float(x):.12g}" for x in from_si(array, unit, p.kind))
+    numbers = between.join(typed(float(x), 12) for x in from_si(array, unit, p.kind))
     return {
         "shown": _listed(array, unit, p.kind),
         "number": numbers,
@@ -188,7 +188,7 @@ def _read_interval(within: tuple[str, str, str], p: Parameter) -> dict[str, Any]
     low, middle, high = (float(from_si(x, unit, p.kind)) for x in (spread.low, spread.middle, spread.high))
     ends, mark = ((middle, middle - low), "±") if spread.about else ((low, high), "…")
     shown = f" {mark} ".join(format_number(x, 9) for x in ends)
-    number = f" {mark} ".join(f"{x:.9g}" for x in ends)
+    number = f" {mark} ".join(typed(x, 9) for x in ends)
     return {
         "shown": f"{shown} {pretty_unit(unit)}".strip(),
         "number": number,
@@ -283,7 +283,7 @@ def example(p: Parameter, given: dict[str, Any]) -> dict[str, str] | None:
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
     unit = p.display_unit(middle)
     number = float(from_si(middle, unit, p.kind))
-    return {"number": _typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
+    return {"number": typed(float(f"{number:.2g}")), "unit": "" if unit == "dimensionless" else unit}
 
 
 def docstring_values(card: Card) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from granum.core.results import Result
 from granum.reports.quantities import value_text
 from granum.reports.sensitivity import TooLong, takes_arrays, values_at
 
-FAR = 1e4  # times beyond the ordinary range that is still looked at
+FAR = 1e5  # times beyond the ordinary range that is still looked at
 PLACES, FEW = 241, 31  # looked at in one pass; of a card that takes one set of inputs at a time
 PASSES = 12
 SAME = 1e-12  # of the input, from which on a bracket is a number
@@ -36,7 +36,7 @@ def find_input(card: Any, name: str, /, **given: Any) -> Found:
     """The value of the input ``name`` for which the card gives the result that stands among ``given``, which
     else holds its other inputs.
 
-    Looked for between the hard bounds, as far as a factor of 10 000 beyond the ordinary range. Where several
+    Looked for between the hard bounds, as far as a factor of 100 000 beyond the ordinary range. Where several
     values give the result, the only one that every source covers is meant; else they are named and refused,
     as where there is none.
 
@@ -62,7 +62,7 @@ def find_input(card: Any, name: str, /, **given: Any) -> Found:
             _("{card} takes too long to be solved for {name}.").format(card=thing.card.key, name=p.label)
         ) from None
     if not x:
-        raise _unreached(p, output, wanted, reach)
+        raise _unreached(p, output, wanted, reach, _first(p, count))
     told = [any(n["flag"] == "extrapolated" for n in r.notices) for r in results]
     chosen = [i for i, beyond in enumerate(told) if not beyond] if len(x) > 1 else [0]
     if len(chosen) != 1:
@@ -161,7 +161,28 @@ def _all(
         root = _refined(thing, inputs, p, output, wanted, (float(x[i]), float(x[i + 1])), x.size)
         if root is not None:
             found.append(root)
+    if not found and (peak := _touched(thing, inputs, p, output, wanted, x, np.abs(y - wanted))) is not None:
+        found.append(peak)
     return sorted(found), reach
+
+
+def _touched(
+    thing: Any,
+    inputs: dict[str, Any],
+    p: Parameter,
+    output: Parameter,
+    wanted: float,
+    x: np.ndarray,
+    miss: np.ndarray,
+) -> float | None:
+    """Where the result comes to the wanted one without passing it: at its greatest or least."""
+    for _pass in range(PASSES):
+        at = int(np.nanargmin(miss))
+        if miss[at] <= REACHED * abs(wanted):
+            return float(x[at])
+        x = np.linspace(x[max(at - 1, 0)], x[min(at + 1, x.size - 1)], x.size)
+        miss = np.abs(values_at(thing, inputs, p.name, x, output.name)[0] - wanted)
+    return None
 
 
 def _refined(
@@ -193,16 +214,18 @@ def _refined(
 
 
 def _unreached(
-    p: Parameter, output: Parameter, wanted: float, reach: tuple[float, float]
+    p: Parameter, output: Parameter, wanted: float, reach: tuple[float, float], looked: np.ndarray
 ) -> ConvergenceError:
     return ConvergenceError(
         _(
-            "{output} = {wanted} is not reached at any value of {name}: with the other inputs it lies "
-            "between {low} and {high}."
+            "{output} = {wanted} is not reached at any value of {name} from {first} to {last}: with the "
+            "other inputs it lies between {low} and {high}."
         ).format(
             output=output.label,
             wanted=value_text(wanted, output),
             name=p.label,
+            first=value_text(float(looked[0]) if abs(looked[0]) > 1e-300 else 0.0, p),
+            last=value_text(float(looked[-1]), p),
             low=value_text(reach[0], output),
             high=value_text(reach[1], output),
         )

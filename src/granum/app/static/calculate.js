@@ -131,7 +131,7 @@ function Work({ page, card, given }) {
   return html`<section aria-label=${t('Enter')}><h1>${card.title}</h1><p class="dim">${card.summary}</p>
       <form onSubmit=${(e) => e.preventDefault()} onFocusOut=${() => {
         edited.current = '';
-      }}><${Fields} all=${inForm} values=${values} onChange=${(p, text) => {
+      }}><${Fields} card=${card} all=${inForm} values=${values} onChange=${(p, text) => {
         if (p.name === sought?.name) setSought(null);
         set(changed(values, p, text), p.name);
       }} aside=${finder} wrong=${wrong} error=${answer.error?.message} /></form>
@@ -178,12 +178,12 @@ function Seek({ card, results, sought, change, stop, solved, label }) {
 
 const STATES = { temperature: true, humidity_ratio: true };
 
-/** Values with the properties that a fluid gave in its place, for pages that ask for them. */
+/** Values for pages that take numbers only: the properties that a fluid gave in its place, the middles of intervals. */
 function resolved(values, data) {
-  if (!values.fluid?.trim() || !data?.inputs) return values;
+  if (!data?.inputs) return values;
   const { fluid, ...rest } = values;
   const given = Object.entries(data.inputs)
-    .filter(([, input]) => input?.from)
+    .filter(([name, input]) => (fluid?.trim() && input?.from) || /±|\+\/?-|\.\.|…/.test(rest[name] ?? ''))
     .map(([name, input]) => [name, `${input.value} ${input.unit ?? ''}`.trim()]);
   return { ...rest, ...Object.fromEntries(given) };
 }

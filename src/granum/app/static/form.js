@@ -14,13 +14,13 @@ export function Field({ parameter: p, text, onChange, problem, id = `field-${p.n
 }
 
 /** The fields of a card: what must be given and what it is about in front, what may be left out folded; a field does not move while it is filled. */
-export function Fields({ all, values, onChange, wrong, error, aside }) {
-  const [folded] = useState(
-    () =>
-      new Set(
-        all.filter((p) => !p.required && !p.gives && !p.law && !values[p.name]).map((p) => p.name),
-      ),
-  );
+export function Fields({ card, all, values, onChange, wrong, error, aside }) {
+  const [folded] = useState(() => {
+    const some = card.sort !== 'chart' && all.some((p) => p.required);
+    return new Set(
+      all.filter((p) => some && !p.required && !p.gives && !p.law && !values[p.name]).map((p) => p.name),
+    );
+  });
   const [open, setOpen] = useState(false);
   const field = (p) =>
     html`<${Field} key=${p.name} parameter=${p} text=${values[p.name]} onChange=${(text) => onChange(p, text)} problem=${wrong === p ? error : ''} aside=${aside?.(p)} />`;

@@ -4,7 +4,7 @@ import { html, t, ask, settings, useState, useEffect, useRef } from './core.js';
 
 export const joined = ({ number, unit }) => `${number} ${unit}`.trim();
 export const inLanguage = (text) =>
-  settings.language === 'fr' && !text.includes(',') ? text.replaceAll('.', ',') : text;
+  settings.language === 'fr' && !text.includes(',') ? text.replaceAll(/\.(?=\d)/g, ',') : text;
 
 const NUMBER =
   /[\s;,[\]]*(?:(?:±|\+\/?-|\.\.+|…)\s*)?[-+−–]?\s?(?!1\s?\/\s?[a-zµ(])(?:\d+(?:[.,](?!\.)\d*)*|[.,]\d+)(?:e[-+−]?\d+)?(?:\/\d+(?![\d.,]))?/iy;

@@ -31,7 +31,7 @@ export function Result({ card, values, data, old, kept, keep, clear, choose, law
     <div class=${bad ? 'caution' : 'ok'} data-belief=${bad ? 'caution' : 'ok'}>${bad ? data.flags.map((f) => html`<p class="mark">▲ ${f.message}</p>`) : html`<p class="mark">● ${Object.keys(card.fitted).length ? t('inside the range the source covers') : t('no limit exceeded')}</p>`}</div>
     <${Series} card=${card} tables=${data.series} />
     <div class="row"><button class="button" disabled=${old || kept.length >= 2} onClick=${keep}>${t('Keep to compare')}</button>
-      <button class="button" disabled=${old} onClick=${save}>${saving ? t('Writing…') : t('Calculation sheet')}</button></div>
+      ${!data.table && html`<button class="button" disabled=${old} onClick=${save}>${saving ? t('Writing…') : t('Calculation sheet')}</button>`}</div>
     ${kept.length > 0 && html`<${Comparison} cases=${[...kept, data]} clear=${clear} />`}
     <${Sensitivity} card=${card} values=${values} old=${old} units=${units} laws=${laws} choice=${choice} setChoice=${setChoice} />
     ${card.sort === 'formula' && html`<${Spread} card=${card} values=${values} choose=${choose} open=${laws} setOpen=${setLaws} />`}
