@@ -60,7 +60,8 @@ def test_the_chart_follows_the_inputs_and_the_choice_of_one(page: Page) -> None:
     page.open(PLACE)
     page.until(lambda: page.all(".sensitivity .main-svg"))
     point = (  # nothing while the field is empty
-        "const d = document.querySelector('.sensitivity .plot')?.data?.at(-1); return d ? [d.x[0], d.y[0]] : [0, 0]"
+        "const d = document.querySelector('.sensitivity .plot')?.data?.at(-1);"
+        "return d ? [d.x[0], d.y[0]] : [0, 0]"
     )
     assert page.browser.execute_script(point) == pytest.approx([85, 5.281], rel=1e-3)
     page.type(DIAMETER, "42.5")
