@@ -15,7 +15,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from granum.core.errors import InputError, nearest
+from granum.core.errors import InputError, nearest, reason_of
 from granum.core.given import shown
 from granum.core.i18n import _
 from granum.core.parameters import Parameter
@@ -303,7 +303,7 @@ def _bytes(source: Source, where: str) -> bytes:
         raise InputError(message, name=str(source), did_you_mean=close) from None
     except OSError as problem:
         raise InputError(
-            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=problem.strerror)
+            _("The data file cannot be read{where}: {reason}.").format(where=where, reason=reason_of(problem))
         ) from None
 
 

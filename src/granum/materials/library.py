@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from granum.core.documents import read_toml
-from granum.core.errors import InputError, unknown_name
+from granum.core.errors import InputError, reason_of, unknown_name
 from granum.core.i18n import _, current_language
 from granum.materials.building import fluid_of, salt_of, solid_of, solute_of
 from granum.materials.fluids import Fluid
@@ -57,7 +57,7 @@ class _File:
         except OSError as problem:
             raise InputError(
                 _("Materials file {file} cannot be read: {reason}.").format(
-                    file=path, reason=problem.strerror
+                    file=path, reason=reason_of(problem)
                 )
             ) from problem
         except UnicodeDecodeError as problem:
