@@ -40,8 +40,7 @@ def test_a_misspelt_file_is_told_in_french(text: str, french: str) -> None:
 
 
 def test_the_system_speaks_french_too() -> None:
-    try:
-        open("/nowhere/at/all")  # noqa: SIM115
-    except OSError as problem:
-        with language("fr"):
-            assert reason_of(problem) == "il n’existe pas"
+    with pytest.raises(FileNotFoundError) as told:
+        open("/nowhere/at/all")
+    with language("fr"):
+        assert reason_of(told.value) == "il n’existe pas"
