@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import tomllib._parser as parser  # type: ignore[import-not-found]
+from pathlib import Path
 
 import pytest
 
@@ -41,6 +42,6 @@ def test_a_misspelt_file_is_told_in_french(text: str, french: str) -> None:
 
 def test_the_system_speaks_french_too() -> None:
     with pytest.raises(FileNotFoundError) as told:
-        open("/nowhere/at/all")
+        Path("/nowhere/at/all").read_text()
     with language("fr"):
         assert reason_of(told.value) == "il n’existe pas"

@@ -343,6 +343,14 @@ def volume_flow_other_centrifuge(
         "pool_volume_other": (0.1, 1.0),
     },
     title="Flow of another centrifuge at equal g-volume",
+    symbols={
+        "volume_flow": r"Q_1",
+        "=volume_flow": r"Q_2",
+        "centrifugal_effect": r"K_1",
+        "pool_volume": r"V_1",
+        "centrifugal_effect_other": r"K_2",
+        "pool_volume_other": r"V_2",
+    },
 )
 def volume_flow_g_volume(
     volume_flow: VolumeFlow,

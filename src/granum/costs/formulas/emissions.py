@@ -49,7 +49,7 @@ def emission_factor(carrier: Carrier, electricity: Electricity = "electricity_wo
 
 @formula(
     source="ipcc2006",
-    equation=r"\dot m = P\,f",
+    equation=r"\dot m_{GHG} = P\,f",
     typical={"emission_factor": (1e-8, 1.5e-7)},
     title="Greenhouse gas of a power",
 )

@@ -148,7 +148,10 @@ def volumetric_heat_transfer_rotary(
 
 @formula(
     source="perry2008, ch. 12",
-    equation=r"P = 10^{-5} N\,(4.75\,d\,w + 0.1925\,D\,W + 0.33\,W)\ \mathrm{hp},\ D = d + 2\ \mathrm{ft}",
+    equation=(
+        r"P = 10^{-5}\,\frac{\omega}{2\pi}\,"
+        r"(4.75\,D\,m_h + 0.1925\,D_r\,W + 0.33\,W)\ \mathrm{hp},\ D_r = D + 2\ \mathrm{ft}"
+    ),
     typical={"diameter": (0.5, 3.0), "solid_holdup": (50.0, 2e4), "mass_rotating": (1e3, 1e5)},
     title="Shaft power that turns a rotary drum",
 )

@@ -13,7 +13,7 @@ INCH_OF_WATER, FOOT_PER_MINUTE, PSI = 249.08891, 0.3048 / 60.0, 6894.757  # Pa, 
 
 @formula(
     source="turner1998, eq. 1.15",
-    equation=r"S_e = 6.08\,p_j^{-0.65}\ \mathrm{in\,H_2O/(ft/min)}",
+    equation=r"K_1 = 6.08\,p^{-0.65}\ \mathrm{in\,H_2O/(ft/min)}",
     fitted={"pressure_pulse": (60.0 * PSI, 101.0 * PSI)},
     typical={"pressure_pulse": (4.5e5, 6.5e5)},
     title="Residual drag of pulse-jet bags",

@@ -12,7 +12,7 @@ _TYPICAL = {"settling_velocity": (0.01, 1.0), "area": (1.0, 100.0), "volume_flow
 
 @formula(
     source="tan2014, eq. 6.16",
-    equation=r"E = \min\left(1, \frac{v_t\,L\,B}{Q}\right)",
+    equation=r"E = \min\left(1, \frac{v_s\,A}{Q}\right)",
     typical=_TYPICAL,
     output="grade_efficiency",
     title="Grade efficiency of a settling chamber, laminar",
@@ -32,7 +32,7 @@ def grade_efficiency_chamber_laminar(
 
 @formula(
     source="tan2014, eq. 6.22",
-    equation=r"E = 1 - \exp\left(-\frac{v_t\,L\,B}{Q}\right)",
+    equation=r"E = 1 - \exp\left(-\frac{v_s\,A}{Q}\right)",
     typical=_TYPICAL,
     output="grade_efficiency",
     title="Grade efficiency of a settling chamber, turbulent",

@@ -18,7 +18,7 @@ ONLY_AIR = "Gas with the oxygen of air has burnt nothing: it cannot be referred 
 
 @formula(
     source="taluft2021, no. 2.5",
-    equation=r"c = \frac{\dot m}{\dot V_n}\,\frac{0.2095 - x_{ref}}{0.2095 - x}",
+    equation=r"c = \frac{\dot m}{Q_n}\,\frac{0.2095 - x_{ref}}{0.2095 - x}",
     typical={
         "mass_flow": (1e-6, 1e-4),
         "volume_flow_normal": (0.5, 20.0),
@@ -27,6 +27,9 @@ ONLY_AIR = "Gas with the oxygen of air has burnt nothing: it cannot be referred 
     },
     output="emission_concentration",
     title="Emission of dust, dry and at reference oxygen",
+    symbols={
+        "volume_flow_normal": r"Q_n",
+    },
 )
 def emission_concentration(
     mass_flow: MassFlow,

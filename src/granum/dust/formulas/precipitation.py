@@ -36,7 +36,7 @@ Permittivity = Annotated[PositiveNumber, Within(1.0, 1e6)]
 @formula(
     source="pauthenier1932; hinds1999, eq. 15.25",
     equation=(
-        r"n = \frac{3\varepsilon_r}{\varepsilon_r + 2}\,\frac{\pi\varepsilon_0 E d^2}{e}\,\frac{b\,N t}"
+        r"n = \frac{3\varepsilon_r}{\varepsilon_r + 2}\,\frac{\pi\varepsilon_0 E_c d_p^2}{e}\,\frac{b\,N t}"
         r"{1 + b\,N t},\quad b = \frac{e Z}{4\varepsilon_0}"
     ),
     typical=_TYPICAL,
@@ -68,7 +68,8 @@ def elementary_charges_field(
 @formula(
     source="white1951; hinds1999, eq. 15.24",
     equation=(
-        r"n = \frac{2\pi\varepsilon_0 d k T}{e^2}\,\ln\left(1 + \frac{e^2 d\,\bar c\,N t}{8\varepsilon_0 k T}"
+        r"n = \frac{2\pi\varepsilon_0 d_p k T}{e^2}\,"
+        r"\ln\left(1 + \frac{e^2 d_p\,\bar c\,N t}{8\varepsilon_0 k T}"
         r"\right)"
     ),
     typical=_TYPICAL | {"temperature": (290.0, 450.0)},
@@ -98,7 +99,7 @@ def elementary_charges_diffusion(
 
 @formula(
     source="hinds1999, eq. 15.16; white1951",
-    equation=r"w = \frac{n e E\,C_c}{3\pi\eta d}",
+    equation=r"w = \frac{n e E\,C_c}{3\pi\eta d_p}",
     typical=_TYPICAL | {"elementary_charges": (1.0, 1e4), "slip_factor": (1.0, 2.0)},
     title="Migration velocity of a charged particle",
 )

@@ -27,7 +27,7 @@ _TYPICAL = {"throat_velocity": (40.0, 120.0), "liquid_to_gas": (5e-4, 2e-3)}
 
 @formula(
     source="nukiyama1939; theodore2012, p. 15.7",
-    equation=r"d_0 = \frac{16\,400}{v} + 1.45\left(\frac{Q_l}{Q_g}\right)^{1.5}",
+    equation=r"d = \frac{16\,400}{v} + 1.45\left(\frac{Q_l}{Q_g}\right)^{1.5}",
     fitted={"throat_velocity": (30.0, 150.0), "liquid_to_gas": (2e-4, 3e-3)},
     typical=_TYPICAL,
     output="droplet_diameter",
@@ -47,7 +47,7 @@ def droplet_diameter_venturi(throat_velocity: Speed, liquid_to_gas: LiquidToGas)
 
 @formula(
     source="johnstone1954; theodore2012, p. 15.7",
-    equation=r"\psi = \frac{C_c\,\rho_p\,d_p^2\,v}{9\,\eta\,d_0}",
+    equation=r"\psi = \frac{C_c\,\rho_p\,d_p^2\,v}{9\,\eta\,d}",
     typical=_TYPICAL | {"droplet_diameter": (3e-5, 2e-4), "slip_factor": (1.0, 3.0)},
     title="Inertial impaction number",
 )

@@ -30,7 +30,7 @@ EXPANDS = "What leaves a compressor has at least the pressure of what enters."
 
 @formula(
     source="mccabe2005, ch. 8; turton2018, ch. 11",
-    equation=r"P = \frac{\dot V\,\Delta p}{\eta}",
+    equation=r"P = \frac{Q\,\Delta p}{\eta}",
     typical={"pressure_rise": (1e3, 5e5), "machine_efficiency": (0.5, 0.8)},
     title="Shaft power of a pump or fan",
 )
@@ -62,7 +62,7 @@ def _check(pressure_inlet: Any, pressure_outlet: Any) -> None:
 
 @formula(
     source="mccabe2005, ch. 8; turton2018, ch. 11",
-    equation=r"P = \frac{p_1\dot V_1}{\eta}\,\ln\frac{p_2}{p_1}",
+    equation=r"P = \frac{p_1Q}{\eta}\,\ln\frac{p_2}{p_1}",
     typical=_DRAWN,
     title="Shaft power of an isothermal compressor or vacuum pump",
 )
@@ -89,7 +89,7 @@ def shaft_power_isothermal(
 @formula(
     source="mccabe2005, ch. 8",
     equation=(
-        r"P = \frac{p_1\dot V_1}{\eta}\,\frac{\gamma}{\gamma - 1}\left[\left(\frac{p_2}{p_1}\right)^{(\gamma"
+        r"P = \frac{p_1Q}{\eta}\,\frac{\gamma}{\gamma - 1}\left[\left(\frac{p_2}{p_1}\right)^{(\gamma"
         r" - 1)/\gamma} - 1\right]"
     ),
     typical=_DRAWN | {"heat_capacity_ratio": (1.1, 1.4)},
@@ -143,8 +143,9 @@ def shaft_power_agitator(
 @formula(
     source="zwietering1958; mccabe2005, ch. 9",
     equation=(
-        r"\frac{\omega}{2\pi} = S\,\nu^{0.1} d^{0.2} \left(\frac{g\,|\rho_s - \rho_l|}{\rho_l}\right)^{0.45} "
-        r"B^{0.13} D^{-0.85}"
+        r"\frac{\omega}{2\pi} = S\left(\frac{\eta}{\rho_l}\right)^{0.1} d_p^{0.2} "
+        r"\left(\frac{g\,|\rho_p - \rho_l|}{\rho_l}\right)^{0.45} "
+        r"\left(\frac{100}{X}\right)^{0.13} D^{-0.85}"
     ),
     typical={
         "impeller_diameter": (0.2, 2.0),
