@@ -11,7 +11,7 @@ from typing import Any
 
 from granum.cases import building
 from granum.core.errors import InputError, unknown_name
-from granum.core.i18n import _, catalog, current_language
+from granum.core.i18n import _, current_language
 from granum.core.index import entries
 from granum.core.words import plain
 from granum.flowsheet.symbols import symbol_of
@@ -60,7 +60,7 @@ def _palette(_language: str) -> list[dict[str, str]]:
             "domain": c.domain,
             "title": c.title,
             "summary": c.summary,
-            "other_names": f"{c.other_names} {c.english_title} {catalog('fr').get(c.english_title, '')}",
+            "other_names": f"{c.english_title} {c.french_title}",
             "symbol": symbol_of(c.key),
         }
         for c in entries().values()
