@@ -275,7 +275,7 @@ def test_tables_of_a_line_are_taken_as_files(address: str) -> None:
         }
     rows = list(csv.reader(io.StringIO(answers["csv"].text)))
     book = openpyxl.load_workbook(io.BytesIO(answers["xlsx"].content))
-    assert book.sheetnames == ["streams", "results"]
+    assert book.sheetnames == ["streams", "results", "utilities"]
     assert [str(cell.value) for cell in book["streams"][1]] == rows[0]
     assert answers["pdf"].status_code == 422
 

@@ -12,8 +12,9 @@ from tests.sharing.samples import EVERYTHING
 from granum.core.cards import Card
 from granum.core.glossary import endings, parsed_ending, quantity_in
 from granum.core.i18n import catalog, language
-from granum.core.index import entries, plain
+from granum.core.index import entries
 from granum.core.sources import keys_of, reference
+from granum.core.words import plain
 
 BY_TRADITION = {
     "Alexander": "cited by Leith and Licht",

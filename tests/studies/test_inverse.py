@@ -115,4 +115,4 @@ def test_the_command_finds_an_input() -> None:
         words[-1] = "terminal_velocity=-1mm/s"
         told = CliRunner().invoke(app, ["calc", key, *words, "--solve", "particle_diameter", "--lang", "fr"])
     assert told.exit_code == 3
-    assert "n'est atteint pour aucune valeur" in told.output
+    assert "n’est atteint pour aucune valeur" in told.output

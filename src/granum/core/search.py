@@ -25,6 +25,7 @@ EXACT, BEGINS, ROOT, SLIP = 1.0, 0.8, 0.75, 0.55
 LEAST = 0.2  # of the score of the best: what fits worse is not told
 SHORT_WORD, LONG_WORD = 4, 8  # letters from which one slip, and two, are forgiven
 SORTS = {"equipment": 1.06, "procedure": 1.04, "lab test": 1.03, "chart": 1.0, "law": 0.85}
+BARE = 1.05
 _LATEX = re.compile(
     r"\\(?:mathrm|mathit|text|bar|dot|hat|tilde|overline|boldsymbol|,|max|min)|[\s{}_^,()\[\]]"
 )
@@ -236,13 +237,17 @@ def _of_term(word: Term, weight: float) -> Iterable[tuple[float, str]]:
         yield weight, name
 
 
+def _worth(entry: Entry) -> float:
+    """How much likelier a card is meant than another that is said as well: that of the bare quantity sooner
+    than one with an author or a condition.
+    """
+    return SORTS.get(entry.sort, 1.0) * (BARE if entry.name in glossary() else 1.0)
+
+
 @cache
 def card_documents() -> tuple[Document, ...]:
     """All cards as documents."""
-    return tuple(
-        document("card", entry.key, _said_of(entry), SORTS.get(entry.sort, 1.0))
-        for entry in entries().values()
-    )
+    return tuple(document("card", entry.key, _said_of(entry), _worth(entry)) for entry in entries().values())
 
 
 @cache

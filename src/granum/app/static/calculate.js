@@ -104,7 +104,9 @@ function Work({ page, card, given }) {
     html`<button type="button" class="find-input" aria-pressed=${String(sought?.name === p.name)} title=${t('Find the value that gives a wanted result')} aria-label=${t('Find {name} for a wanted result', { name: p.label })} onClick=${() => seek(p)}>${t('find')}</button>`;
   const wrong = fields(card, card.parameters).find((p) => p.name === answer.error?.details?.name);
   const process = kind === 'chart' && names.has('temperature') && names.has('humidity_ratio');
-  const states = process ? statesOf(values) : null;
+  // Lists that were opened as lists stay so while somebody types in them.
+  const [asTable] = useState(() => process && statesOf(values) !== null);
+  const states = asTable ? statesOf(values) : null;
   const inForm = fields(card, card.parameters).filter((p) => !states || !(p.name in STATES));
   const addState = (x, y) => {
     const found = stateAt(answer.data, x, y);

@@ -172,6 +172,7 @@ def hoop_stress_bowl(
 
 @formula(
     source="budynas2015, eq. 7-22",
+    title="First critical speed of a bowl",
     equation=(
         r"\omega_c = \left(\frac{\pi}{L}\right)^2\sqrt{\frac{E I}{m'}},\quad I = \pi R^3 s,\quad "
         r"m' = 2\pi R s\,\rho_m + \pi (R^2 - r_i^2)\,\rho_l"
