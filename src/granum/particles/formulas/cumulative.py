@@ -194,6 +194,8 @@ def size_law_summary(size_law: Annotated[Any, Law("size_distribution")]) -> LawS
     """Means, percentiles (on the basis of the law), span and specific surface of a size law; a mean whose
     moments are infinite is not a number.
 
+    >>> round(float(size_law_summary(LogNormal("100 um", 1.5)).percentile_50) * 1e6, 2)
+    100.0
     >>> round(float(size_law_summary(RosinRammler("100 um", 1.5)).percentile_50) * 1e6, 2)
     78.32
     """
