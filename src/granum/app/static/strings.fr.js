@@ -52,7 +52,6 @@ export const french = {
   'The page is on its way…': 'La page arrive…',
   'Plots and tables of this page are in the documentation site.':
     'Les diagrammes et les tableaux de cette page sont dans la documentation en ligne.',
-  'More ({count})': 'Autres ({count})',
   'Without: {names}. In a line these inlets can be used too.':
     'Sans : {names}. Dans une ligne, ces entrées servent aussi.',
   'Put it in a line': 'Mettre dans une ligne',
@@ -382,7 +381,6 @@ export const french = {
   'Equipment for {origin}': 'Appareil pour {origin}',
   'Search equipment': 'Chercher un appareil',
   'filter, dryer, cyclone…': 'filtre, séchoir, cyclone…',
-  'Close': 'Fermer',
   'Original size': "Taille d'origine",
   'Findings': 'Constats',
   '{count} other limits are kept.': '{count} autres limites sont respectées.',
